@@ -85,6 +85,13 @@ def without_aliases(app, what, name, member, skip, options):
     return True if (getattr(member, "__doc__", None) or "").startswith("Alias for field number") else None
 
 
+def without_signature(app, what, name, member, options, signature, returned):
+    """Hides the signatures of classes without documented parameters: users do not call them."""
+    if what == "class" and signature and "Parameters\n" not in (member.__doc__ or ""):
+        return "", returned
+    return None
+
+
 def inline_formula(self, node):
     self.body.append(convert(node.astext()))
     raise SkipNode
@@ -98,6 +105,7 @@ def displayed_formula(self, node):
 def setup(app):
     app.add_html_math_renderer("mathml", (inline_formula, None), (displayed_formula, None))
     app.connect("autodoc-skip-member", without_aliases)
+    app.connect("autodoc-process-signature", without_signature)
     app.connect("source-read", links_out_of_the_documents)
     app.connect("html-page-context", without_fetched_icons)
     return {"parallel_read_safe": True}

@@ -1,17 +1,17 @@
 """Contact of two rough surfaces that press together and move, by the boundary element method.
 
-Everything is SI: a quantity is a number in metres, pascals, newtons, or text with a unit, ``"210 GPa"``. Matrices are
-``[ix, iy]``, x the direction of motion. Pressure is positive in compression, an approach moves the bodies together, stress is
-positive in tension.
+All numbers are in SI. A quantity is a number in metres, pascals or newtons, or a text with a unit such as ``"210 GPa"``. Matrices
+are indexed ``[ix, iy]``, with x along the direction of motion. Pressure is positive in compression, and stress is positive in
+tension. The approach grows as the bodies move together.
 
-Surfaces are made (:mod:`asperity.generate`, :mod:`asperity.form`), read (:func:`read`) or given (:class:`Surface`).
-:func:`contact` presses two bodies together, :func:`simulate` lets them pass over each other, :class:`Simulation` does so with
-laws of one's own, :func:`run` computes a case file, :func:`study` many made of one, :func:`open` opens results. :func:`stress`
-looks below the surface.
-:mod:`asperity.reference` holds closed forms, and :func:`verify` holds the program against them.
+Surfaces are generated (:mod:`asperity.generate`, :mod:`asperity.form`), read (:func:`read`) or made from an array
+(:class:`Surface`). :func:`contact` presses two bodies together. :func:`simulate` moves them over each other, and
+:class:`Simulation` does so with custom laws. :func:`run` computes a case file, and :func:`study` many variants of one.
+:func:`open` opens results. :func:`stress` computes the stress below a surface. :mod:`asperity.reference` has closed forms, and
+:func:`verify` compares the program with them.
 """
 
-from . import errors, form, generate, reference
+from . import errors, form, generate, keys, reference
 from ._core import __version__
 from ._contact import Contact, contact, slide
 from ._flow import Flow
@@ -19,6 +19,7 @@ from ._progress import Progress
 from ._run import Run, open, run
 from ._stress import Extreme, Stress, SubsurfaceStress, stress
 from ._study import Study, study
+from ._table import Table
 from .body import Body
 from .describe import (
     BearingCurve,
@@ -75,6 +76,7 @@ __all__ = [
     "SubsurfaceStress",
     "Summits",
     "Surface",
+    "Table",
     "Verification",
     "__version__",
     "channels",
@@ -84,6 +86,7 @@ __all__ = [
     "errors",
     "form",
     "generate",
+    "keys",
     "open",
     "read",
     "reference",
@@ -96,3 +99,7 @@ __all__ = [
     "verification_cases",
     "verify",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__

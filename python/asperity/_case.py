@@ -6,23 +6,32 @@ from collections.abc import Mapping
 from typing import Any
 
 from . import _core
+from ._keywords import LOADS
 from ._units import whole
 from .body import Handed
 from .errors import bad_input
 
 
 def tables(handed: Handed, keywords: Any, options: Mapping[str, Any]) -> dict[str, Any]:
-    """The tables of a case by the `options` of a call, of these `keywords`; what is `None` is left to its default."""
+    """Makes the tables of a case from the `options` of a call with these `keywords`. Options that are `None` are left out."""
+    _check_load(keywords, options)
     case: dict[str, Any] = dict(handed.tables)
     for key, annotation in keywords.__annotations__.items():
         *place, _ = annotation.__metadata__
         if not place:
             continue
-        # A motion is one by its table, even if that is empty.
+        # The table of a motion makes the case a motion, even if it is empty.
         table = case.setdefault(place[0], {}) if place[0] else case
         if options[key] is not None:
             table[key] = options[key] if place[0] else _entry(key, options[key])
     return case
+
+
+def _check_load(keywords: Any, options: Mapping[str, Any]) -> None:
+    """Raises an exception if no load is given."""
+    known = [key for key in LOADS if key in keywords.__annotations__]
+    if all(options[key] is None for key in known):
+        raise bad_input("load", f"no load is given, expected one of the arguments {', '.join(known)}", 'for example load="2 N"')
 
 
 def _entry(key: str, value: Any) -> Any:

@@ -1,7 +1,8 @@
-"""Contacts at rest."""
+"""Static contacts."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,8 @@ from ._flow import Flow, of_results
 from ._keywords import ContactKeywords, SlideKeywords, takes
 from ._progress import Teller
 from ._same import Comparable
+from ._show import unit_of
+from ._table import Table, Units, records
 from ._units import path
 from .body import Body, Handed, bodies
 from .errors import bad_input, warn
@@ -21,74 +24,87 @@ from .material import Material
 from .surface import Surface
 
 if TYPE_CHECKING:
+    import pathlib
+
+    from matplotlib.axes import Axes
+    from pandas import DataFrame
     from typing_extensions import Unpack
+    from xarray import Dataset
 
 
 class Contact(Comparable):
-    """A static contact, computed.
+    """A computed static contact.
 
-    Numbers of the contact are attributes by the names that `summary.json` has; those of the shear are there with friction alone,
-    those of rolling in rolling alone.
+    :func:`contact`, :func:`slide` and :func:`open` return contacts. The numbers of a contact are attributes with the names of
+    `summary.json`. The numbers of friction exist only with friction, those of rolling only in rolling.
 
     Attributes
     ----------
     load : float
         Normal force, N.
     approach : float
-        Rigid-body approach, m.
-    contact_area, apparent_area : float
-        Area of the cells with pressure, and of all cells, m².
+        Rigid-body approach of the two bodies, m.
+    contact_area : float
+        Real contact area, the area of the cells with pressure, m².
+    apparent_area : float
+        Area of all cells, m².
     max_pressure : float
         Largest pressure, Pa.
     mean_gap : float
-        Mean deformed gap, m.
+        Mean gap between the deformed surfaces, m.
     elastic_energy : float
-        Elastic energy, J.
+        Elastic energy of both bodies, J.
     plastic_cells : int
         Number of cells at the hardness.
     plastic_volume : float
-        m³.
+        Volume removed by plastic deformation, m³.
     iterations : int
-        Iterations of the solver.
+        Number of iterations of the solver.
     convolutions : float
-        Their cost.
+        Number of elastic operator applications, the main cost of the solution.
     residual : float
-        Scale-free complementarity residual.
-    tangential_force, tangential_displacement : list of float
-        Force of the upper body on the lower one, N, and its displacement against it, m, along x and y.
+        Scale-free complementarity residual of the solution.
+    tangential_force : list of float
+        Tangential force of the upper body on the lower one along x and y, N.
+    tangential_displacement : list of float
+        Tangential displacement of the upper body against the lower one along x and y, m.
     force_ratio : float
         Magnitude of the tangential force over the load.
     friction_coefficient : float or None
-        The same where no cell sticks.
+        Magnitude of the tangential force over the load if no cell sticks, else `None`.
     stick_area : float
         Area of the cells that stick, m².
     max_shear : float
         Largest shear traction, Pa.
     dissipation : float
-        Energy that friction took, J; in rolling, while the contact moves on by a cell, from the work of force, moment and
+        Energy dissipated by friction, J. In rolling: while the contact advances by one cell, from the work of force, moment and
         pressure.
     slip_work : float
-        Work of the shear on the slip of the cells, J, in rolling: the dissipation without what the step from cell to cell
-        takes.
+        Work of the shear on the slip of the cells in rolling, J: the dissipation without the part of the step from cell to cell.
     creepage : list of float
         Creepage along x and y, in rolling.
-    spin, moment : float
-        1/m and N·m, in rolling.
+    spin : float
+        Spin in rolling, 1/m.
+    moment : float
+        Moment about z in rolling, N m.
     fields : Fields
-        The fields: `pressure`, `gap`, `displacement`, `lower`, `upper`, `plastic`; with friction also `traction_x` and
-        `traction_y`, `displacement_x` and `_y`, `slip_x` and `_y`, `stick`; `cap` where cells differ in what they bear.
-    increments : ndarray
-        A record for each increment of a loading in stages; else empty.
-    updates : ndarray
-        Of a contact that slides in place, see :func:`slide`, a record for each update, the first before it slides; else empty.
-    sweep : ndarray
-        A record for each point of a sweep; else empty. Numbers and fields are those of the last one.
+        The fields `pressure`, `gap`, `displacement`, `lower`, `upper`, `plastic`. Friction adds `traction_x`, `traction_y`,
+        `displacement_x`, `displacement_y`, `slip_x`, `slip_y` and `stick`. A map of the hardness adds `cap`.
+    sweep : Table
+        A record for each point of a sweep, else empty. The numbers and fields of the contact are those of the last point.
+    increments : Table
+        A record for each increment of a loading in stages, else empty.
+    updates : Table
+        A record for each update of a contact that slides in place, see :func:`slide`, else empty. The first record is the contact
+        before sliding.
     warnings : list of str
-        What to be wary of.
+        Warnings about doubtful input and results.
     case : dict
-        The case as it was resolved, SI.
+        The resolved case, SI.
     flow : dict
-        Of bodies that flow below their surfaces, by ``"lower"`` and ``"upper"``, a :class:`Flow` each.
+        Plastic state of elasto-plastic bodies, a :class:`Flow` for ``"lower"`` and for ``"upper"``.
+    directory : pathlib.Path or None
+        The results directory, or `None` if the contact was computed without `out`.
     """
 
     load: float
@@ -115,12 +131,13 @@ class Contact(Comparable):
     spin: float
     moment: float
     fields: Fields
-    increments: NDArray[np.void]
-    updates: NDArray[np.void]
-    sweep: NDArray[np.void]
+    sweep: Table
+    increments: Table
+    updates: Table
     warnings: list[str]
     case: dict[str, Any]
     flow: dict[str, Flow]
+    directory: pathlib.Path | None
 
     def __init__(
         self,
@@ -132,21 +149,33 @@ class Contact(Comparable):
         warnings: list[str],
         case: dict[str, Any],
         flow: dict[str, Flow],
+        directory: pathlib.Path | None = None,
     ) -> None:
         self.flow = flow
         self.fields = found
-        self.increments = fields.table(increments, _core.INCREMENT_COLUMNS)
-        self.updates = fields.table(updates, ["update", "distance"])
-        self.sweep = fields.table(sweep, _core.SWEEP_COLUMNS)
+        self.increments = records(increments, _core.INCREMENT_COLUMNS)
+        self.updates = records(updates, ["update", "distance"])
+        self.sweep = records(sweep, _core.SWEEP_COLUMNS)
         self.warnings = list(warnings)
         self.case = case
+        self.directory = directory
         self._names = list(record if record is not None else sweep[-1])
         self.__dict__.update(record if record is not None else sweep[-1])
 
+    def _compared(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if name != "directory"}
+
     @property
     def numbers(self) -> dict[str, Any]:
-        """All numbers of the contact, by name."""
+        """All numbers of the contact by name, SI."""
         return {name: getattr(self, name) for name in self._names}
+
+    @property
+    def _table(self) -> Table | None:
+        """The table of a sweep, a loading in stages or sliding in place; a contact has one of them at most."""
+        # A single increment is the contact itself.
+        tables = (self.sweep, *(table for table in (self.increments, self.updates) if len(table) > 1))
+        return next((table for table in tables if len(table)), None)
 
     @property
     def pressure(self) -> NDArray[np.float64]:
@@ -155,12 +184,12 @@ class Contact(Comparable):
 
     @property
     def gap(self) -> NDArray[np.float64]:
-        """Gap between the deformed surfaces, m; 0 in contact, below 0 where cells yield."""
+        """Gap between the deformed surfaces, m. It is 0 in contact, and negative where cells yield."""
         return self.fields["gap"].values
 
     @property
     def displacement(self) -> NDArray[np.float64]:
-        """Displacement that opens the gap, of both bodies together, m."""
+        """Sum of the normal displacements of both bodies, positive where it opens the gap, m."""
         return self.fields["displacement"].values
 
     @property
@@ -176,37 +205,115 @@ class Contact(Comparable):
 
     @property
     def contact_fraction(self) -> float:
-        """Area of contact over the area of all cells, 0 to 1."""
+        """Real contact area over the area of all cells, 0 to 1."""
         return float(np.count_nonzero(self.pressure > 0.0)) / self.pressure.size
 
     @property
     def lower(self) -> Surface:
-        """The lower body's surface, as it was prepared."""
+        """The prepared surface of the lower body."""
         return Surface(self.fields["lower"].values, self.pitch)
 
     @property
     def upper(self) -> Surface:
-        """The upper body's underside, as it was prepared: a body of it is mounted ``"as-is"``."""
+        """The prepared underside of the upper body. A body with it is mounted ``"as-is"``."""
         return Surface(self.fields["upper"].values, self.pitch)
 
-    def to_xarray(self) -> Any:
-        """All fields as a Dataset of xarray, with the numbers as attributes."""
+    def to_xarray(self) -> Dataset:
+        """Return all fields as an xarray Dataset, with the numbers as attributes.
+
+        The attribute ``load`` has the unit ``load_units``, and so on. The table of a sweep, of a loading in stages or of sliding in
+        place is included over `point`, `increment` or `update`.
+        """
         dataset = self.fields.to_xarray()
-        dataset.attrs.update({name: value for name, value in self.numbers.items() if value is not None})
+        if self._table is not None:
+            dataset = dataset.merge(self._table.to_xarray())
+        for name, value in self.numbers.items():
+            if value is not None:
+                dataset.attrs[name] = value
+                dataset.attrs[f"{name}_units"] = unit_of(name)
         return dataset
 
-    def plot(self, field: str = "pressure", **options: Any) -> Any:
-        """Draw a field with matplotlib, on the axes `ax` if given; gives the axes. Other `options` go to ``imshow``."""
-        return self.fields[field].plot(**options)
+    def to_pandas(self, units: Units = "si") -> DataFrame:
+        """Return the table of a sweep, a loading in stages or sliding in place as a pandas DataFrame, with its units.
+
+        The table of any other contact has one row with its numbers, so that several contacts can be put together by
+        ``pandas.concat``.
+
+        Parameters
+        ----------
+        units : {"si", "display"}
+            Units of the numbers, see :meth:`Table.to_pandas`.
+        """
+        table = self._table
+        return (records([_components(self.numbers)], []) if table is None else table).to_pandas(units)
+
+    def plot(self, quantity: str = "pressure", x: str | None = None, *, ax: Axes | None = None, **options: Any) -> Axes:
+        """Draw a field, or a curve over the points of a sweep, a loading in stages or sliding in place, with matplotlib.
+
+        Parameters
+        ----------
+        quantity : str
+            Name of a field, such as ``"pressure"``, or a column of the table, such as ``"contact_area"``.
+        x : str, optional
+            The column along the x axis of a curve, see :meth:`Table.plot`.
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; new ones by default.
+        **options
+            Passed on to ``Axes.imshow`` or ``Axes.plot``.
+        """
+        table = self._table
+        if table is not None and quantity in (table.dtype.names or ()):
+            return table.plot(quantity, x, ax=ax, **options)
+        if quantity not in self.fields:
+            columns = [] if table is None else table.dtype.names or ()
+            known = ", ".join([*self.fields, *columns])
+            raise bad_input("quantity", f"'quantity' is {quantity!r}, expected a field or a column of a table: {known}")
+        return self.fields[quantity].plot(ax=ax, **options)
+
+    def report(self, out: str | os.PathLike[str] | None = None) -> pathlib.Path:
+        """Write a page with the maps, curves and tables of the contact in one HTML file, and return its path.
+
+        The page opens in any browser without a network. The contact must be in a results directory: computed with `out`, or
+        opened.
+
+        Parameters
+        ----------
+        out : path, optional
+            The file; by default `report.html` in the results directory.
+        """
+        if self.directory is None:
+            message = "report() needs a results directory, and this contact is in memory only"
+            raise bad_input("out", message, 'asp.contact(..., out="directory") keeps the results')
+        return report(_core.Results(os.fspath(self.directory)), out)
 
     def __repr__(self) -> str:
         load, pressure = _core.format(self.load, "force"), _core.format(self.max_pressure, "pressure")
-        return f"<Contact: load {load}, {100.0 * self.contact_fraction:.3g} % in contact, largest pressure {pressure}>"
+        points = f"sweep of {len(self.sweep)} points, the last one: " if len(self.sweep) else ""
+        return (
+            f"<Contact: {points}load {load}, {100.0 * self.contact_fraction:.3g} % in contact, largest pressure {pressure}>"
+        )
 
     def _repr_html_(self) -> str:
         from ._html import contact
 
         return contact(self)
+
+
+def report(core: Any, out: str | os.PathLike[str] | None) -> pathlib.Path:
+    """Writes the page of a results directory."""
+    written: pathlib.Path = core.report(None if out is None else path("out", out))
+    return written
+
+
+def _components(numbers: dict[str, Any]) -> dict[str, Any]:
+    """Replaces each vector by its components, as the tables do, and keeps only numbers."""
+    found: dict[str, Any] = {}
+    for name, value in numbers.items():
+        if isinstance(value, list):
+            found.update({f"{name}_{axis}": part for axis, part in zip("xyz", value, strict=False)})
+        elif value is None or isinstance(value, (int, float)):
+            found[name] = value
+    return found
 
 
 @takes(ContactKeywords)
@@ -219,15 +326,15 @@ def contact(
 ) -> Contact:
     """Press two bodies together.
 
-    The arguments have the names and the meaning of the keys of a case file.
+    The arguments have the names and the meaning of the keys of a case file. Exactly one of `load`, `mean_pressure` and
+    `approach` is required; `loads`, `mean_pressures` or `approaches` compute a sweep.
 
     Parameters
     ----------
     lower, upper : Surface or Body
-        The bodies; of surfaces the materials are given, too. The upper surface is turned over when it is mounted, see
-        :class:`Body`.
+        The bodies. A surface also needs its material. The upper surface is turned over when it is mounted, see :class:`Body`.
     lower_material, upper_material : Material, optional
-        What the surfaces are made of.
+        Materials of the surfaces.
     **options
 
     Returns
@@ -237,11 +344,11 @@ def contact(
     Raises
     ------
     asperity.errors.BadInput
-        For arguments without meaning.
+        If an argument has no meaning.
     asperity.errors.Failed
-        Where the contact cannot be computed: more load than the bodies bear, no convergence.
+        If the contact cannot be computed, for example because the load exceeds the plastic limit.
     KeyboardInterrupt
-        At Ctrl-C, within a convolution.
+        At Ctrl-C.
 
     Examples
     --------
@@ -264,23 +371,24 @@ def slide(
     upper_material: Material | None = None,
     **options: Unpack[SlideKeywords],
 ) -> Contact:
-    """Slide two bodies in place: the same cells face each other all the way, as a ball on a disc or a punch, and wear.
+    """Slide and wear two bodies in place: the same cells stay in contact, as of a ball on a disc or a punch.
 
     Parameters
     ----------
     lower, upper, lower_material, upper_material
-        The bodies, as of :func:`contact`; one of them at least wears or grows a film, see :class:`Body`.
+        The bodies, as in :func:`contact`. At least one of them wears or grows a film, see :class:`Body`.
     **options
 
     Returns
     -------
     Contact
-        On the bodies as they are in the end; `updates` has a record for each update, fields `wear_upper`, … the depth of wear.
+        The contact of the worn bodies. `updates` has a record for each update. The fields `wear_lower` and `wear_upper` have the
+        depth of wear.
 
     Raises
     ------
     asperity.errors.BadInput, asperity.errors.Failed, KeyboardInterrupt
-        As of :func:`contact`.
+        For the same reasons as :func:`contact`.
 
     Examples
     --------
@@ -296,7 +404,7 @@ def slide(
 
 
 def _solved(pair: tuple[Body, Body], keywords: Any, options: Mapping[str, Any]) -> Contact:
-    """The contact at rest of two bodies, in memory, or of the results that it leaves."""
+    """Solves a static contact in memory, or writes its results and opens them."""
     handed = Handed(*pair)
     case = _case.tables(handed, keywords, options)
     count, existing = _case.execution(options)
@@ -324,19 +432,30 @@ def _solved(pair: tuple[Body, Body], keywords: Any, options: Mapping[str, Any]) 
     out = path("out", options["out"])
     with Teller(options["progress"]) as tell:
         _core.run(case, handed.given, out, existing, count, tell)
-    answer = stored(_core.Results(out))
+    answer = stored(out, _core.Results(out))
     warn(answer.warnings)
     return answer
 
 
-def stored(core: Any) -> Contact:
-    """A contact of a results directory."""
+def stored(directory: str, core: Any) -> Contact:
+    """Opens the contact of a results directory."""
+    # Imported here: otherwise the import of the package takes a third longer.
+    import pathlib
+
     summary = core.summary()
     found = fields.stored(core, "contact", None)
     record = summary.get("static")
     if record is not None:
-        # What has not converged leaves no summary.
+        # Only a converged contact has a summary.
         del record["converged"]
     return Contact(
-        record, core.sweep(), core.increments(), core.updates(), found, summary["warnings"], core.case(), of_results(core, None)
+        record,
+        core.sweep(),
+        core.increments(),
+        core.updates(),
+        found,
+        summary["warnings"],
+        core.case(),
+        of_results(core, None),
+        pathlib.Path(directory),
     )

@@ -1,4 +1,4 @@
-"""What has flowed below the surfaces of bodies."""
+"""The plastic state of elasto-plastic bodies."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from ._same import Comparable
 
 
 class Flow(Comparable):
-    """What has flowed below the surface of a body.
+    """The plastic state below the surface of an elasto-plastic body.
 
     Attributes
     ----------
     depths : ndarray
         Depths of the faces of the layers, from 0 at the surface, m.
     strain : ndarray
-        Plastic strain under the last load, ``[component, ix, iy, iz]``, components as in `COMPONENTS`.
+        Plastic strain under the last load, ``[component, ix, iy, iz]``, with the components of `COMPONENTS`.
     accumulated : ndarray
         Accumulated plastic strain, ``[ix, iy, iz]``.
     back_stress : ndarray or None
-        Pa, of a body that hardens kinematically.
+        Back stress of a body with kinematic hardening, Pa, ``[component, ix, iy, iz]``.
     displacement : ndarray
-        Inward displacement of the surface by the plastic strain, m, ``[ix, iy]``.
+        Inward displacement of the surface by the plastic strain under the last load, m, ``[ix, iy]``.
     residual_stress : ndarray
-        Stress that the plastic strain leaves once the load is taken off, where it is, Pa, ``[component, ix, iy, iz]``.
+        Residual stress of the plastic strain, Pa, ``[component, ix, iy, iz]``; after unloading, if the load is removed.
     residual_displacement : ndarray
-        The displacement then, m.
+        Inward displacement of the surface by the plastic strain, m, ``[ix, iy]``; after unloading, if the load is removed.
     """
 
     COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
@@ -58,7 +58,7 @@ class Flow(Comparable):
 
 
 def of_results(core: Any, number: int | None) -> dict[str, Flow]:
-    """What has flowed, of a results directory: of a contact at rest, or in a pass."""
+    """Reads the plastic state of a static contact, or after a pass, from a results directory."""
     if "plasticity" not in core.case():
         return {}
     names = set(core.names("plasticity", number))

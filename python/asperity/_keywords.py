@@ -9,18 +9,16 @@ import functools
 import inspect
 import os
 import textwrap
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from types import NoneType, UnionType
-from typing import Annotated, Any, TypedDict, TypeVar, Union, cast, get_args, get_origin
+from typing import Annotated, Any, Literal, TypedDict, TypeVar, Union, cast, get_args, get_origin, is_typeddict
 
+from . import keys
 from ._progress import Told
 from ._units import Quantity
 
-Friction = float | Mapping[str, Any]
-"""The coefficient of friction, or the keys of the table `[friction]` of a case."""
-
-Table = Mapping[str, Any]
-"""A table of a case, by the names of its keys."""
+Boundary = Literal["free", "periodic"]
+"""The surroundings beyond an edge of the grid."""
 
 
 # fmt: off
@@ -30,33 +28,34 @@ class Common(TypedDict, total=False):
     load: Annotated[Quantity | None, "contact", "Normal force, above 0, N. Give one of `load`, `mean_pressure` and `approach`."]
     mean_pressure: Annotated[Quantity | None, "contact", "Normal force over the area of all cells, above 0, Pa."]
     approach: Annotated[Quantity | None, "contact", "Approach of the bodies from the heights as they are, m."]
-    boundary: Annotated[str | Sequence[str] | None, "contact",
-        'What lies beyond the rim: ``"free"`` (by default) or ``"periodic"``, for both axes or for each.']
-    grid: Annotated[str | None, "contact",
+    boundary: Annotated[Boundary | Sequence[Boundary] | None, "contact",
+        'The surroundings of the grid: ``"free"`` (by default) or ``"periodic"``, for both axes or for each.']
+    grid: Annotated[Literal["as-prepared", "common"] | None, "contact",
         '``"common"`` resamples both surfaces to the coarser pitch and crops them to a common size; ``"as-prepared"`` by default.']
-    method: Annotated[str | None, "contact",
+    method: Annotated[Literal["auto", "active-set", "polonsky-keer", "direct"] | None, "contact",
         'Solver: ``"auto"`` (by default), ``"active-set"``, ``"polonsky-keer"`` or ``"direct"``. All give the same answer.']
     tolerance: Annotated[float | None, "contact", "Residual at which the solver stops, above 0, below 1; 1e-6 by default."]
-    friction: Annotated[Friction | None, "",
-        "The coefficient, or the keys of `[friction]`: `coefficient`, `coupling`, `shear_strength`, `junction_growth`. In a "
-        "motion and in place the upper body slides. At rest also `force`, `displacement` or `sliding`; in rolling `creepage`,"
-        " `creepages` or `rolling_force`, and `spin`; `increments`."]
+    friction: Annotated[float | keys.Friction | None, "",
+        "The coefficient, or a table with `coefficient`, `coupling`, `shear_strength` and `junction_growth`. In a motion and in "
+        "place the upper body slides. A static contact also takes `force`, `displacement` or `sliding`, and `increments`; "
+        "steady rolling takes `creepage`, `creepages` or `rolling_force`, and `spin`."]
 
 
 class Rest(TypedDict, total=False):
-    """Keywords of a contact at rest."""
+    """Keywords of a static contact."""
 
-    loads: Annotated[Sequence[Quantity] | None, "contact", "In place of `load`: one after the other, each on virgin bodies, N."]
+    loads: Annotated[Sequence[Quantity] | None, "contact", "Loads of a sweep in place of `load`, each on virgin bodies, N."]
     mean_pressures: Annotated[Sequence[Quantity] | None, "contact",
-        "In place of `mean_pressure`: one after the other, each on virgin bodies, Pa."]
+        "Mean pressures of a sweep in place of `mean_pressure`, each on virgin bodies, Pa."]
     approaches: Annotated[Sequence[Quantity] | None, "contact",
-        "In place of `approach`: one after the other, each on virgin bodies, m."]
-    history: Annotated[Sequence[Table] | None, "", "Stages of the loading after the first. What a stage does not name stays."]
-    plasticity: Annotated[Table | None, "",
-        "The keys of `[plasticity]`, for bodies with a :class:`Plasticity`: `depth`, `layers`, `growth`, `increments`, "
+        "Approaches of a sweep in place of `approach`, each on virgin bodies, m."]
+    history: Annotated[Sequence[keys.Stage] | None, "",
+        "Stages of the loading after the first. Everything that a stage does not name stays as it was."]
+    plasticity: Annotated[keys.Plasticity | None, "",
+        "The plastic volume, for bodies with a :class:`Plasticity`: `depth`, `layers`, `growth`, `increments`, "
         "`tolerance`, `unload`."]
-    subsurface: Annotated[Table | None, "",
-        "The stress under the surface that is written to `out`: the keys of `[subsurface]`, such as `to`, `layers`, `planes`."
+    subsurface: Annotated[keys.Subsurface | None, "",
+        "The stress under the surface that is written to `out`: `to`, `layers`, `planes` and others."
         " Without `out`, :func:`asperity.stress` computes stresses."]
     pressure_every: Annotated[int | None, "output",
         "In a sweep, the fields of every n-th point are kept; 0 keeps none, 8 by default."]
@@ -75,7 +74,7 @@ class Sliding(TypedDict, total=False):
         "Speed of the upper body, above 0, m/s, if films grow or bodies are heated."]
     updates: Annotated[int | None, "sliding",
         "Number of implicit updates, each a contact solved on the bodies as it leaves them; 40 by default."]
-    temperature: Annotated[Table | None, "",
+    temperature: Annotated[keys.Temperature | None, "",
         '`bulk`, K or text such as ``"100 °C"``, and `every`: 1 if friction heats the bodies, 0 if not.']
 
 
@@ -84,40 +83,41 @@ class Motion(TypedDict, total=False):
 
     passes: Annotated[int | None, "motion", "Number of passes; 1 by default."]
     stride: Annotated[int | None, "motion", "Cells from one position to the next; 1 by default."]
-    strategy: Annotated[str | None, "motion",
+    strategy: Annotated[Literal["overlap", "shift"] | None, "motion",
         '``"overlap"`` (by default) solves only the cells that face each other; ``"shift"`` shifts both surfaces circularly.']
     speed_lower: Annotated[Quantity | None, "motion",
         "Speed of the lower surface in a shift, m/s; 0 by default. Only the ratio of both speeds matters. The slower surface "
         "moves by parts of a cell."]
     speed_upper: Annotated[Quantity | None, "motion", "Speed of the upper surface in a shift, m/s; 1 by default."]
-    control: Annotated[str | None, "motion",
+    control: Annotated[Literal["pass-load", "step-load", "approach"] | None, "motion",
         'Where the load holds: ``"pass-load"`` in the mean over a pass (by default), ``"step-load"`` at every position. '
         '``"approach"`` holds the approach.']
-    plastic_update: Annotated[str | None, "motion",
+    plastic_update: Annotated[Literal["pass", "step"] | None, "motion",
         'When plastic deformation changes the surfaces: after the ``"pass"``, or at every ``"step"``.']
     load_tolerance: Annotated[float | None, "motion",
         "Relative tolerance on the mean load of a pass, above 0, below 1; 1e-4 by default."]
     speed: Annotated[Quantity | None, "motion",
         "Speed of the upper body in an overlap, above 0, m/s, if bodies wear, grow films or are heated."]
-    path: Annotated[str | None, "motion", 'A pass goes ``"one-way"`` (by default), or there and back: ``"reciprocating"``.']
-    offset_y: Annotated[int | str | None, "motion",
+    path: Annotated[Literal["one-way", "reciprocating"] | None, "motion",
+        'A pass goes ``"one-way"`` (by default), or there and back: ``"reciprocating"``.']
+    offset_y: Annotated[int | Literal["random"] | None, "motion",
         'Cells by which the upper body lies further along y in each pass than in the one before; 0 by default. ``"random"`` '
         "draws its place from the `seed` and the number of the pass."]
     seed: Annotated[int | None, "motion", 'Seed of ``offset_y="random"``; 0 by default.']
-    counter: Annotated[str | None, "motion",
+    counter: Annotated[Literal["same", "fresh"] | None, "motion",
         'The upper body of the passes after the first: the ``"same"`` (by default), or a ``"fresh"`` one, made by its '
         "generator from another seed. A fresh one requires an upper surface of a generator without heights yet, such as "
         "``asp.generate.low_pass(...)``."]
-    acceleration: Annotated[Table | None, "",
-        "How many passes a computed one may stand for: `tolerance`, `max_jump`, `max_wear`. Without it all are computed."]
-    temperature: Annotated[Table | None, "",
+    acceleration: Annotated[keys.Acceleration | None, "",
+        "Extrapolation over several passes: `tolerance`, `max_jump`, `max_wear`. Without it all passes are computed."]
+    temperature: Annotated[keys.Temperature | None, "",
         '`bulk`, K or text such as ``"100 °C"``, and `every`: the flash temperature is computed in every n-th pass, 0 for '
         "none."]
-    plasticity: Annotated[Table | None, "",
-        "The keys of `[plasticity]` in a motion, for bodies with a :class:`Plasticity`: `depth`, `layers`, `growth`, "
+    plasticity: Annotated[keys.Plasticity | None, "",
+        "The plastic volume, for bodies with a :class:`Plasticity`: `depth`, `layers`, `growth`, "
         "`tolerance`, `keep`."]
-    subsurface: Annotated[Table | None, "",
-        "The stress under the surface that is computed: the keys of `[subsurface]`, such as `to`, `layers`."]
+    subsurface: Annotated[keys.Subsurface | None, "",
+        "The stress under the surface that is computed: `to`, `layers` and others."]
     pressure_every: Annotated[int | None, "output", "The pressures of every n-th position are kept; 0 keeps none, 8 by default."]
     rim: Annotated[float | None, "output",
         "Part of a body's length at free ends that the columns of its interior leave out; 0.1 by default."]
@@ -169,17 +169,20 @@ class MotionKeywords(Common, Motion, Output, Execution, total=False):
     """Keywords of :func:`asperity.simulate` and :class:`asperity.Simulation`."""
 
 
+LOADS = ("load", "mean_pressure", "approach", "loads", "mean_pressures", "approaches")
+"""Keywords that prescribe the load; each call has exactly one of them."""
+
 _FLAGS = {"resume": False, "overwrite": False, "retry": False, "progress": True}
-"""What keywords default to that are not `None` by default."""
+"""Defaults of the keywords that are not `None` by default."""
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def takes(keywords: Any) -> Callable[[Function], Function]:
-    """Decorate a function whose ``**options`` are these `keywords`, one of the classes above.
+    """Decorates a function whose ``**options`` are these `keywords`, one of the classes above.
 
-    They stand in its signature, and in its docstring in place of ``**options``. The function gets all of them, those that are not
-    given by their defaults.
+    The keywords are added to its signature, and replace ``**options`` in its docstring. The function is called with all of them,
+    each by default with its default value.
     """
     annotations = keywords.__annotations__
     types = {key: get_args(annotation)[0] for key, annotation in annotations.items()}
@@ -233,5 +236,9 @@ def _words(kind: Any) -> str:
     """A type as docstrings write it: ``float or str``."""
     if get_origin(kind) in (Union, UnionType):
         return " or ".join(_words(member) for member in get_args(kind) if member is not NoneType)
+    if get_origin(kind) is Literal:
+        return "{" + ", ".join(f'"{word}"' for word in get_args(kind)) + "}"
+    if is_typeddict(kind):
+        return f"keys.{kind.__name__}"
     name: str = (get_origin(kind) or kind).__name__.lower()
     return "path" if name == "pathlike" else name

@@ -1,4 +1,4 @@
-"""Pictures by matplotlib."""
+"""Maps and curves with matplotlib."""
 
 from __future__ import annotations
 
@@ -12,29 +12,34 @@ from ._show import Look, largest, look, scale, unit_of, words
 from .errors import bad_input
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from ._run import Run
+    from ._table import Table
     from .fields import Field
 
-_MISSING = "0.75"
+MISSING = "0.75"
 """The grey of cells without a value."""
 
 
-def _axes(ax: Any) -> Any:
+def axes(ax: Axes | None) -> Axes:
+    """The axes that are given, or new ones."""
     if ax is not None:
         return ax
     pyplot = need("matplotlib.pyplot", "plot()")
-    return pyplot.subplots(layout="constrained")[1]
+    made: Axes = pyplot.subplots(layout="constrained")[1]
+    return made
 
 
-def _masked(values: NDArray[np.float64], factor: float, colours: Look) -> Any:
+def masked(values: NDArray[np.float64], factor: float, colours: Look) -> Any:
     """The values in the unit that is shown, without those that are left white."""
     return np.ma.masked_array(factor * values, colours.is_blank(values))
 
 
-def _image(ax: Any, values: Any, colours: Look, factor: float, options: dict[str, Any]) -> Any:
+def map_of(ax: Any, values: Any, colours: Look, factor: float, options: dict[str, Any]) -> Any:
     """A map on axes whose background is the colour of what is left out: zeros white, NaN grey."""
     matplotlib = need("matplotlib", "plot()")
-    ax.set_facecolor(_MISSING if colours.blank is None else "white")
+    ax.set_facecolor(MISSING if colours.blank is None else "white")
     name = options.pop("cmap", colours.colours)
     chosen = matplotlib.colormaps[name] if isinstance(name, str) else name
     chosen = chosen.with_extremes(bad=(1.0, 1.0, 1.0, 0.0), under=None if colours.blank is None else "crimson")
@@ -44,7 +49,7 @@ def _image(ax: Any, values: Any, colours: Look, factor: float, options: dict[str
     return ax.imshow(np.ma.masked_invalid(values).T, **filled)
 
 
-def _bar(ax: Any, image: Any, values: Any, label: str) -> Any:
+def bar(ax: Any, image: Any, values: Any, label: str) -> Any:
     """A colour bar as high as the map, pointed where values lie beyond its ends."""
     low, high = image.get_clim()
     below, above = values.min() < low, values.max() > high
@@ -53,21 +58,21 @@ def _bar(ax: Any, image: Any, values: Any, label: str) -> Any:
     return ax.figure.colorbar(image, cax=beside, label=label, extend=extend)
 
 
-def _labelled(name: str, unit: str) -> str:
+def labelled(name: str, unit: str) -> str:
     return words(name) if unit in ("", "1") else f"{words(name)} ({unit})"
 
 
-def field(field: Field, ax: Any = None, **options: Any) -> Any:
-    """Draw a field; gives the axes.
+def field(field: Field, ax: Axes | None = None, **options: Any) -> Axes:
+    """Draws a field and returns the axes.
 
-    A map has x to the right and y upwards, or, of a section, the depth downwards. Cells without a value are grey, those out of
-    contact white. Below a row of points a curve is drawn over the depth.
+    In a map x points to the right and y up; in a section the depth points down. Cells without a value are grey, cells without
+    contact are white. A column of points is drawn as a curve over the depth.
     """
-    ax = _axes(ax)
+    ax = axes(ax)
     values = np.asarray(field.values, dtype=np.float64)
     colours = look(field.name, values)
     value = scale(field.unit, max(abs(colours.low), abs(colours.high)))
-    label = _labelled(field.name, value.unit)
+    label = labelled(field.name, value.unit)
     ends = [(origin - 0.5 * pitch, origin + (count - 0.5) * pitch)
             for origin, pitch, count in zip(field.origin, field.pitch, values.shape, strict=True)]  # fmt: skip
     length = scale("m", max(end - begin for begin, end in ends))
@@ -77,38 +82,42 @@ def field(field: Field, ax: Any = None, **options: Any) -> Any:
         ax.set(xlabel=label, ylabel=f"{field.axes[0]} ({length.unit})")
         ax.yaxis.set_inverted(field.axes[0] == "z")
         return ax
-    extent = [length.factor * end for pair in ends for end in pair]
-    shown = _masked(values, value.factor, colours)
+    extent: Any = [length.factor * end for pair in ends for end in pair]
+    shown = masked(values, value.factor, colours)
     missing = np.isnan(values)
     if colours.blank is not None and missing.any():
-        grey = np.where(missing, float(_MISSING), np.nan)
+        grey = np.where(missing, float(MISSING), np.nan)
         ax.imshow(grey.T, origin="lower", extent=extent, cmap="gray", vmin=0.0, vmax=1.0, interpolation="nearest")
-    image = _image(ax, shown, colours, value.factor, {"extent": extent, **options})
-    _bar(ax, image, np.ma.masked_invalid(shown), label)
+    image = map_of(ax, shown, colours, value.factor, {"extent": extent, **options})
+    bar(ax, image, np.ma.masked_invalid(shown), label)
     ax.set(xlabel=f"{field.axes[0]} ({length.unit})", ylabel=f"{field.axes[1]} ({length.unit})", aspect="equal")
     ax.yaxis.set_inverted(field.axes[1] == "z")
     return ax
 
 
-def run(run: Run, quantity: str | None = None, ax: Any = None, **options: Any) -> Any:
-    """Draw a column over the passes, or the load over the positions of first and last pass; gives the axes."""
+def run(run: Run, quantity: str | None = None, ax: Axes | None = None, **options: Any) -> Axes:
+    """Draws a column over the passes, or the load over the positions of the first and the last pass; returns the axes."""
     passes = run.passes
     if quantity is None:
         return _loads(run, ax, options)
-    columns = [name for name in passes.dtype.names or () if name != "pass"]
-    if quantity not in columns:
-        message = f"'quantity' is {quantity!r}, expected a column of the passes: {', '.join(columns)}"
-        raise bad_input("quantity", message)
-    ax = _axes(ax)
-    value = scale(unit_of(quantity), largest(passes[quantity]))
-    ax.plot(passes["pass"], value.factor * passes[quantity], **{"marker": "o", **options})
-    ax.xaxis.get_major_locator().set_params(integer=True)
-    ax.set(xlabel="pass", ylabel=_labelled(quantity, value.unit))
+    column(passes, quantity, "quantity", "passes", but="pass")
+    # An accelerated run computes only some of its passes.
+    number = np.cumsum(passes["represents"]) if "represents" in (passes.dtype.names or ()) else passes["pass"]
+    values = passes[quantity]
+    body = {"sq_lower": run.lower, "sq_upper": run.upper}.get(quantity)
+    if body is not None:
+        number, values = np.insert(number, 0, 0), np.insert(values, 0, body(0).heights.std())
+    ax = axes(ax)
+    value = scale(unit_of(quantity), largest(values))
+    ax.plot(number, value.factor * values, **{"marker": "o", **options})
+    locator: Any = ax.xaxis.get_major_locator()
+    locator.set_params(integer=True)
+    ax.set(xlabel="pass", ylabel=labelled(quantity, value.unit))
     return ax
 
 
-def _loads(run: Run, ax: Any, options: dict[str, Any]) -> Any:
-    ax = _axes(ax)
+def _loads(run: Run, ax: Axes | None, options: dict[str, Any]) -> Axes:
+    ax = axes(ax)
     steps = run.steps
     length, force = scale("m", largest(steps["offset"])), scale("N", largest(steps["load"]))
     for number in sorted({1, len(run.passes)} - {0}):
@@ -122,61 +131,34 @@ def _loads(run: Run, ax: Any, options: dict[str, Any]) -> Any:
     return ax
 
 
-def animation(run: Run, number: int, interval: float = 100.0, **options: Any) -> Any:
-    """Show the pressures kept in a pass one after the other, on the lower body; `interval` is the time of each, ms."""
-    fields = run.fields(number)
-    names = [name for name in fields if name.startswith("pressure_")]
-    if not names:
-        hint = "pressure_every=8 keeps those of every eighth position"
-        raise bad_input("pressure_every", f"no pressures are kept of pass {number}", hint)
-    pyplot = need("matplotlib.pyplot", "animate()")
-    films = need("matplotlib.animation", "animate()")
-    frames = [_on_lower(fields[name], fields["lower"]) for name in names]
-    pressure = scale("Pa", max(largest(frame) for frame in frames))
-    high = max(largest(frame) for frame in frames) or 1.0
-    colours = Look("viridis", 0.0, high, 0.0)
-    dx, dy = fields["lower"].pitch
-    nx, ny = frames[0].shape
-    length = scale("m", max(nx * dx, ny * dy))
-
-    figure, ax = pyplot.subplots(layout="constrained")
-    extent = [0.0, length.factor * nx * dx, 0.0, length.factor * ny * dy]
-    shown = [np.ma.masked_invalid(_masked(frame, pressure.factor, colours)) for frame in frames]
-    image = _image(ax, shown[0], colours, pressure.factor, {"extent": extent, **options})
-    ax.set_facecolor(_MISSING)
-    under = ax.imshow(_facing(frames[0]), origin="lower", extent=extent, zorder=-1, interpolation="nearest")
-    _bar(ax, image, shown[0], _labelled("pressure", pressure.unit))
-    ax.set(xlabel=f"x ({length.unit})", ylabel=f"y ({length.unit})", aspect="equal")
-    positions = int(run.steps["step"].max())
-
-    def draw(index: int) -> list[Any]:
-        image.set_data(shown[index].T)
-        under.set_data(_facing(frames[index]))
-        ax.set_title(f"pass {number}, position {int(names[index].rsplit('_', 1)[1])} of {positions}")
-        return [image, under, ax.title]
-
-    # In a notebook it plays; the picture that its figure would leave behind is not wanted there.
-    film = type("Animation", (films.FuncAnimation,), {"_repr_html_": films.FuncAnimation.to_jshtml})
-    made = film(figure, draw, frames=len(frames), interval=interval)
-    if "inline" in pyplot.get_backend():
-        pyplot.close(figure)
-    return made
+_OVER = {
+    "step": ["offset"], "update": ["distance"], "point": ["load", "creepage_x", "creepage_y"], "pass": [], "increment": [],
+}  # fmt: skip
+"""By the column that numbers the records: the columns over which curves are drawn, the first that varies."""
 
 
-def _on_lower(pressure: Field, lower: Field) -> NDArray[np.float64]:
-    """Pressures in the frame of the lower body, NaN where nothing faces it."""
-    whole = np.full(lower.values.shape, np.nan)
-    begin = [
-        round((one - other) / pitch)
-        for one, other, pitch in zip(pressure.origin, lower.origin, lower.pitch, strict=True)
-    ]
-    part = tuple(slice(first, first + count) for first, count in zip(begin, pressure.values.shape, strict=True))
-    whole[part] = pressure.values
-    return whole
+def curve(table: Table, quantity: str, x: str | None = None, ax: Axes | None = None, **options: Any) -> Axes:
+    """Draws a column of a table over another one; returns the axes."""
+    column(table, quantity, "quantity", "table")
+    over = _over(table, quantity) if x is None else column(table, x, "x", "table")
+    ax = axes(ax)
+    scales = [scale(unit_of(name), largest(table[name])) for name in (over, quantity)]
+    ax.plot(scales[0].factor * table[over], scales[1].factor * table[quantity], **{"marker": "o", **options})
+    ax.set(xlabel=labelled(over, scales[0].unit), ylabel=labelled(quantity, scales[1].unit))
+    return ax
 
 
-def _facing(frame: NDArray[np.float64]) -> NDArray[np.float64]:
-    """An image, white where the bodies face each other and clear elsewhere."""
-    image = np.ones((*frame.T.shape, 4))
-    image[..., 3] = np.isfinite(frame.T)
-    return image
+def _over(table: Table, quantity: str) -> str:
+    names = table.dtype.names or ()
+    index = next((name for name in _OVER if name in names), names[0])
+    # A load that is held varies by the tolerance of the solver.
+    others = [name for name in _OVER.get(index, []) if name in names and name != quantity]
+    return next((name for name in others if np.ptp(table[name]) > 1e-3 * largest(table[name])), index)
+
+
+def column(table: NDArray[np.void], name: str, argument: str, noun: str, but: str = "") -> str:
+    """Returns the name of a column, or raises an exception that lists the columns."""
+    columns = [known for known in table.dtype.names or () if known != but]
+    if name not in columns:
+        raise bad_input(argument, f"'{argument}' is {name!r}, expected a column of the {noun}: {', '.join(columns)}")
+    return name

@@ -1,4 +1,4 @@
-"""How far a computation is: a bar of tqdm where that is installed, or a function of the caller's."""
+"""Progress of a computation: a bar of tqdm, or a function of the caller."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ _WAIT = 0.5
 
 
 class Progress(NamedTuple):
-    """How far a computation is.
+    """Progress of a computation.
 
     Attributes
     ----------
     pass_number, passes : int
-        The pass under way, from 1, and all passes; 1 of a contact at rest.
+        The present pass, from 1, and the number of passes; 1 for a static contact.
     trial : int
-        The approach that is tried in this pass, from 1.
+        Number of the approach that is tried in this pass, from 1.
     solved, positions : int
-        Positions solved in this trial, and positions of a pass; of a contact at rest increments or points.
+        Number of positions solved in this trial, and of positions in a pass. A static contact has increments or points instead.
     load : float
-        Load at the position solved last, N.
+        Load at the last solved position, N.
     together : float or None
-        Where all positions are solved as one problem, or one contact is being solved: the part of the way, 0 to 1.
+        Fraction of the present solution, 0 to 1, if all positions are solved together or one contact is solved.
     """
 
     pass_number: int
@@ -38,7 +38,7 @@ class Progress(NamedTuple):
 
     @property
     def fraction(self) -> float:
-        """Part of the whole computation that is done, 0 to 1: an estimate."""
+        """Estimated fraction of the whole computation that is done, 0 to 1."""
         if self.together is not None and self.positions > 1 and self.passes > 1:
             done = 0.5 * self.together
         else:
@@ -47,11 +47,11 @@ class Progress(NamedTuple):
 
 
 Told = bool | Callable[[Progress], Any]
-"""What `progress` may be: whether a bar is shown, or what is called with a :class:`Progress` some times a second."""
+"""The argument `progress`: whether a bar is shown, or a function that is called with a :class:`Progress` a few times a second."""
 
 
 class Teller:
-    """Calls back or moves a bar; used with ``with``, which takes the bar away."""
+    """Calls the function of the caller or updates a bar. A context manager that removes the bar at its end."""
 
     def __init__(self, progress: Told) -> None:
         self._progress = progress
@@ -80,7 +80,7 @@ class Teller:
 
 
 def _bar() -> Any:
-    """A bar in the terminal or the notebook, if someone can see it."""
+    """Makes a bar in a terminal or a notebook, else returns `None`."""
     in_notebook = "ipykernel" in sys.modules
     if not in_notebook and not (sys.stderr is not None and sys.stderr.isatty()):
         return None

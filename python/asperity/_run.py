@@ -1,4 +1,4 @@
-"""Results in a directory, and case files that lead to them."""
+"""Results directories, and the case files that they are computed from."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ._keywords import Execution, takes
 from ._progress import Teller
 from ._optional import need
 from ._same import Comparable
-from ._show import unit_of
+from ._table import Table, Units, records
 from ._temporary import Temporary
 from ._units import path as paths
 from .errors import _make, bad_input
@@ -25,18 +25,27 @@ from .surface import Surface
 if TYPE_CHECKING:
     import pathlib
 
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.axes import Axes
+    from pandas import DataFrame
     from typing_extensions import Unpack
+    from xarray import Dataset
 
 
 class Run(Comparable):
-    """Results of a motion in a directory, finished or under way.
+    """The results of a motion in a directory, finished or still running.
 
-    Everything is read when it is asked for.
+    All data are read from the files on access.
+
+    Parameters
+    ----------
+    directory : path
+        The results directory.
 
     Attributes
     ----------
     directory : pathlib.Path
-        Where the results are.
+        The results directory.
     """
 
     def __init__(self, directory: str | os.PathLike[str]) -> None:
@@ -45,7 +54,7 @@ class Run(Comparable):
         self._temporary: Temporary | None = None
 
     def _compared(self) -> dict[str, Any]:
-        # What a computation took is no part of its answer.
+        # The time of a computation is not part of its answer.
         passes = self.passes
         names = [name for name in passes.dtype.names or () if name != "wall_time_s"]
         rows = {name: passes[name] for name in names}
@@ -74,8 +83,15 @@ class Run(Comparable):
             self.__init__(state["directory"])  # type: ignore[misc]
 
     def __repr__(self) -> str:
-        where = "" if self._temporary is not None else f" in {self.directory}"
-        return f"<Run: {len(self.passes)} of {self.case['motion']['passes']} passes{where}>"
+        passes = self.passes
+        parts = [f"{len(passes)} of {self.case['motion']['passes']} passes"]
+        if len(passes):
+            load, lower, upper = (float(passes[name][-1]) for name in ("mean_load", "sq_lower", "sq_upper"))
+            sq = [_core.format(value, "length") for value in (lower, upper)]
+            parts.append(f"mean load {_core.format(load, 'force')}, Sq {sq[0]} (lower) and {sq[1]} (upper)")
+        if self._temporary is None:
+            parts.append(f"in {self.directory}")
+        return f"<Run: {', '.join(parts)}>"
 
     def _repr_html_(self) -> str:
         from ._html import run
@@ -84,78 +100,78 @@ class Run(Comparable):
 
     @property
     def case(self) -> dict[str, Any]:
-        """The case as it was resolved, SI."""
+        """The resolved case, SI."""
         case: dict[str, Any] = self._core.case()
         return case
 
     @property
     def is_done(self) -> bool:
-        """Whether all passes are there."""
+        """Whether all passes are computed."""
         passes = self.passes
         done = passes["represents"].sum() if "represents" in (passes.dtype.names or ()) else len(passes)
         return int(done) >= int(self.case["motion"]["passes"])
 
     @property
-    def passes(self) -> NDArray[np.void]:
+    def passes(self) -> Table:
         """A record for each pass, with the columns of `passes.csv`."""
-        return fields.table(self._core.passes(), _core.PASS_COLUMNS)
+        return records(self._core.passes(), _core.PASS_COLUMNS)
 
     @property
-    def steps(self) -> NDArray[np.void]:
+    def steps(self) -> Table:
         """A record for each position of each pass, with the columns of `steps.csv`."""
-        return fields.table(self._core.steps(), _core.STEP_COLUMNS)
+        return records(self._core.steps(), _core.STEP_COLUMNS)
 
     @property
     def warnings(self) -> list[str]:
-        """What to be wary of; nothing until all is done."""
+        """Warnings about doubtful input and results; empty until the motion is finished."""
         summary = self._core.summary()
         return [] if summary is None else list(summary["warnings"])
 
     @property
     def wall_time(self) -> float:
-        """Time that the whole computation took, s; NaN until all is done."""
+        """Time of the whole computation, s; NaN until the motion is finished."""
         summary = self._core.summary()
         return float("nan") if summary is None else float(summary["wall_time_s"])
 
     def fields(self, number: int | None = None) -> Fields:
-        """Fields after a pass: the surfaces `lower` and `upper`, mean pressures, and pressures at the positions kept.
+        """Return the fields after a pass: the surfaces `lower` and `upper`, mean pressures, and the kept pressures.
 
         Parameters
         ----------
         number : int, optional
-            The pass, from 1; 0 for the surfaces before the first. The last one by default.
+            The pass, from 1; the last one by default. Pass 0 has the initial surfaces.
         """
         return fields.stored(self._core, "pass", self._number(number))
 
     def subsurface(self, number: int | None = None) -> Fields:
-        """The stress under the surface in a pass, where `subsurface` asked for it."""
+        """Return the stress under the surface in a pass, if the argument `subsurface` was given."""
         return fields.stored(self._core, "subsurface", self._number(number))
 
     def flow(self, number: int | None = None) -> dict[str, Flow]:
-        """Of bodies that flow below their surfaces, by ``"lower"`` and ``"upper"``, what they have left after a pass.
+        """Return the plastic state of elasto-plastic bodies after a pass, by ``"lower"`` and ``"upper"``.
 
         Parameters
         ----------
         number : int, optional
-            The pass, from 1, whose volumes are kept: the last one by default, of the others with ``keep="passes"``.
+            The pass, from 1; the last one by default. Other passes are kept only with ``keep="passes"``.
         """
         return of_results(self._core, self._number(number))
 
     @property
     def regime(self) -> str | None:
-        """What becomes of bodies that flow: ``"elastic"``, ``"shakes-down"``, ``"cyclic"``, ``"ratchets"`` or ``"undecided"``.
+        """Regime of elasto-plastic bodies: ``"elastic"``, ``"shakes-down"``, ``"cyclic"``, ``"ratchets"`` or ``"undecided"``.
 
-        `None` of others, and until all is done.
+        It is `None` for other bodies, and until the motion is finished.
         """
         found = (self._core.summary() or {}).get("plasticity")
         return None if found is None else str(found["regime"])
 
     def lower(self, number: int | None = None) -> Surface:
-        """The lower body's surface after a pass, from 1; 0 before the first; the last one by default."""
+        """Return the surface of the lower body after a pass, by default the last one; pass 0 is the initial surface."""
         return self._surface("lower", number)
 
     def upper(self, number: int | None = None) -> Surface:
-        """The upper body's underside after a pass; a body of it is mounted ``"as-is"``."""
+        """Return the underside of the upper body after a pass. A body with it is mounted ``"as-is"``."""
         return self._surface("upper", number)
 
     def _surface(self, name: str, number: int | None) -> Surface:
@@ -171,16 +187,14 @@ class Run(Comparable):
             raise bad_input("number", message)
         return number
 
-    def to_xarray(self) -> Any:
-        """The passes as a Dataset of xarray over `pass`, with the surfaces after each and before the first over `after`.
+    def to_xarray(self) -> Dataset:
+        """Return the passes as an xarray Dataset over `pass`, with the surfaces over `after`.
 
-        Each body has coordinates of its own, from its own corner.
+        `after` is the number of passes that a surface has seen, from 0. Each body has its own coordinates, from its own corner.
         """
         xarray = need("xarray", "to_xarray()")
         passes = self.passes
-        columns = {
-            name: ("pass", passes[name], {"units": unit_of(name)}) for name in passes.dtype.names or () if name != "pass"
-        }
+        columns = {name: ("pass", passes[name], {"units": unit}) for name, unit in passes.units.items() if name != "pass"}
         coordinates: dict[str, Any] = {"pass": passes["pass"], "after": np.arange(len(passes) + 1)}
         after = [self.fields(number) for number in range(len(passes) + 1)]
         surfaces = {}
@@ -192,45 +206,67 @@ class Run(Comparable):
             heights = np.stack([found[body].values for found in after])
             surfaces[body] = (("after", *axes), heights, {"units": first.unit})
         attributes = {"title": self.case["title"], "identity": self.case["identity"]}
-        return xarray.Dataset({**columns, **surfaces}, coordinates, attributes)
+        dataset: Dataset = xarray.Dataset({**columns, **surfaces}, coordinates, attributes)
+        return dataset
 
-    def to_pandas(self) -> Any:
-        """The passes as a DataFrame of pandas."""
-        return fields.frame(self.passes, "pass")
+    def to_pandas(self, units: Units = "si") -> DataFrame:
+        """Return the passes as a pandas DataFrame, with its units in the attribute `units`.
 
-    def plot(self, quantity: str | None = None, **options: Any) -> Any:
-        """Draw a column of `passes` over the passes, or, without one, the load at the positions of first and last pass.
+        Parameters
+        ----------
+        units : {"si", "display"}
+            Units of the numbers, see :meth:`Table.to_pandas`.
+        """
+        return self.passes.to_pandas(units)
 
-        `ax` says on which axes; other `options` go to ``plot``. Gives the axes.
+    def plot(self, quantity: str | None = None, *, ax: Axes | None = None, **options: Any) -> Axes:
+        """Draw a column of `passes` over the passes with matplotlib.
+
+        The roughness, such as ``"sq_lower"``, begins with the initial surface at pass 0.
+
+        Parameters
+        ----------
+        quantity : str, optional
+            The column. By default the load at the positions of the first and the last pass is drawn.
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; new ones by default.
+        **options
+            Passed on to ``Axes.plot``.
         """
         from ._plot import run
 
-        return run(self, quantity, **options)
+        return run(self, quantity, ax, **options)
 
     def report(self, out: str | os.PathLike[str] | None = None) -> pathlib.Path:
-        """Write a page of the run, maps, curves and tables in one HTML file, and give its path.
+        """Write a page with the maps, curves and tables of the run in one HTML file, and return its path.
 
-        It opens in any browser without a network. What of the results cannot be read is left out, and named on it.
+        The page opens in any browser without a network. It names results that cannot be read, and leaves them out.
 
         Parameters
         ----------
         out : path, optional
-            The file; by default `report.html` beside the results, which goes with them where no `out` was given to keep them.
+            The file; by default `report.html` beside the results. If the run was computed without `out`, the default file is
+            removed together with the run.
         """
-        return _path(self._core.report(None if out is None else paths("out", out)))
+        return _contact.report(self._core, out)
 
-    def animate(self, number: int | None = None, **options: Any) -> Any:
-        """An animation of matplotlib of the pressures kept in a pass; in a notebook it plays.
+    def animate(self, number: int | None = None, **options: Any) -> FuncAnimation:
+        """Animate the kept pressures of a pass with matplotlib. In a notebook the animation plays.
 
-        `interval` is the time of each position, 100 ms by default; other `options` go to ``imshow``.
+        Parameters
+        ----------
+        number : int, optional
+            The pass, from 1; the last one by default.
+        **options
+            `interval` is the time of each position, 100 ms by default. Other options are passed on to ``Axes.imshow``.
         """
-        from ._plot import animation
+        from ._animation import animation
 
         return animation(self, self._number(number), **options)
 
 
 def _path(path: str | os.PathLike[str]) -> pathlib.Path:
-    # Imported where it is needed: the package would take a third longer to import.
+    # Imported here: otherwise the import of the package takes a third longer.
     import pathlib
 
     return pathlib.Path(path)
@@ -256,12 +292,12 @@ def run(
     Returns
     -------
     Run or Contact
-        Of a motion, or of a contact at rest.
+        A run for a motion, a contact for a static contact.
 
     Raises
     ------
     asperity.errors.CaseError
-        For a mistake in the file, with its line and column.
+        If the file has a mistake. The exception has its line and column.
     """
     count, existing = _case.execution(options)
     handed: dict[str, dict[str, Any]] = {"topographies": {}, "hardness": {}}
@@ -271,19 +307,20 @@ def run(
 
 
 def open(directory: str | os.PathLike[str]) -> Run | Contact:
-    """Open results: those of a motion, also while it runs, or of a contact at rest once it is done.
+    """Open the results of a motion, also while it runs, or of a finished static contact.
 
     Raises
     ------
     asperity.errors.NoResults
-        If the directory holds none.
+        If the directory contains no results.
     asperity.errors.NotResumable
-        If a contact at rest was interrupted: `resume` finishes it.
+        If a static contact was interrupted. Computing it again with ``resume=True`` finishes it.
     """
-    core = _core.Results(paths("directory", directory))
+    where = paths("directory", directory)
+    core = _core.Results(where)
     if "motion" in core.case():
         return Run(directory)
     if core.summary() is None:
-        message = f"{os.fspath(directory)} holds a contact that was not finished"
+        message = f"{os.fspath(directory)} contains a contact that was not finished"
         raise _make("NotResumable", message, {"path": os.fspath(directory)}, "resume=True goes on with it")
-    return _contact.stored(core)
+    return _contact.stored(where, core)

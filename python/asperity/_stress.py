@@ -4,25 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _core
 from ._contact import Contact
+from ._keywords import Boundary
 from ._optional import need
 from ._same import Comparable
 from ._units import Pair, Quantity, lengths, quantity
 from .errors import bad_input
 from .material import Material, _poisson
 
+if TYPE_CHECKING:
+    from xarray import Dataset
+
 COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
-"""The components, in the order in which they are stored."""
+"""The components in the order of their storage."""
 
 
 class Extreme(NamedTuple):
-    """The largest value of a stress, and where.
+    """The largest value of a stress and its position.
 
     Attributes
     ----------
@@ -127,17 +131,17 @@ class Stress(Comparable):
 
     @cached_property
     def von_mises(self) -> Any:
-        """Von Mises' equivalent stress, Pa: the yield stress in tension where the material begins to yield."""
+        """Von Mises equivalent stress, Pa. Yielding begins where it reaches the yield stress in tension."""
         return self._invariant("von_mises", ())
 
     @cached_property
     def max_shear(self) -> Any:
-        """Largest shear stress on any plane, ½(σ₁ − σ₃), Tresca's, Pa."""
+        """Largest shear stress on any plane (Tresca), ½(σ₁ − σ₃), Pa."""
         return self._invariant("max_shear", ())
 
     @cached_property
     def principal(self) -> NDArray[np.float64]:
-        """Principal stresses σ₁ ≥ σ₂ ≥ σ₃, Pa: the first index tells which, those of the point follow."""
+        """Principal stresses σ₁ ≥ σ₂ ≥ σ₃, Pa. The first index selects the stress, the others the point."""
         return np.asarray(self._invariant("principal", (3,)))
 
     def _invariant(self, which: str, leading: tuple[int, ...]) -> Any:
@@ -149,7 +153,7 @@ class Stress(Comparable):
 class SubsurfaceStress(Stress):
     """The stress in a body on planes parallel to its surface; components are arrays ``[iz, ix, iy]``.
 
-    Made by :func:`asperity.stress`.
+    Returned by :func:`asperity.stress`.
 
     Attributes
     ----------
@@ -181,69 +185,70 @@ class SubsurfaceStress(Stress):
 
     @property
     def most_stressed(self) -> Extreme:
-        """The largest von Mises' stress, and where it is.
+        """The largest von Mises stress and its position.
 
-        It is looked for on a few planes more between those beside the most stressed point, so that its depth is found to
-        about a hundredth of the distance of the planes.
+        The search uses a few more planes next to the most stressed point, so that its depth is accurate to about a hundredth of the
+        distance of the planes.
         """
         return self._extremes[0]
 
     @property
     def most_sheared(self) -> Extreme:
-        """The largest shear stress on any plane, and where it is, looked for as :attr:`most_stressed`."""
+        """The largest shear stress on any plane and its position, found like :attr:`most_stressed`."""
         return self._extremes[1]
 
-    def to_xarray(self) -> Any:
-        """The components, von Mises' stress and the largest shear as a Dataset of xarray over z, x and y, m."""
+    def to_xarray(self) -> Dataset:
+        """Return the components, the von Mises stress and the largest shear as an xarray Dataset over z, x and y, m."""
         xarray = need("xarray", "to_xarray()")
         _, nx, ny = self.shape
         x, y = (self.pitch[axis] * (np.arange(n) + 0.5) for axis, n in enumerate((nx, ny)))
         coordinates = {name: (name, at, {"units": "m"}) for name, at in (("z", self.depths), ("x", x), ("y", y))}
         arrays: Mapping[str, Any] = {**{name: self[name] for name in COMPONENTS}, "von_mises": self.von_mises}
         arrays = {**arrays, "max_shear": self.max_shear}
-        return xarray.Dataset(
+        dataset: Dataset = xarray.Dataset(
             {name: (("z", "x", "y"), array, {"units": "Pa"}) for name, array in arrays.items()}, coordinates
         )
+        return dataset
 
 
 def stress(
     source: Contact | ArrayLike,
     depths: Quantity | Sequence[Quantity] | NDArray[np.float64],
     *,
-    body: str = "lower",
+    body: Literal["lower", "upper"] = "lower",
     poisson: float | None = None,
     material: Material | None = None,
-    boundary: str | None = None,
+    boundary: Boundary | None = None,
     shear: Sequence[ArrayLike | None] | None = None,
     pitch: Pair | None = None,
     threads: int | None = None,
 ) -> SubsurfaceStress:
     """Compute the stress below the surface of a body under given tractions.
 
-    Exact to round-off for tractions that are uniform in each cell (free), or for the harmonics of the values at the cells
-    (periodic). Under the mean pressure of a periodic contact the body cannot widen.
+    The stress is exact to round-off for tractions that are uniform in each cell (free), or for the harmonics of the values at the
+    cells (periodic). Under the mean pressure of a periodic contact the body cannot expand laterally.
 
     Parameters
     ----------
     source : Contact or array_like
-        A contact, which brings the tractions, pitch, boundary and Poisson's ratio along; or the pressure on each cell, a
-        matrix ``[ix, iy]``, Pa.
+        A contact, which provides tractions, pitch, boundary and Poisson's ratio; or the pressure on each cell, a matrix
+        ``[ix, iy]``, Pa.
     depths : float, str or sequence of them
         Depths of the planes below the surface, ascending, at least 0, m; at 0 the limit from within.
     body : str
         ``"lower"`` or ``"upper"``. z points into the body, x and y are those of the contact.
     poisson : float, optional
-        Poisson's ratio of the body, 0 to 0.5; or a `material` that has it.
+        Poisson's ratio of the body, 0 to 0.5. Give it or a `material`.
     material : Material, optional
-        What the body is made of.
+        Material of the body.
     boundary : str, optional
-        What lies beyond the rim, ``"free"``, the default, or ``"periodic"``.
+        The surroundings of the grid: ``"free"`` (by default) or ``"periodic"``.
     shear : pair of array_like, optional
         Shear tractions along +x and +y on the lower body, Pa, matrices of the same shape; ``None`` for none.
     pitch : float, str or pair of them, optional
         Size of a cell along x and y, m.
     threads : int, optional
-        Threads that share the work; one for each core by default.
+        Number of threads; one for each core by default.
 
     Returns
     -------
@@ -252,9 +257,9 @@ def stress(
     Raises
     ------
     asperity.errors.BadInput
-        For arguments without meaning, a body with a coating, a boundary that is periodic along one axis alone.
+        If an argument is invalid, the body has a coating, or the boundary is periodic along one axis only.
     asperity.errors.Memory
-        If the planes take more memory than there is.
+        If the planes need more memory than is available.
     KeyboardInterrupt
         At Ctrl-C, between two planes.
 

@@ -1,4 +1,4 @@
-"""Studies: many cases made of one."""
+"""Studies: many variants of one case."""
 
 from __future__ import annotations
 
@@ -8,33 +8,39 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _case, _core, fields
+from . import _case, _core
 from ._contact import Contact
 from ._keywords import Tasks, takes
 from ._progress import Teller
 from ._run import Run, _path, open
+from ._optional import need
 from ._same import Comparable
+from ._show import unit_of
+from ._table import Units, frame
 from ._units import path
 from .errors import FailedCases, NoResults, NotResumable, _make, bad_input, warn
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from pandas import DataFrame
     from typing_extensions import Unpack
+    from xarray import Dataset
 
 _State = NDArray[np.str_]
 
 
 class Study(Comparable):
-    """A study: a case, changed in some of its values, many times.
+    """A study: many variants of one case.
 
-    Cases are known by their number, from 1. What has become of them is read when it is asked for: other processes may be at work on
-    the study at the same time.
+    Each case has a number, from 1. The state of the cases is read from the files on access, because other processes may work on the
+    study at the same time.
 
     Parameters
     ----------
     file : path
-        The study file, as ``asperity study`` takes it.
+        The study file, as for ``asperity study``.
     out : path, optional
-        Directory of the study; by default called as the file, without its end.
+        Directory of the study. By default it has the name of the file without its extension.
 
     Attributes
     ----------
@@ -43,16 +49,17 @@ class Study(Comparable):
     directory : pathlib.Path
         Directory of the study, made by :meth:`run`.
     title : str
-        By default the file's name.
+        Title of the study, by default the name of the file.
     axes : dict of str to ndarray
-        The values of each axis by its key: numbers in SI, or texts.
+        Values of each axis by its key: numbers in SI, or texts.
     units : dict of str to str
-        The SI unit of each axis; empty of pure numbers and of texts.
+        SI unit of each axis; empty for pure numbers and texts.
 
     Raises
     ------
     asperity.errors.CaseError
-        For a mistake in the study file, its table or its base, with its `key`, `line` and `column`. Every value of every axis is tried.
+        If the study file, its table or its base has a mistake. The exception has its `key`, `line` and `column`. Every value of
+        every axis is checked.
     """
 
     def __init__(self, file: str | os.PathLike[str], out: str | os.PathLike[str] | None = None) -> None:
@@ -71,7 +78,7 @@ class Study(Comparable):
         return Study, (self.file, self.directory)
 
     def __len__(self) -> int:
-        """How many cases there are."""
+        """Number of cases."""
         return len(self._core.indices())
 
     def __repr__(self) -> str:
@@ -89,7 +96,7 @@ class Study(Comparable):
 
     @property
     def plan(self) -> NDArray[np.void]:
-        """A record for each case: its number, `case`, and its value of each axis, SI."""
+        """A record for each case: its number `case`, and its value on each axis, SI."""
         indices = self._core.indices()
         columns: dict[str, NDArray[Any]] = {"case": np.arange(1, len(indices) + 1, dtype=np.int64)}
         for n, (key, values) in enumerate(self.axes.items()):
@@ -98,35 +105,37 @@ class Study(Comparable):
 
     @property
     def states(self) -> _State:
-        """How each case stands: ``"done"``, ``"failed"``, ``"running"`` in some process, or ``"open"``."""
+        """State of each case: ``"done"``, ``"failed"``, ``"running"`` in some process, or ``"open"``."""
         return np.array([state for state, _ in self._core.states()])
 
     @property
     def left(self) -> NDArray[np.int64]:
-        """The numbers of the cases that are neither done nor failed."""
+        """Numbers of the cases that are neither done nor failed."""
         states = self.states
         return np.flatnonzero((states == "open") | (states == "running")) + 1
 
     @property
     def failures(self) -> dict[int, str]:
-        """Why cases have failed, by their numbers."""
+        """Reasons why cases failed, by the number of the case."""
         return {n: message for n, (_, message) in enumerate(self._core.states(), 1) if message is not None}
 
     @property
     def table(self) -> NDArray[np.void]:
-        """A record for each case that is over, with the columns of ``table.csv``.
+        """A record for each finished case, with the columns of ``table.csv``.
 
-        These are `case`, the axes, numbers of the summary, SI, NaN where a case has none, then `warnings`, how many, `state`,
-        ``"done"`` or ``"failed"``, and the `message` of a failure.
+        The columns are `case`, the axes, the numbers of the summary, `warnings`, `state` and `message`. Numbers are in SI, and NaN if
+        a case does not have them. `warnings` is the number of warnings, `state` is ``"done"`` or ``"failed"``, and `message` is the
+        reason of a failure.
         """
         return self._records(self._core.table())
 
     @takes(Tasks)
     def run(self, **options: Unpack[Tasks]) -> None:
-        """Compute what is left, as the command ``asperity study`` does; who finishes the last case makes tables and page.
+        """Compute the remaining cases, as the command ``asperity study`` does.
 
-        A case that cannot be computed is a row of the :attr:`table` with its message; the others are computed. Stopped, killed or
-        called again, it goes on where it was, and any number of processes may be at work on one study.
+        The process that finishes the last case writes the tables and the page. A case that cannot be computed has a row in the
+        :attr:`table` with its message, and the other cases are computed. A study that was stopped or killed continues where it was.
+        Any number of processes may work on one study.
 
         Parameters
         ----------
@@ -135,11 +144,11 @@ class Study(Comparable):
         Raises
         ------
         asperity.errors.NotThisStudy
-            If the directory holds another study, or something else.
+            If the directory contains another study, or something else.
         asperity.errors.FileProblem
-            Where the study cannot be written to.
+            If the study cannot be written.
         KeyboardInterrupt
-            At Ctrl-C; what is done stays.
+            At Ctrl-C. Finished cases stay.
 
         Warns
         -----
@@ -154,22 +163,22 @@ class Study(Comparable):
             warn([f"{len(failed)} of {len(self)} cases have failed, the first is case {case}: {message}"], FailedCases)
 
     def collect(self) -> NDArray[np.void]:
-        """Write ``table.csv``, ``table.h5`` and ``study.html`` of what is there, and give the :attr:`table`.
+        """Write ``table.csv``, ``table.h5`` and ``study.html`` of the finished cases, and return the :attr:`table`.
 
         Raises
         ------
         asperity.errors.NotThisStudy
-            If the study was not begun.
+            If the study has not been started.
         """
         return self._records(self._core.collect())
 
     def open(self, case: int) -> Run | Contact:
-        """Open the results of a case, from 1, as :func:`open` does.
+        """Open the results of a case, counted from 1, as :func:`open` does.
 
         Raises
         ------
         asperity.errors.NoResults
-            If it is not done.
+            If the case is not done.
         """
         if not 1 <= case <= len(self):
             raise bad_input("case", f"'case' is {case}, expected a case from 1 to {len(self)}")
@@ -182,12 +191,81 @@ class Study(Comparable):
                 raise
         raise _make("NoResults", f"case {case} failed: {failure}", {"path": directory}, "retry=True computes it again")
 
-    def to_pandas(self) -> Any:
-        """The :attr:`table` as a DataFrame of pandas over `case`, with its units as the attribute `units`."""
-        made = fields.frame(self.table, "case")
+    @property
+    def table_units(self) -> dict[str, str]:
+        """SI unit of each column of the :attr:`table`; ``"1"`` for a pure number, empty for a text."""
+        units = {name: unit_of(name) for name in self.table.dtype.names or ()}
         for key, values in self.axes.items():
-            made.attrs["units"][key] = self.units[key] or ("1" if values.dtype.kind in "iuf" else "")
-        return made
+            units[key] = self.units[key] or ("1" if values.dtype.kind in "iuf" else "")
+        return units
+
+    def to_pandas(self, units: Units = "si") -> DataFrame:
+        """Return the :attr:`table` as a pandas DataFrame over `case`, with its units in the attribute `units`.
+
+        Parameters
+        ----------
+        units : {"si", "display"}
+            Units of the numbers. ``"display"`` gives each column a suitable prefix and writes the unit into its name, such as
+            ``"approach (nm)"``. Use it to print a table: in SI, pandas prints small numbers as 0.0.
+        """
+        return frame(self.table, ["case"], self.table_units, units)
+
+    def to_xarray(self) -> Dataset:
+        """Return the :attr:`table` as an xarray Dataset, with the units in the attribute `units` of each variable.
+
+        If the plan has one case for each combination of values, the axes are the dimensions. Otherwise the dimension is `case`, and
+        the axes are coordinates. Numbers of unfinished cases are NaN.
+        """
+        xarray = need("xarray", "to_xarray()")
+        table, plan, units = self.table, self.plan, self.table_units
+        indices = np.asarray(self._core.indices())
+        shape = tuple(len(values) for values in self.axes.values())
+        places = np.ravel_multi_index(tuple(indices.T), shape)
+        is_grid = len(places) == np.prod(shape) == len(set(places.tolist()))
+
+        def spread(values: NDArray[Any]) -> tuple[Any, NDArray[Any]]:
+            return (tuple(self.axes), values[np.argsort(places)].reshape(shape)) if is_grid else ("case", values)
+
+        variables: dict[str, Any] = {"case": plan["case"], "state": self.states}
+        for name in table.dtype.names or ():
+            if name not in self.axes and name not in variables:
+                values = table[name]
+                whole = np.full(len(plan), np.nan) if values.dtype.kind == "f" else np.zeros(len(plan), values.dtype)
+                whole[table["case"] - 1] = values
+                variables[name] = whole
+        coordinates = {
+            key: (key if is_grid else "case", values if is_grid else plan[key], {"units": units[key]})
+            for key, values in self.axes.items()
+        }
+        dataset: Dataset = xarray.Dataset(
+            {name: (*spread(values), {"units": units[name]}) for name, values in variables.items()},
+            coordinates,
+            {"title": self.title},
+        )
+        return dataset
+
+    def plot(
+        self, quantity: str, x: str | None = None, color: str | None = None, *, ax: Axes | None = None, **options: Any
+    ) -> Axes:
+        """Draw a column of the :attr:`table` with matplotlib: a point for each case, and a line through the means.
+
+        Parameters
+        ----------
+        quantity : str
+            The column to draw, such as ``"contact_area"``.
+        x : str, optional
+            The axis of the study, such as ``"contact.load"``, or another column along the x axis. By default it is the first axis
+            of numbers. Only an axis gets a line.
+        color : str, optional
+            The axis of the study that is shown by colours. Means are taken over all other axes.
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; new ones by default.
+        **options
+            Passed on to ``Axes.plot``.
+        """
+        from ._study_plot import study
+
+        return study(self, quantity, x, color, ax, **options)
 
     def _records(self, collected: Any) -> NDArray[np.void]:
         cases, columns, warnings, messages = collected or ([], [], [], [])
@@ -211,8 +289,10 @@ def study(
 
     Parameters
     ----------
-    file, out
-        As of :class:`Study`.
+    file : path
+        The study file.
+    out : path, optional
+        Directory of the study. By default it has the name of the file without its extension.
     **options
 
     Returns
@@ -222,7 +302,7 @@ def study(
     Raises
     ------
     asperity.errors.CaseError, asperity.errors.NotThisStudy, KeyboardInterrupt
-        As of :class:`Study` and :meth:`Study.run`.
+        For the same reasons as :class:`Study` and :meth:`Study.run`.
 
     Warns
     -----
@@ -246,7 +326,7 @@ def _share(task: tuple[int, int] | None) -> tuple[int, int]:
 
 
 def _records(columns: dict[str, NDArray[Any]]) -> NDArray[np.void]:
-    """Columns of one length as a structured array."""
+    """Makes a structured array of columns of the same length."""
     lengths = {len(values) for values in columns.values()}
     table = np.zeros(lengths.pop(), dtype=[(name, values.dtype) for name, values in columns.items()])
     for name, values in columns.items():

@@ -24,6 +24,12 @@ def quantity(key: str, value: Any, dimension: str, *, positive: bool = True, inf
     return _core.quantity(key, value, dimension, positive, infinite)
 
 
+def written(value: float, dimension: str) -> str:
+    """`value` as Python code: a text with a suitable unit if it means exactly this value, else the number."""
+    text: str = _core.format(value, dimension)
+    return repr(text) if _core.quantity("value", text, dimension, False, True) == value else repr(value)
+
+
 def lengths(key: str, value: Pair) -> tuple[float, float]:
     """One length for x and y, or one for each, in metres."""
     if isinstance(value, (str, float, int)) or not hasattr(value, "__len__") or np.ndim(value) == 0:

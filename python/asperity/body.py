@@ -1,14 +1,15 @@
-"""A body: a surface of a material."""
+"""Bodies: surfaces with their material."""
 
 from __future__ import annotations
 
 import copy
 from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from . import keys
 from ._same import Comparable
 from .errors import bad_input
 from .material import Material
@@ -18,24 +19,24 @@ Mount = Literal["turned-over", "as-is"]
 
 
 class Body(Comparable):
-    """A surface of a material.
+    """A body: a surface with its material.
 
     Parameters
     ----------
     surface : Surface
         The heights.
     material : Material
-        What is below them.
+        The material below the heights.
     mount : {"turned-over", "as-is"}, optional
-        How the heights of an upper body face: measured material side up and turned over about y when it is mounted, or the
-        heights of its underside already. Without it, an underside from results is taken as it is, and all else turned over. It
-        means nothing of a lower body.
-    wear : mapping, optional
-        How it wears, with the keys of `[lower.wear]`: `coefficient`, `dimensionless` or `energy`; `under_film`.
-    film : mapping, optional
-        The tribofilm that grows on it, with the keys of `[lower.film]`.
-    thermal : mapping, optional
-        `conductivity`, W/(m K), `heat_capacity`, J/(kg K), and `density`, kg/m³, for a flash temperature.
+        Orientation of the heights of an upper body. ``"turned-over"``: they are measured with the material below, and the body is
+        turned over about y. ``"as-is"``: they are already the heights of the underside. By default an underside from results is
+        taken as it is, and any other surface is turned over. A lower body does not use it.
+    wear : keys.Wear, optional
+        Wear of the body: `coefficient`, `dimensionless` or `energy`, and `under_film`.
+    film : keys.Film, optional
+        Tribofilm on the body.
+    thermal : keys.Thermal, optional
+        Thermal constants for a flash temperature: `conductivity`, W/(m K), `heat_capacity`, J/(kg K), and `density`, kg/m³.
     """
 
     def __init__(
@@ -44,9 +45,9 @@ class Body(Comparable):
         material: Material,
         mount: Mount | None = None,
         *,
-        wear: Mapping[str, Any] | None = None,
-        film: Mapping[str, Any] | None = None,
-        thermal: Mapping[str, Any] | None = None,
+        wear: keys.Wear | None = None,
+        film: keys.Film | None = None,
+        thermal: keys.Thermal | None = None,
     ) -> None:
         if not isinstance(surface, Surface):
             hint = "asp.Surface(heights, pitch=...) makes one of an array"
@@ -67,12 +68,12 @@ class Body(Comparable):
         return f"Body({self.surface!r}, {self.material!r}{mount})"
 
 
-def _copied(table: Mapping[str, Any] | None) -> dict[str, Any] | None:
-    return None if table is None else copy.deepcopy(dict(table))
+def _copied(table: object) -> dict[str, Any] | None:
+    return None if table is None else copy.deepcopy(dict(cast(Mapping[str, Any], table)))
 
 
 class Handed:
-    """The bodies of a case as its tables, and what is handed over beside them."""
+    """The bodies of a case: their tables, and the arrays that belong to them."""
 
     def __init__(self, lower: Body, upper: Body) -> None:
         self.tables: dict[str, Any] = {}
@@ -103,12 +104,12 @@ class Handed:
 
     @property
     def given(self) -> dict[str, Any]:
-        """What the compiled module takes."""
+        """The arrays for the compiled module."""
         return {"topographies": self.topographies, "hardness": self.hardness}
 
 
 def bodies(lower: Any, upper: Any, lower_material: Material | None, upper_material: Material | None) -> tuple[Body, Body]:
-    """Two bodies, of bodies or of surfaces with their materials."""
+    """Makes two bodies of bodies, or of surfaces with their materials."""
     return _body("lower", lower, lower_material), _body("upper", upper, upper_material)
 
 
@@ -126,7 +127,7 @@ def _body(name: str, given: Any, material: Material | None) -> Body:
 
 
 def heights_like(value: ArrayLike, shape: tuple[int, int], key: str) -> Any:
-    """A matrix of this shape; a number stands for all cells."""
+    """Makes a matrix of this shape. A number is used for all cells."""
     array = np.asarray(value, dtype=np.float64)
     if array.ndim > 0 and array.shape != shape:
         found = " × ".join(map(str, array.shape))

@@ -1,6 +1,6 @@
-"""What a surface is like: what the methods of :class:`asperity.Surface` give that describe it.
+"""Description of surfaces: the answers of the methods of :class:`asperity.Surface`.
 
-Nothing is levelled or filtered here: level and filter first. Numbers are SI, heights are taken from their mean, undefined
+Level and filter a surface first: nothing here does so. Numbers are in SI, heights are measured from their mean, and undefined
 samples are left out.
 """
 
@@ -20,11 +20,30 @@ from ._same import Comparable, same
 from ._units import Quantity, number, quantity, whole
 from .errors import bad_input
 
+__all__ = [
+    "Axis",
+    "BearingCurve",
+    "Core",
+    "Correlation",
+    "Distribution",
+    "GreenwoodWilliamson",
+    "Parameter",
+    "Parameters",
+    "Profile",
+    "Segmentation",
+    "SelfAffinity",
+    "SpectralMoments",
+    "Spectrum",
+    "Summits",
+    "WOLF_PRUNING",
+    "Window",
+]
+
 Axis = Literal["x", "y"]
 """A direction in the plane of the surface."""
 
 Window = Literal["none", "hann", "radial-hann", "welch"]
-"""Weights that fall to zero at the rim: none, for periodic surfaces; Hann's, along x and y or radial; Welch's."""
+"""Window that falls to zero at the rim: none for periodic surfaces, Hann along x and y, radial Hann, or Welch."""
 
 WOLF_PRUNING: float = _core.WOLF_PRUNING
 """The Wolf pruning of ISO 25178-3, as a share of Sz."""
@@ -39,17 +58,17 @@ class Parameter(NamedTuple):
     Attributes
     ----------
     symbol : str
-        As ISO writes it.
+        Symbol in the ISO standard.
     value : float
-        SI, a share as a part of one; NaN where it has no meaning.
+        Value in SI, a ratio between 0 and 1; NaN if it has no meaning.
     unit : str
-        Unit of the value, SI; 1 of a number.
+        SI unit of the value; ``"1"`` for a pure number.
     family : str
         ``"height"``, ``"spatial"``, ``"hybrid"``, ``"functional"``, ``"feature"`` or ``"profile"``.
     meaning : str
-        What it is, in a few words.
+        Meaning in a few words.
     text : str
-        The value as people write it.
+        The value with a suitable unit.
     """
 
     symbol: str
@@ -69,7 +88,7 @@ class Parameter(NamedTuple):
 class Parameters(Mapping[str, Parameter]):
     """Roughness parameters by their symbols.
 
-    ``p.Sq`` is the value, ``p["Sq"]`` all there is to know of it, a :class:`Parameter`; printed, it is a table.
+    ``p.Sq`` is a value. ``p["Sq"]`` is a :class:`Parameter` with its unit and meaning. ``print(p)`` prints a table.
 
     Examples
     --------
@@ -130,23 +149,23 @@ class Parameters(Mapping[str, Parameter]):
 
     @property
     def families(self) -> list[str]:
-        """Names of the families, in their order."""
+        """Names of the families in their order."""
         return list(dict.fromkeys(row.family for row in self._rows.values()))
 
     def family(self, name: str) -> Parameters:
-        """The parameters of one family."""
+        """Return the parameters of one family."""
         if name not in self.families:
             raise KeyError(f"no family {name!r}, there are {', '.join(self.families)}")
         return Parameters([row for row in self._rows.values() if row.family == name])
 
     @property
     def numbers(self) -> dict[str, float]:
-        """The values alone, by symbol."""
+        """Return the values by symbol."""
         return {symbol: row.value for symbol, row in self._rows.items()}
 
 
 class Core(NamedTuple):
-    """The core of a material ratio curve, and what protrudes from it: Sk, Spk and their kin by the letters after S or R.
+    """Core, peaks and pits of a material ratio curve. The names are the letters after S or R, such as Sk and Spk.
 
     Attributes
     ----------
@@ -155,13 +174,13 @@ class Core(NamedTuple):
     k : float
         Height of the core, m.
     pk, vk : float
-        Reduced height of what protrudes above, reduced depth of what lies below, m.
+        Reduced height of the peaks above the core, reduced depth of the pits below it, m.
     pkx, vkx : float
-        The same of the highest and of the lowest sample, not reduced, m.
+        Height of the highest sample above the core, depth of the lowest sample below it, m.
     mrk1, mrk2 : float
         Material ratios at the upper and at the lower end of the core.
     ak1, ak2 : float
-        Material above and void below the core, m³/m² (of a profile m²/m).
+        Material above and void below the core, m³/m² (for a profile m²/m).
     """
 
     upper: float
@@ -178,20 +197,20 @@ class Core(NamedTuple):
 
 
 class BearingCurve(Comparable):
-    """The height above which a share of the samples lies, from their mean: the Abbott–Firestone curve.
+    """Material ratio curve (Abbott–Firestone curve): the height above which a share of the samples lies.
 
-    The samples in descending order stand in the middle of their shares of the ratio; between them the curve is linear. A
-    ratio outside 0 … 1 counts as the nearer of the two. ISO 25178-2:2021, 4.5.
+    The curve is linear between the samples in descending order; each lies in the middle of its share of the ratio. A ratio outside
+    0 … 1 is replaced by the nearer of the two. ISO 25178-2:2021, 4.5.
 
     Parameters
     ----------
     samples : array_like
-        Heights, m, of any shape; NaN where undefined.
+        Heights of any shape, m; undefined ones are NaN.
 
     Raises
     ------
     asperity.errors.NothingDefined
-        If all are undefined.
+        If all samples are undefined.
 
     Examples
     --------
@@ -223,28 +242,28 @@ class BearingCurve(Comparable):
 
     @cached_property
     def heights(self) -> NDArray[np.float64]:
-        """The samples' heights from their mean, descending, m."""
+        """Heights of the samples from their mean, descending, m."""
         heights: NDArray[np.float64] = self._core.heights()
         return heights
 
     def height(self, ratio: Point) -> Point:
-        """Height at a material ratio from 0 (the highest sample) to 1 (the lowest), m: Smc."""
+        """Return the height Smc at a material ratio from 0 (the highest sample) to 1 (the lowest), m."""
         return self._at("height", ratio)  # type: ignore[no-any-return]
 
     def ratio(self, height: Point) -> Point:
-        """Material ratio at a height from the mean, the largest at which the curve is as high: Smr."""
+        """Return the material ratio Smr at a height from the mean: the largest ratio at which the curve is as high."""
         return self._at("ratio", height)  # type: ignore[no-any-return]
 
     def material_volume(self, ratio: Point) -> Point:
-        """Material above the height at a material ratio, m³/m²: Vm."""
+        """Return the material volume Vm above the height at a material ratio, m³/m²."""
         return self._at("material_volume", ratio)  # type: ignore[no-any-return]
 
     def void_volume(self, ratio: Point) -> Point:
-        """Void below the height at a material ratio, m³/m²: Vv."""
+        """Return the void volume Vv below the height at a material ratio, m³/m²."""
         return self._at("void_volume", ratio)  # type: ignore[no-any-return]
 
     def core(self) -> Core | None:
-        """The parameters of stratified surfaces, Sk and its kin, by ISO 13565-2; none of fewer than about five samples."""
+        """Return the parameters of stratified surfaces, such as Sk, by ISO 13565-2; `None` for fewer than about five samples."""
         found = self._core.core()
         return None if found is None else Core(**dict(found))
 
@@ -253,14 +272,14 @@ class BearingCurve(Comparable):
 
 
 class Distribution(Comparable):
-    """A density over classes of one width, by counting; its integral is 1.
+    """A probability density over classes of equal width. Its integral is 1.
 
     Attributes
     ----------
     edges : ndarray
-        Ends of the classes, one more than there are: heights from their mean, m, or slopes.
+        Edges of the classes, one more than classes: heights from their mean, m, or slopes.
     density : ndarray
-        Share of the values in each class over its width: per metre of heights, a number of slopes.
+        Share of the values in each class over its width, 1/m for heights, 1 for slopes.
     """
 
     def __init__(self, lowest: float, width: float, density: NDArray[np.float64]) -> None:
@@ -272,7 +291,7 @@ class Distribution(Comparable):
 
     @property
     def centres(self) -> NDArray[np.float64]:
-        """Middles of the classes."""
+        """Centres of the classes."""
         return 0.5 * (self.edges[1:] + self.edges[:-1])
 
     @property
@@ -282,19 +301,19 @@ class Distribution(Comparable):
 
 
 class Profile(Comparable):
-    """Heights along a line at one spacing, filtered and described after ISO 21920-2:2021.
+    """A profile: heights along a line at equal distances, filtered and described by ISO 21920-2:2021.
 
     Parameters
     ----------
     heights : array_like
-        Heights, m; NaN where undefined.
+        Heights, m; undefined ones are NaN.
     pitch : float or str
         Distance between two samples, above 0, m.
 
     Raises
     ------
     asperity.errors.BadInput
-        Without heights, for an infinite one, or a pitch without meaning.
+        If there are no heights, one of them is infinite, or the pitch is wrong.
 
     Examples
     --------
@@ -334,7 +353,7 @@ class Profile(Comparable):
 
     @cached_property
     def heights(self) -> NDArray[np.float64]:
-        """Heights, m; NaN where undefined."""
+        """Heights, m; undefined ones are NaN."""
         heights: NDArray[np.float64] = _core.line_heights(self._line())
         return heights
 
@@ -350,43 +369,43 @@ class Profile(Comparable):
 
     @property
     def section(self) -> float | None:
-        """Section length of a roughness profile, its cut-off, m; none where the whole profile is one section."""
+        """Section length of a roughness profile, which is its cut-off, m; `None` if the whole profile is one section."""
         return next((length for name, length in self._filters[-1:] if name == "roughness"), None)
 
     def primary(self, nesting_index: Quantity) -> Profile:
-        """The primary profile: without waves below the nesting index λs, of at least two pitches, m. ISO 16610-21."""
+        """Return the primary profile, without waves below the nesting index λs, at least two pitches, m. ISO 16610-21."""
         return self._filtered("primary", nesting_index)
 
     def waviness(self, cutoff: Quantity) -> Profile:
-        """The waviness: without waves below the cut-off λc, of at least two pitches, m."""
+        """Return the waviness profile, without waves below the cut-off λc, at least two pitches, m."""
         return self._filtered("waviness", cutoff)
 
     def roughness(self, cutoff: Quantity) -> Profile:
-        """The roughness: what the waviness leaves, to be described in sections of the length λc, m."""
+        """Return the roughness profile: the profile minus its waviness, with sections of the length λc, m."""
         return self._filtered("roughness", cutoff)
 
     def parameters(self) -> Parameters:
-        """The parameters of ISO 21920 of the profile as it is; those of the roughness are of :meth:`roughness`."""
+        """Return the ISO 21920 parameters of this profile. Those of the roughness belong to the profile of :meth:`roughness`."""
         return Parameters(_core.line_parameters(self._line()))
 
     def bearing_curve(self) -> BearingCurve:
-        """The material ratio curve of the profile."""
+        """Return the material ratio curve of the profile."""
         return BearingCurve(self.heights)
 
 
 class GreenwoodWilliamson(NamedTuple):
-    """A rough surface as the model of Greenwood and Williamson takes it: asperities of one radius and Gaussian heights.
+    """A rough surface in the model of Greenwood and Williamson: asperities of one radius with Gaussian heights.
 
     Greenwood & Williamson, Proc. R. Soc. A 295, 300 (1966).
 
     Attributes
     ----------
     density : float
-        Asperities per area η, 1/m².
+        Number of asperities per area η, 1/m².
     radius : float
-        Radius R of their tips, the inverse of their mean curvature, m.
+        Radius R of the tips, the inverse of their mean curvature, m.
     height_deviation : float
-        Standard deviation σs of their heights, m.
+        Standard deviation σs of the heights of the asperities, m.
     mean_height : float
         Mean height of the summits above the mean of the surface, m.
     """
@@ -400,7 +419,7 @@ class GreenwoodWilliamson(NamedTuple):
 class SpectralMoments(Comparable):
     """Spectral moments: variances of the heights and, along x and y, of slope and curvature.
 
-    m₂ and m₄ rest on the shortest waves. Longuet-Higgins, Phil. Trans. R. Soc. A 249, 321 (1957); Nayak, J. Lubr. Technol.
+    The shortest waves dominate m₂ and m₄. Longuet-Higgins, Phil. Trans. R. Soc. A 249, 321 (1957); Nayak, J. Lubr. Technol.
     93, 398 (1971).
 
     Attributes
@@ -408,11 +427,11 @@ class SpectralMoments(Comparable):
     m0 : float
         Variance of the heights, m².
     m2, m4 : tuple of float
-        Variances along x and y of the slope, and of the curvature, 1/m².
+        Variances along x and y of the slope, and of the curvature, 1 and 1/m².
     mean_m2, mean_m4 : float
-        Those of an isotropic surface, the means over x and y.
+        Means over x and y, for an isotropic surface, 1 and 1/m².
     bandwidth : float
-        Nayak's α = m₀m₄/m₂², of the means: 3/2 for an isotropic surface of a single wavelength.
+        Nayak's α = m₀m₄/m₂² with the means: 3/2 for an isotropic surface of a single wavelength.
     """
 
     def __init__(self, found: Any) -> None:
@@ -426,7 +445,7 @@ class SpectralMoments(Comparable):
         return f"<SpectralMoments: m0 {self.m0:.4g} m², m2 {self.mean_m2:.4g}, m4 {self.mean_m4:.4g} 1/m²>"
 
     def greenwood_williamson(self) -> GreenwoodWilliamson:
-        """The asperities of an isotropic Gaussian surface with these moments.
+        """Return the asperities of an isotropic Gaussian surface with these moments.
 
         η = m₄/(6π√3 m₂),  R = 3√π/(8√m₄),  σs² = (1 − 0.8968/α) m₀,  z̄s = 4 √(m₀/πα). Nayak (1971) for η; Bush, Gibson &
         Keogh, Mech. Res. Commun. 3, 169 (1976) and McCool, J. Tribol. 109, 264 (1987) for the rest.
@@ -435,22 +454,22 @@ class SpectralMoments(Comparable):
 
 
 class SelfAffinity(NamedTuple):
-    """The self-affine law that fits best: C(q) ∝ q^(−2−2H), or mean square height differences ∝ τ^(2H).
+    """The best fit of a self-affine law: C(q) ∝ q^(−2−2H), or mean square height differences ∝ τ^(2H).
 
     Attributes
     ----------
     hurst, hurst_error : float
         Hurst exponent H and its standard error.
     range : tuple of float
-        First and last abscissa fitted: wave numbers, rad/m, or lags, m.
+        First and last fitted abscissa: wave numbers, rad/m, or lags, m.
     points : int
-        Number of points fitted.
+        Number of fitted points.
     decades : float
-        Decades over which it was fitted.
+        Decades of the fitted range.
     fractal_dimension : float
-        3 − H.
+        Fractal dimension 3 − H.
     doubt : str or None
-        Why the exponent is a slope of the spectrum and not a law of the surface, if it is.
+        Reason why the exponent may be only a slope of the spectrum and no law of the surface.
     """
 
     hurst: float
@@ -474,10 +493,10 @@ _LAGS = np.dtype([("lag", np.float64), ("value", np.float64)])
 class Spectrum(Comparable):
     """Power spectral density of a surface, C(q) = abs(z̃(q))²/A, m⁴.
 
-    Its integral over wave vectors of both signs over (2π)² is Sq² without a window. Undefined samples are spanned by a
+    Without a window, its integral over wave vectors of both signs divided by (2π)² is Sq². Undefined samples are filled by a
     membrane. Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017).
 
-    Made by :meth:`asperity.Surface.spectrum`.
+    Returned by :meth:`asperity.Surface.spectrum`.
 
     Attributes
     ----------
@@ -509,33 +528,33 @@ class Spectrum(Comparable):
 
     @cached_property
     def density(self) -> NDArray[np.float64]:
-        """C(q), m⁴, ``[kx, ky]`` of shape ``(nx, ny // 2 + 1)``: those of a negative qy are left out, since C(−q) = C(q)."""
+        """C(q), m⁴, ``[kx, ky]`` of shape ``(nx, ny // 2 + 1)``. Negative qy are left out, because C(−q) = C(q)."""
         density: NDArray[np.float64] = self._core.density()
         return density
 
     @cached_property
     def wave_numbers(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The wave numbers qx, of both signs, and qy of the rows and columns of `density`, rad/m."""
+        """Wave numbers qx, of both signs, and qy of the rows and columns of `density`, rad/m."""
         x, y = self._core.wave_numbers()
         return x, y
 
     @property
     def nyquist(self) -> float:
-        """The highest wave number up to which waves of all directions are resolved, rad/m."""
+        """Nyquist wave number, up to which waves of all directions are resolved, rad/m."""
         return float(self._core.nyquist())
 
     @property
     def variance(self) -> float:
-        """Variance of the heights, the integral of C over all wave vectors over (2π)², m²."""
+        """Variance of the heights, the integral of C over all wave vectors divided by (2π)², m²."""
         return float(self._core.variance())
 
     def radial(self, per_decade: int | None = 10) -> NDArray[np.void]:
-        """Mean over all directions, C_iso(q), up to the Nyquist wave number.
+        """Return the mean over all directions, C_iso(q), up to the Nyquist wave number.
 
         Parameters
         ----------
         per_decade : int or None
-            So many rings for a factor of ten in wave number; without, rings of one step, 2π over the longer side.
+            Number of rings for a factor of ten in wave number. With `None` the rings have the width 2π over the longer side.
 
         Returns
         -------
@@ -546,7 +565,7 @@ class Spectrum(Comparable):
         return np.array(self._core.radial(rings), dtype=_SPECTRAL)
 
     def angular(self, directions: int = 180) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Variance per radian by the direction of the wave vector.
+        """Return the variance per radian as a function of the direction of the wave vector.
 
         Parameters
         ----------
@@ -556,15 +575,15 @@ class Spectrum(Comparable):
         Returns
         -------
         angles : ndarray
-            From the x axis towards the y axis, from 0 on, below π, rad. The lay is at right angles to them.
+            Angles from the x axis towards the y axis, from 0 to below π, rad. The lay is perpendicular to them.
         density : ndarray
-            m²; its sum times π/`directions` is the variance of the waves up to the Nyquist wave number.
+            Variance per radian, m². Its sum times π/`directions` is the variance of the waves up to the Nyquist wave number.
         """
         count = whole("directions", directions, 1)
         return np.pi / count * np.arange(count, dtype=np.float64), self._core.angular(count)
 
     def along(self, axis: Axis) -> NDArray[np.void]:
-        """The spectrum of the profiles along an axis, the mean over them.
+        """Return the mean spectrum of the profiles along an axis.
 
         Returns
         -------
@@ -575,20 +594,20 @@ class Spectrum(Comparable):
         return np.array(self._core.along(axis), dtype=_SPECTRAL)
 
     def moments(self) -> SpectralMoments:
-        """The spectral moments, as integrals over the spectrum; Hann's window adds (2π/L)² m₀/3 to m₂."""
+        """Return the spectral moments, integrals of the spectrum. A Hann window adds (2π/L)² m₀/3 to m₂."""
         return SpectralMoments(self._core.moments())
 
     def self_affinity(
         self, wave_numbers: tuple[float, float] | None = None, *, per_decade: int = 10
     ) -> SelfAffinity:
-        """The self-affine law of the mean over all directions.
+        """Return the self-affine law of the mean over all directions.
 
         Parameters
         ----------
         wave_numbers : pair of float, optional
-            The range to fit, rad/m; without it the longest on which the spectrum follows a law.
+            The range to fit, rad/m; by default the longest range in which the spectrum follows a law.
         per_decade : int
-            Rings of the mean for a factor of ten.
+            Number of rings for a factor of ten in wave number.
 
         Raises
         ------
@@ -602,12 +621,12 @@ class Spectrum(Comparable):
 class Correlation(Comparable):
     """Autocorrelation function R(τ) = ⟨z(x) z(x + τ)⟩ over all pairs of defined samples, m².
 
-    Made by :meth:`asperity.Surface.autocorrelation`. ISO 25178-2's is R(τ)/R(0).
+    Returned by :meth:`asperity.Surface.autocorrelation`. The autocorrelation of ISO 25178-2 is R(τ)/R(0).
 
     Attributes
     ----------
     periodic : bool
-        Whether the surface was taken to repeat itself.
+        Whether the surface was treated as periodic.
     """
 
     def __init__(self, given: _Given, periodic: bool) -> None:
@@ -634,13 +653,13 @@ class Correlation(Comparable):
 
     @cached_property
     def values(self) -> NDArray[np.float64]:
-        """R at all lags, m², ``[lx, ly]``, the one in the centre that of lag 0; NaN of a lag without a pair."""
+        """R at all lags, m², ``[lx, ly]``, with lag 0 in the centre; NaN for a lag without a pair."""
         values: NDArray[np.float64] = self._core.values()
         return values
 
     @property
     def lags(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The lags along x and y of the rows and columns of `values`, m: half the surface both ways."""
+        """Lags along x and y of the rows and columns of `values`, m: half the surface in both directions."""
         (nx, ny), (dx, dy) = self.values.shape, self._given[1]
         x, y = np.arange(nx, dtype=np.float64), np.arange(ny, dtype=np.float64)
         return dx * (x - nx // 2), dy * (y - ny // 2)
@@ -651,22 +670,22 @@ class Correlation(Comparable):
         return float(self._core.variance())
 
     def along(self, axis: Axis) -> NDArray[np.void]:
-        """R along an axis, from lag 0 on: records of `lag`, m, and `value`, m²."""
+        """Return R along an axis from lag 0 on: records of `lag`, m, and `value`, m²."""
         return np.array(self._core.along(axis), dtype=_LAGS)
 
     def radial(self) -> NDArray[np.void]:
-        """R averaged over all directions: records of `lag`, m, and `value`, m²."""
+        """Return the mean of R over all directions: records of `lag`, m, and `value`, m²."""
         return np.array(self._core.radial(), dtype=_LAGS)
 
     def decay_length(self, angle: Quantity, level: float = 0.2) -> float:
-        """Lag at which R(τ)/R(0) first falls to `level`, below 1, in a direction, m; NaN if it does not within the lags.
+        """Return the lag at which R(τ)/R(0) first falls to `level`, below 1, in a direction, m; NaN if it does not.
 
-        The `angle` is taken from the x axis towards the y axis, rad, or text such as ``"30 deg"``.
+        The `angle` is measured from the x axis towards the y axis, rad, or text such as ``"30 deg"``.
         """
         return float(self._core.decay_length(quantity("angle", angle, "angle", positive=False), _level(level)))
 
     def decay_lengths(self, level: float = 0.2) -> tuple[float, float]:
-        """Shortest and longest decay length over all directions, m: Sal, and Sal/Str; NaN if beyond the lags."""
+        """Return the shortest and the longest decay length of all directions, Sal and Sal/Str, m; NaN beyond the lags."""
         fastest, slowest = self._core.decay_lengths(_level(level))
         return fastest, slowest
 
@@ -674,14 +693,14 @@ class Correlation(Comparable):
 class Summits(Comparable):
     """The summits of a surface: the samples higher than their eight neighbours.
 
-    What is a summit depends on the pitch (Greenwood, Proc. R. Soc. A 393, 133, 1984).
+    Their number depends on the pitch (Greenwood, Proc. R. Soc. A 393, 133, 1984).
 
     Attributes
     ----------
     summits : ndarray
-        A record for each: its sample `ix`, `iy`; `height` above the mean, m; mean `curvature`, 1/m, not negative.
+        A record for each summit: its sample `ix`, `iy`; `height` above the mean, m; mean `curvature`, 1/m, not negative.
     area : float
-        Area on which a summit would have been found, m².
+        Area that was searched for summits, m².
     """
 
     _DTYPE = np.dtype([("ix", np.int64), ("iy", np.int64), ("height", np.float64), ("curvature", np.float64)])
@@ -698,24 +717,24 @@ class Summits(Comparable):
         return f"<Summits: {len(self)} on {_core.format(self.area, 'area')}>"
 
     def greenwood_williamson(self) -> GreenwoodWilliamson:
-        """Density, radius of mean curvature, deviation and mean of the heights; NaN without summits."""
+        """Return density, radius, deviation and mean of the heights of the summits; NaN without summits."""
         return self._asperities
 
 
 class Segmentation(Comparable):
     """A surface divided into hills around its peaks, or into dales around its pits.
 
-    Those too low to matter are pruned. ISO 25178-2:2012, 3.3.1; ISO 16610-85; Wolf, Computers & Geosciences 17, 1359 (1991).
+    Insignificant ones are pruned. ISO 25178-2:2012, 3.3.1; ISO 16610-85; Wolf, Computers & Geosciences 17, 1359 (1991).
 
     Attributes
     ----------
     labels : ndarray
-        For each sample the number of its hill or dale, from 1 in the order of `motifs`; 0 without one.
+        Number of the hill or dale of each sample, from 1 in the order of `motifs`; 0 without one.
     motifs : ndarray
-        A record for each, highest peak or deepest pit first: the sample `ix`, `iy` of the peak or pit; its `height`, m; the
-        height of the `saddle` that it is connected to, m; `local_height` between the two, m; `prominence`, the threshold
-        above which it would be pruned, m; mean `curvature`, 1/m, at least 0 at a peak, at most 0 at a pit; `area`, m²;
-        `volume` above, or below, the saddle, m³; `closed`, whether it does not reach the rim at half the material.
+        A record for each hill or dale, beginning with the highest peak or the deepest pit: the sample `ix`, `iy` of the peak or
+        pit; its `height`, m; the height of its `saddle`, m; `local_height` between the two, m; `prominence`, the threshold above
+        which it would be pruned, m; mean `curvature`, 1/m, at least 0 at a peak, at most 0 at a pit; `area`, m²; `volume` above or
+        below the saddle, m³; `closed`, whether it stays clear of the rim at half the material.
     """
 
     _DTYPE = np.dtype(
@@ -739,54 +758,54 @@ class Segmentation(Comparable):
 
 
 def parameters(given: _Given) -> Parameters:
-    """All parameters of ISO 25178."""
+    """Computes all parameters of ISO 25178."""
     return Parameters(_core.parameters(given))
 
 
 def feature_parameters(given: _Given, pruning: float) -> Parameters:
-    """The feature parameters of ISO 25178."""
+    """Computes the feature parameters of ISO 25178."""
     return Parameters(_core.feature_parameters(given, _share(pruning)))
 
 
 def profile(given: _Given, axis: str, index: int) -> Profile:
-    """The profile along an axis."""
+    """Takes the profile along an axis."""
     heights, pitch = _core.profile(given, axis, whole("index", index, 0))
     return Profile(heights, pitch)
 
 
 def profile_parameters(given: _Given, axis: str, cutoff: Quantity) -> Parameters:
-    """Parameters of the roughness profiles along an axis."""
+    """Computes parameters of the roughness profiles along an axis."""
     return Parameters(_core.profile_parameters(given, axis, quantity("cutoff", cutoff, "length")))
 
 
 def distribution(given: _Given, slope: str | None, classes: int | None) -> Distribution:
-    """The distribution of heights, or of a slope."""
+    """Computes the distribution of heights or of a slope."""
     count = None if classes is None else whole("classes", classes, 1)
     return Distribution(*_core.distribution(given, slope, count))
 
 
 def moments_by_differences(given: _Given) -> SpectralMoments:
-    """The spectral moments by differences between samples."""
+    """Computes the spectral moments from differences between samples."""
     return SpectralMoments(_core.moments_by_differences(given))
 
 
 def self_affinity_of_differences(given: _Given, axis: str, lags: tuple[float, float]) -> SelfAffinity:
-    """The law of the height differences."""
+    """Fits a self-affine law to the height differences."""
     return _law(_core.self_affinity_of_differences(given, axis, _range("lags", lags)))
 
 
 def height_differences(given: _Given, axis: str) -> NDArray[np.void]:
-    """Mean square differences of the heights by their lags."""
+    """Computes mean square height differences by lag."""
     return np.array(_core.height_differences(given, axis), dtype=_LAGS)
 
 
 def summits(given: _Given) -> Summits:
-    """The summits."""
+    """Finds the summits."""
     return Summits(_core.summits(given))
 
 
 def segments(given: _Given, dales: bool, pruning: float) -> Segmentation:
-    """The hills or the dales."""
+    """Divides a surface into hills or dales."""
     return Segmentation(_core.segments(given, dales, _share(pruning)))
 
 
@@ -806,3 +825,7 @@ def _range(key: str, value: Any) -> list[float]:
     if not 0.0 <= low < high:
         raise bad_input(key, f"'{key}' is {value!r}, expected two numbers that ascend")
     return [low, high]
+
+
+def __dir__() -> list[str]:
+    return __all__

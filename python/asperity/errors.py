@@ -1,7 +1,7 @@
-"""Exceptions of asperity: one for each cause, with the numbers needed to act on it as attributes.
+"""Exceptions of asperity: one for each cause, with its numbers as attributes.
 
 Every exception is an :class:`AsperityError`. Bad input is a :class:`ValueError`, a computation that failed a
-:class:`RuntimeError`, a file or a directory an :class:`OSError`. What to do about it, where that is known, is a note
+:class:`RuntimeError`, and a problem with a file or a directory an :class:`OSError`. A hint, if there is one, is a note
 (:pep:`678`), which tracebacks show.
 """
 
@@ -12,19 +12,72 @@ import sys
 import warnings
 from typing import Any
 
+__all__ = [
+    "AsperityError",
+    "AtIncrement",
+    "AtPass",
+    "AtPoint",
+    "AtPosition",
+    "AtUpdate",
+    "BadInput",
+    "BeyondFriction",
+    "BeyondPass",
+    "BeyondPlasticLimit",
+    "CaseError",
+    "CorruptTopography",
+    "Failed",
+    "FailedCases",
+    "File",
+    "FileProblem",
+    "FlowNotConverged",
+    "GridMismatch",
+    "InUse",
+    "InternalError",
+    "Interrupted",
+    "LoadNotReached",
+    "Memory",
+    "MissingFile",
+    "ModelWarning",
+    "NoChannel",
+    "NoField",
+    "NoFormat",
+    "NoPitch",
+    "NoResults",
+    "NotATopography",
+    "NotConverged",
+    "NotFinite",
+    "NotResumable",
+    "NotThisStudy",
+    "NothingDefined",
+    "OtherCase",
+    "OtherRows",
+    "OutOfRange",
+    "OwnUnit",
+    "PeriodicFullContact",
+    "RanksDiffer",
+    "ResultsExist",
+    "SurfaceChanged",
+    "Threads",
+    "TooManyRanks",
+    "UndefinedSamples",
+    "Unsupported",
+    "WindowOutside",
+    "WithinResults",
+]
+
 
 class AsperityError(Exception):
     """Base of all exceptions of asperity."""
 
     hint: str | None = None
-    """What to do about it, where that is known."""
+    """Advice on what to do, if there is any."""
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (type(self), (str(self),), dict(self.__dict__))
 
 
 class BadInput(AsperityError, ValueError):
-    """An argument, a key of a case or the content of a file has no meaning."""
+    """An argument, a key of a case or the content of a file is invalid."""
 
 
 class Failed(AsperityError, RuntimeError):
@@ -41,7 +94,7 @@ class FileProblem(AsperityError, OSError):
 
 
 class OutOfRange(BadInput):
-    """A quantity lies outside the range in which it has a meaning: `quantity`, `value` in SI, `expected`."""
+    """A quantity is out of its range: `quantity`, `value` in SI, `expected`."""
 
     quantity: str
     value: float
@@ -49,7 +102,7 @@ class OutOfRange(BadInput):
 
 
 class GridMismatch(BadInput):
-    """Two grids that must agree do not: `what`, and what it is on the `left` and on the `right`."""
+    """Two grids that must agree do not: `what` differs, and its values on the `left` and on the `right`."""
 
     what: str
     left: str
@@ -57,17 +110,17 @@ class GridMismatch(BadInput):
 
 
 class Unsupported(BadInput):
-    """A combination that has no meaning."""
+    """A combination is not supported."""
 
 
 class CaseError(BadInput):
-    """An argument or a key of a case is wrong: `key`, dotted; of a case file `path`, `line` and `column`, from 1."""
+    """An argument or a key of a case is wrong: `key`, with dots. In a case file also `path`, `line` and `column`, from 1."""
 
     key: str
 
 
 class NotATopography(BadInput):
-    """A file is in none of the formats that are read: `path`, `reason`."""
+    """A file has none of the known formats: `path`, `reason`."""
 
 
 class CorruptTopography(BadInput):
@@ -87,11 +140,11 @@ class NoPitch(BadInput):
 
 
 class NoFormat(BadInput):
-    """The name of a file tells no format to write: `path`."""
+    """The extension of a file belongs to no format: `path`."""
 
 
 class UndefinedSamples(BadInput):
-    """Heights are missing where each is needed: `undefined` of `samples`."""
+    """Heights are missing: `undefined` of `samples`."""
 
     undefined: int
     samples: int
@@ -106,11 +159,11 @@ class WindowOutside(BadInput):
 
 
 class OtherCase(BadInput):
-    """Results that are to be resumed are those of another case: `path`, `key`, `before`, `now`."""
+    """The results to resume belong to another case: `path`, `key`, `before`, `now`."""
 
 
 class SurfaceChanged(BadInput):
-    """A surface is no longer the one that results to be resumed began with: `path`, `file`."""
+    """A surface has changed since the results to resume were begun: `path`, `file`."""
 
 
 class NoField(BadInput):
@@ -118,21 +171,21 @@ class NoField(BadInput):
 
 
 class BeyondPlasticLimit(Failed):
-    """The load is more than all cells bear at the hardness: `load`, `limit`, N."""
+    """The load exceeds the load of all cells at the hardness: `load`, `limit`, N."""
 
     load: float
     limit: float
 
 
 class BeyondFriction(Failed):
-    """A tangential force is more than friction holds: `force`, `limit`, N."""
+    """A tangential force exceeds the largest friction force: `force`, `limit`, N."""
 
     force: float
     limit: float
 
 
 class NotConverged(Failed):
-    """The iteration ended above the tolerance: `iterations`, `residual`, `tolerance`."""
+    """The solver stopped above the tolerance: `iterations`, `residual`, `tolerance`."""
 
     iterations: int
     residual: float
@@ -148,50 +201,50 @@ class LoadNotReached(Failed):
 
 
 class BeyondPass(Failed):
-    """One approach for a whole pass bears no such load: `load`, `most`, N; `approach`, m; `cause`, why."""
+    """One approach for a whole pass cannot carry the load: `load`, `most`, N; `approach`, m; `cause`."""
 
 
 class AtPosition(Failed):
-    """A position of a motion could not be solved: `pass_number`, `position`, `positions`, and `cause`, what is wrong there."""
+    """A position of a motion could not be solved: `pass_number`, `position`, `positions`, and the `cause`."""
 
     cause: AsperityError
 
 
 class AtPoint(Failed):
-    """A point of a sweep could not be solved: `point`, `points`, and `cause`, what is wrong there."""
+    """A point of a sweep could not be solved: `point`, `points`, and the `cause`."""
 
     cause: AsperityError
 
 
 class AtIncrement(Failed):
-    """An increment of a load could not be solved: `increment`, from 1, and `cause`, what is wrong there."""
+    """An increment of a load could not be solved: `increment`, from 1, and the `cause`."""
 
     increment: int
     cause: AsperityError
 
 
 class AtPass(Failed):
-    """The answer of a pass has no meaning: `pass_number`, from 1, and `cause`, what is wrong there."""
+    """The result of a pass is invalid: `pass_number`, from 1, and the `cause`."""
 
     cause: AsperityError
 
 
 class AtUpdate(Failed):
-    """The answer of an update of wear in place has no meaning: `update`, from 1 (0 before the first), and `cause`."""
+    """The result of an update of wear in place is invalid: `update`, from 1 (0 before the first), and the `cause`."""
 
     update: int
     cause: AsperityError
 
 
 class NotFinite(Failed):
-    """An answer is NaN or infinite: `field`, and `cell`, the index of the first such cell along each axis (empty for a number)."""
+    """A result is NaN or infinite: `field`, and `cell`, the index of the first such cell along each axis (empty for a number)."""
 
     field: str
     cell: list[int]
 
 
 class FlowNotConverged(Failed):
-    """Plastic strain and stress did not come to agree: `products`, `mismatch` over the yield stress, `tolerance`."""
+    """The return mapping of plastic strain did not converge: `products`, `mismatch` over the yield stress, `tolerance`."""
 
     products: int
     mismatch: float
@@ -199,20 +252,20 @@ class FlowNotConverged(Failed):
 
 
 class Memory(Failed):
-    """A computation takes more memory than there is: `needed`, `available`, bytes."""
+    """A computation needs more memory than is available: `needed`, `available`, bytes."""
 
     needed: float
     available: float
 
 
 class Threads(Failed):
-    """Threads to compute on cannot be made: `reason`."""
+    """Threads cannot be started: `reason`."""
 
     reason: str
 
 
 class Interrupted(Failed):
-    """A computation was asked to stop."""
+    """A computation was interrupted."""
 
 
 class File(FileProblem):
@@ -220,19 +273,19 @@ class File(FileProblem):
 
 
 class MissingFile(File, FileNotFoundError):
-    """A file is not there: `path`."""
+    """A file does not exist: `path`."""
 
 
 class ResultsExist(FileProblem, FileExistsError):
-    """A directory that is to take results is not empty: `path`; `results`, whether it holds results."""
+    """A directory for results is not empty: `path`; `results`, whether it contains results."""
 
 
 class WithinResults(FileProblem):
-    """A directory that is to take results lies within others: `path`, `results`."""
+    """A directory for results lies within other results: `path`, `results`."""
 
 
 class NotResumable(FileProblem):
-    """Results that are to be resumed are not whole: `path`, `reason`."""
+    """The results to resume are incomplete: `path`, `reason`."""
 
 
 class InUse(FileProblem):
@@ -240,25 +293,25 @@ class InUse(FileProblem):
 
 
 class NotThisStudy(FileProblem):
-    """A directory that is to take a study holds something else: `path`, `what`."""
+    """A directory for a study contains something else: `path`, `what`."""
 
 
 class NoResults(FileProblem):
-    """A directory holds no results: `path`."""
+    """A directory contains no results: `path`."""
 
 
 class TooManyRanks(BadInput):
-    """More ranks than rows of the grid that is divided among them: `ranks`, `rows`."""
+    """There are more ranks than rows of the grid: `ranks`, `rows`."""
 
     ranks: int
     rows: int
 
 
 class OtherRows(FileProblem):
-    """The file of a rank holds other rows than the index of its run says.
+    """The file of a rank contains other rows than the index of its run says.
 
-    `path`; `rows`, the first and the last that it holds, and `ranks`, how many ranks its run had; `expected` and `expected_ranks`,
-    what the index says of them.
+    `path`; `rows`, the first and the last row of the file, and `ranks`, the number of ranks of its run; `expected` and
+    `expected_ranks`, the same in the index.
     """
 
     rows: list[int]
@@ -268,18 +321,18 @@ class OtherRows(FileProblem):
 
 
 class RanksDiffer(BadInput):
-    """Ranks that are to compute one contact together have not the same: `rank`, `what`."""
+    """The ranks of one contact differ in their input: `rank`, `what`."""
 
     rank: int
     what: str
 
 
 class InternalError(AsperityError, RuntimeError):
-    """A mistake in asperity itself, which we would like to hear of."""
+    """A mistake in asperity itself. Please report it."""
 
 
 class ModelWarning(UserWarning):
-    """A model is used where it may not hold, or a result is less certain than it looks."""
+    """A model may not hold, or a result is less certain than it looks."""
 
 
 class FailedCases(UserWarning):
@@ -287,7 +340,7 @@ class FailedCases(UserWarning):
 
 
 def warn(texts: list[str], category: type[UserWarning] = ModelWarning) -> None:
-    """Warn of each, at the line that called asperity."""
+    """Warns of each text at the line that called asperity."""
     package = os.path.dirname(__file__)
     level, frame = 1, sys._getframe()
     while frame.f_back is not None and frame.f_code.co_filename.startswith(package):
@@ -297,12 +350,12 @@ def warn(texts: list[str], category: type[UserWarning] = ModelWarning) -> None:
 
 
 def bad_input(key: str, message: str, hint: str | None = None) -> AsperityError:
-    """The exception of an argument that has no meaning, as of a key of a case; to be raised."""
+    """Makes the exception of an invalid argument, to be raised."""
     return _make("CaseError", message, {"key": key}, hint)
 
 
 def _make(name: str, message: str, attributes: dict[str, Any], hint: str | None) -> AsperityError:
-    """The exception of that name; called by the compiled module."""
+    """Makes the exception of that name. The compiled module calls it."""
     if name == "File" and attributes.get("errno") == 2:
         name = "MissingFile"
     error: AsperityError = globals()[name](message)
@@ -313,3 +366,7 @@ def _make(name: str, message: str, attributes: dict[str, Any], hint: str | None)
         # From Python 3.11 on tracebacks show them.
         error.__dict__["__notes__"] = [f"hint: {hint}"]
     return error
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,29 +1,32 @@
-"""Fields of results: arrays with unit, pitch and origin beside them."""
+"""Fields of results: arrays with their unit, pitch and origin."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._optional import need
 from ._same import Comparable, same
-from ._show import unit_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from xarray import DataArray, Dataset
 
 
 class Field(Comparable):
-    """An array of a result, with what its numbers mean.
+    """An array of a result with its unit and its grid.
 
     Attributes
     ----------
     name : str
         Name of the field.
     values : ndarray
-        The values, ``[ix, iy]`` of a field on cells; the array that is handed in, not a copy.
+        The values; those of a field on cells are indexed ``[ix, iy]``.
     unit : str
-        Unit of the values, SI.
+        SI unit of the values.
     axes : tuple of str
         Names of the axes.
     pitch : tuple of float
@@ -63,27 +66,36 @@ class Field(Comparable):
         return field(self)
 
     def coordinate(self, axis: str) -> NDArray[np.float64]:
-        """Positions of the values along an axis, m."""
+        """Return the positions of the values along an axis, m."""
         index = self.axes.index(axis)
         count = self.values.shape[index]
         return self.origin[index] + self.pitch[index] * np.arange(count, dtype=np.float64)
 
-    def to_xarray(self) -> Any:
-        """The field as a DataArray of xarray, with its coordinates, m."""
+    def to_xarray(self) -> DataArray:
+        """Return the field as an xarray DataArray with its unit and its coordinates, m."""
         xarray = need("xarray", "to_xarray()")
         coordinates = {axis: (axis, self.coordinate(axis), {"units": "m"}) for axis in self.axes}
         attributes = {"units": self.unit}
-        return xarray.DataArray(self.values, coordinates, self.axes, self.name, attributes)
+        array: DataArray = xarray.DataArray(self.values, coordinates, self.axes, self.name, attributes)
+        return array
 
-    def plot(self, **options: Any) -> Any:
-        """Draw the field with matplotlib, on the axes `ax` if given; gives the axes. Other `options` go to ``imshow``."""
+    def plot(self, *, ax: Axes | None = None, **options: Any) -> Axes:
+        """Draw the field with matplotlib: a map, a section, or a curve over the depth.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; new ones by default.
+        **options
+            Passed on to ``Axes.imshow``, or to ``Axes.plot`` for a curve.
+        """
         from ._plot import field
 
-        return field(self, **options)
+        return field(self, ax, **options)
 
 
 class Fields(Mapping[str, Field]):
-    """Fields by name, each read when it is asked for first."""
+    """Fields by name. Each is read on first access."""
 
     def __init__(self, names: list[str], read: Callable[[str], Field]) -> None:
         self._names = names
@@ -109,14 +121,14 @@ class Fields(Mapping[str, Field]):
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # What is read is kept; the files may not be there where it is taken to.
+        # All fields are read: the files may be missing where it is unpickled.
         return _known, (dict(self),)
 
     def __repr__(self) -> str:
         return f"<Fields: {', '.join(self._names)}>"
 
-    def to_xarray(self) -> Any:
-        """Those of the fields that share the first one's grid, as a Dataset of xarray."""
+    def to_xarray(self) -> Dataset:
+        """Return the fields on the grid of the first one as an xarray Dataset."""
         xarray = need("xarray", "to_xarray()")
         grid = None
         arrays = {}
@@ -125,7 +137,8 @@ class Fields(Mapping[str, Field]):
             grid = grid or (field.axes, field.values.shape, field.origin)
             if grid == (field.axes, field.values.shape, field.origin):
                 arrays[name] = field.to_xarray()
-        return xarray.Dataset(arrays)
+        dataset: Dataset = xarray.Dataset(arrays)
+        return dataset
 
 
 def _known(fields: dict[str, Field]) -> Fields:
@@ -133,7 +146,7 @@ def _known(fields: dict[str, Field]) -> Fields:
 
 
 def of_cells(arrays: dict[str, tuple[NDArray[np.float64], str]], pitch: tuple[float, float]) -> Fields:
-    """Fields on the cells of a grid, whose values stand at their centres."""
+    """Makes fields of arrays on the cells of a grid. The values belong to the centres of the cells."""
     origin = (0.5 * pitch[0], 0.5 * pitch[1])
     fields = {
         name: Field(name, values, unit, ("x", "y"), pitch, origin) for name, (values, unit) in arrays.items()
@@ -142,33 +155,10 @@ def of_cells(arrays: dict[str, tuple[NDArray[np.float64], str]], pitch: tuple[fl
 
 
 def stored(core: Any, kind: str, number: int | None) -> Fields:
-    """Fields of a file of a results directory."""
+    """Opens the fields of a file of a results directory."""
 
     def read(name: str) -> Field:
         values, unit, axes, pitch, origin = core.read(kind, number, name)
         return Field(name, values, unit, tuple(axes), tuple(pitch), tuple(origin))
 
     return Fields(core.names(kind, number), read)
-
-
-def table(rows: list[dict[str, Any]], columns: list[str]) -> NDArray[np.void]:
-    """Records as a structured array, which has these columns at least; a number that there is not is NaN."""
-    names = list(dict.fromkeys([*columns, *(name for row in rows[:1] for name in row)]))
-    if rows:
-        names = [name for name in names if name in rows[0]]
-    kinds = []
-    for name in names:
-        whole = bool(rows) and all(isinstance(row.get(name), int) for row in rows)
-        kinds.append((name, np.int64 if whole else np.float64))
-    array = np.zeros(len(rows), dtype=kinds)
-    for name in names:
-        array[name] = [np.nan if row.get(name) is None else row[name] for row in rows]
-    return array
-
-
-def frame(table: NDArray[np.void], index: str) -> Any:
-    """A structured array as a DataFrame of pandas, with its units as the attribute `units`."""
-    pandas = need("pandas", "to_pandas()")
-    made = pandas.DataFrame(table).set_index(index)
-    made.attrs["units"] = {name: unit_of(name) for name in made.columns}
-    return made

@@ -1,15 +1,18 @@
 """Random rough surfaces.
 
-Each takes a `shape` and a `pitch`; without one of them, a body takes it from the other body that it meets. The same `seed` gives
-the same heights on every machine.
+Without a `shape` or a `pitch`, a surface takes that of the other body of the contact. The same `seed` gives the same heights on
+every machine.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Literal
 
 from ._units import Pair, Quantity
 from .surface import Surface
+
+__all__ = ["autocorrelation", "low_pass", "self_affine"]
 
 
 def low_pass(
@@ -18,12 +21,12 @@ def low_pass(
     *,
     sq: Quantity,
     cutoff: Pair,
-    band: str | None = None,
+    band: Literal["elliptic", "rectangular"] | None = None,
     ssk: float | None = None,
     sku: float | None = None,
     seed: int = 0,
 ) -> Surface:
-    """White noise without waves shorter than `cutoff`: the filter of Hu and Tonder.
+    """Make white noise without waves shorter than `cutoff`, with the filter of Hu and Tonder.
 
     Parameters
     ----------
@@ -34,11 +37,11 @@ def low_pass(
     sq : float or str
         Rms height, m.
     cutoff : float, str or pair
-        The shortest wavelength that is left, along x and y, m.
+        Shortest remaining wavelength along x and y, m.
     band : str, optional
-        How the band is cut: ``"elliptic"`` or ``"rectangular"``.
+        Shape of the pass band: ``"elliptic"`` (by default) or ``"rectangular"``.
     ssk, sku : float, optional
-        Skewness and kurtosis of the heights; 0 and 3 of Gaussian ones.
+        Skewness and kurtosis of the heights; 0 and 3 for Gaussian heights.
     seed : int
         Seed of the random numbers, at least 0.
 
@@ -55,28 +58,28 @@ def autocorrelation(
     *,
     sq: Quantity,
     correlation_length: Pair,
-    decay: str | None = None,
+    decay: Literal["exponential", "gaussian"] | None = None,
     lay: Quantity | None = None,
     ssk: float | None = None,
     sku: float | None = None,
     seed: int = 0,
 ) -> Surface:
-    """Heights of a given autocorrelation.
+    """Make a random surface with a given autocorrelation.
 
     Parameters
     ----------
     shape, pitch
-        As of :func:`low_pass`.
+        As in :func:`low_pass`.
     sq : float or str
         Rms height, m.
     correlation_length : float, str or pair
-        Length over which the autocorrelation falls to 1/10, along the lay's x and y, m.
+        Length over which the autocorrelation falls to 1/10, along and across the lay, m.
     decay : str, optional
-        How it falls: ``"exponential"`` or ``"gaussian"``.
+        Decay of the autocorrelation: ``"exponential"`` (by default) or ``"gaussian"``.
     lay : float or str, optional
-        Angle by which the lay is turned from x, rad.
+        Angle of the lay from x, rad.
     ssk, sku, seed
-        As of :func:`low_pass`.
+        As in :func:`low_pass`.
     """
     return Surface._made_as("generate", "autocorrelation", locals())
 
@@ -92,23 +95,27 @@ def self_affine(
     shortest: Quantity | None = None,
     seed: int = 0,
 ) -> Surface:
-    """A self-affine surface: a power law of the spectrum between two wavelengths.
+    """Make a self-affine surface: its spectrum is a power law between two wavelengths.
 
     Parameters
     ----------
     shape, pitch
-        As of :func:`low_pass`.
+        As in :func:`low_pass`.
     hurst : float
         Hurst exponent, above 0, at most 1.
     sq : float or str
-        Rms height, m; this or `sdq`.
+        Rms height, m. Give `sq` or `sdq`.
     sdq : float
         Rms slope.
     rolloff : float or str, optional
         Wavelength above which the spectrum is flat, m.
     shortest : float or str, optional
-        Wavelength below which there is nothing, m.
+        Shortest wavelength of the surface, m.
     seed : int
         Seed of the random numbers, at least 0.
     """
     return Surface._made_as("generate", "self-affine", locals())
+
+
+def __dir__() -> list[str]:
+    return __all__

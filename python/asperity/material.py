@@ -1,4 +1,4 @@
-"""What bodies are made of."""
+"""Materials of bodies."""
 
 from __future__ import annotations
 
@@ -10,8 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._same import Comparable
-from ._units import Quantity, number, quantity
-from .errors import bad_input
+from ._units import Quantity, number, quantity, written
+from .errors import bad_input, warn
+
+_SOFT = 1e6
+"""Young's modulus that is softer than any rubber, Pa."""
 
 
 def _poisson(value: Any) -> float:
@@ -43,27 +46,30 @@ class Coating(Comparable):
         self.poisson = _poisson(poisson)
 
     def __repr__(self) -> str:
-        return f"Coating(thickness={self.thickness!r}, young={self.young!r}, poisson={self.poisson!r})"
+        thickness, young = written(self.thickness, "length"), written(self.young, "pressure")
+        return f"Coating(thickness={thickness}, young={young}, poisson={self.poisson!r})"
 
     def _table(self) -> dict[str, Any]:
         return {"thickness": self.thickness, "young": self.young, "poisson": self.poisson}
 
 
 class Plasticity(Comparable):
-    """How a body flows below its surface: von Mises' plasticity with hardening.
+    """Plasticity below the surface of a body: von Mises' (J2) with hardening.
+
+    Give either `yield_stress` or `curve`.
 
     Parameters
     ----------
     yield_stress : float or str, optional
-        Yield stress of the virgin body in tension, above 0, Pa; or `curve`.
+        Yield stress of the virgin body in tension, above 0, Pa.
     hardening : float or str, optional
-        Its growth with the plastic strain, from 0, Pa; 0 by default.
+        Growth of the yield stress with the plastic strain, at least 0, Pa; 0 by default.
     curve : array_like, optional
-        In place of both: points of plastic strain and yield stress, Pa, from strain 0 on, rising.
+        Points of plastic strain and yield stress, Pa, from strain 0 on, rising. It replaces `yield_stress` and `hardening`.
     kinematic : float or str, optional
-        Prager's modulus of the back stress, from 0, Pa; 0 by default.
+        Prager's modulus of the back stress, at least 0, Pa; 0 by default.
     recovery : float, optional
-        Armstrong's and Frederick's recovery of the back stress, from 0; with `kinematic`.
+        Armstrong's and Frederick's recovery of the back stress, at least 0, with `kinematic`; 0 by default.
 
     Examples
     --------
@@ -90,7 +96,10 @@ class Plasticity(Comparable):
         self.recovery = float(recovery)
 
     def __repr__(self) -> str:
-        parts = [f"{key}={value!r}" for key, value in self._table().items()]
+        parts = [
+            f"{key}={written(value, 'pressure') if key in ('yield_stress', 'hardening', 'kinematic') else repr(value)}"
+            for key, value in self._table().items()
+        ]
         return f"Plasticity({', '.join(parts)})"
 
     def _table(self) -> dict[str, Any]:
@@ -110,22 +119,27 @@ class Material(Comparable):
     Parameters
     ----------
     young : float or str
-        Young's modulus, above 0, Pa; ``inf`` of a rigid body.
+        Young's modulus, above 0, Pa. A rigid body has ``inf``.
     poisson : float
         Poisson's ratio, 0 to 0.5.
     hardness : float, str or array_like, optional
-        The most pressure that a cell bears, above 0, Pa: one for all cells, or a matrix with one for each cell of the body,
-        as it is prepared. Without it the body is elastic.
+        Largest pressure of a cell, above 0, Pa: one number, or a matrix with a number for each cell of the prepared body. A body
+        without hardness is elastic.
     coating : Coating, optional
-        An elastic layer on the body.
+        Elastic layer on the body.
     plasticity : Plasticity, optional
-        In place of a hardness: how the body flows below its surface. It needs the argument `plasticity` of
-        :func:`contact` or :func:`simulate`.
+        Plasticity below the surface, in place of a hardness. It needs the argument `plasticity` of :func:`contact` or
+        :func:`simulate`.
 
     Raises
     ------
     asperity.errors.CaseError
-        For a value out of its range, or text without a unit of it.
+        If a value is out of its range, or a text has no suitable unit.
+
+    Warns
+    -----
+    asperity.errors.ModelWarning
+        If the body is softer than any rubber, as 210 Pa in place of 210 GPa.
 
     Examples
     --------
@@ -133,6 +147,8 @@ class Material(Comparable):
     >>> steel = asp.Material(young="210 GPa", poisson=0.3, hardness=4e9)
     >>> steel.young
     210000000000.0
+    >>> steel
+    Material(young='210 GPa', poisson=0.3, hardness='4 GPa')
     """
 
     def __init__(
@@ -153,13 +169,17 @@ class Material(Comparable):
                 self.hardness = np.array(hardness, dtype=np.float64)
         self.coating = coating
         self.plasticity = plasticity
+        if self.young < _SOFT and coating is None:
+            guess = isinstance(young, (int, float)) and young < 1e4
+            advice = f'was "{young} GPa" meant?' if guess else "check its unit"
+            warn([f"young = {young} is {_core.format(self.young, 'pressure')}, softer than any rubber: {advice}"])
 
     def __repr__(self) -> str:
-        parts = [f"young={self.young!r}", f"poisson={self.poisson!r}"]
+        parts = [f"young={written(self.young, 'pressure')}", f"poisson={self.poisson!r}"]
         if isinstance(self.hardness, np.ndarray):
             parts.append(f"hardness=<{' × '.join(map(str, self.hardness.shape))} values>")
         elif math.isfinite(self.hardness):
-            parts.append(f"hardness={self.hardness!r}")
+            parts.append(f"hardness={written(self.hardness, 'pressure')}")
         if self.coating is not None:
             parts.append(f"coating={self.coating!r}")
         if self.plasticity is not None:
@@ -167,7 +187,7 @@ class Material(Comparable):
         return f"Material({', '.join(parts)})"
 
     def _table(self) -> dict[str, Any]:
-        """The keys of a body in a case; a map is handed over beside it."""
+        """The keys of a body in a case, without a map of the hardness."""
         table: dict[str, Any] = {"young": self.young, "poisson": self.poisson}
         if not isinstance(self.hardness, np.ndarray) and math.isfinite(self.hardness):
             table["hardness"] = self.hardness
@@ -184,7 +204,7 @@ class Material(Comparable):
 
 
 class Compliances(Comparable):
-    """What the elastic constants of a pair of half-spaces come to, their coatings left aside.
+    """Elastic compliances of a pair of half-spaces without their coatings.
 
     ::
 
@@ -195,12 +215,12 @@ class Compliances(Comparable):
     Parameters
     ----------
     lower, upper : Material
-        What the bodies are made of.
+        Materials of the bodies.
 
     Attributes
     ----------
     normal, lateral, coupling : float
-        1/E*, 1/N* and 1/G*, 1/Pa; the last is of either sign, negative where the lower body is the stiffer.
+        1/E*, 1/N* and 1/G*, 1/Pa. `coupling` is negative if the lower body is the stiffer one.
 
     Raises
     ------
@@ -223,20 +243,20 @@ class Compliances(Comparable):
         return f"<Compliances: 1/E* {self.normal:.4g}, 1/N* {self.lateral:.4g}, 1/G* {self.coupling:.4g} 1/Pa>"
 
     def modulus(self) -> float:
-        """Composite modulus E*, Pa."""
+        """Return the composite modulus E*, Pa."""
         return self._modulus
 
     def dundurs(self) -> float:
-        """Dundurs' β = E*/G*, −1/2 to 1/2; positive where the lower body is the softer."""
+        """Return Dundurs' β = E*/G*, −1/2 to 1/2. It is positive if the lower body is the softer one."""
         return self._dundurs
 
     def tangential_modulus(self) -> float:
-        """Composite tangential modulus Gₜ, Pa, see :func:`tangential_modulus`."""
+        """Return the composite tangential modulus Gₜ, Pa, see :func:`tangential_modulus`."""
         return self._tangential
 
 
 def composite_modulus(lower: Material, upper: Material) -> float:
-    """Composite modulus E* of a pair, 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, Pa.
+    """Return the composite modulus E* of a pair, 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, Pa.
 
     Examples
     --------
@@ -249,13 +269,16 @@ def composite_modulus(lower: Material, upper: Material) -> float:
 
 
 def dundurs(lower: Material, upper: Material) -> float:
-    """Dundurs' β of a pair, −1/2 to 1/2; positive where the lower body is the softer, 0 of identical materials."""
+    """Return Dundurs' β of a pair, −1/2 to 1/2.
+
+    It is positive if the lower body is the softer one, and 0 for identical materials.
+    """
     return Compliances(lower, upper).dundurs()
 
 
 def tangential_modulus(lower: Material, upper: Material) -> float:
-    """Composite tangential modulus, 1/Gₜ = (2 − ν₁)(1 + ν₁)/2E₁ + (2 − ν₂)(1 + ν₂)/2E₂, Pa.
+    """Return the composite tangential modulus, 1/Gₜ = (2 − ν₁)(1 + ν₁)/2E₁ + (2 − ν₂)(1 + ν₂)/2E₂, Pa.
 
-    The stiffness of a circle of radius a that sticks is 2aGₜ. Mindlin, J. Appl. Mech. 16, 259 (1949).
+    A sticking circle of radius a has the stiffness 2aGₜ. Mindlin, J. Appl. Mech. 16, 259 (1949).
     """
     return Compliances(lower, upper).tangential_modulus()

@@ -1,9 +1,9 @@
-"""Closed forms: contacts whose answer is known, to judge a computation by.
+"""Closed forms: contacts with a known solution, to compare a computation with.
 
-A contact is a class of its data (geometry, composite modulus E*, load), its answers are methods. Those of a position take a
-number or any array and give the same shape. Lengths, moduli and loads are numbers in SI, or text with a unit. Displacements
-are those of both bodies together, positive where they open the gap, 0 far away. The composite modulus of two materials is
-:func:`asperity.composite_modulus`.
+A contact is a class with its data (geometry, composite modulus E*, load), and its answers are methods. Methods of a position take a
+number or an array, and return the same shape. Lengths, moduli and loads are numbers in SI or texts with a unit. Displacements are
+the sum of both bodies, positive where they open the gap, and 0 far away. :func:`asperity.composite_modulus` computes the composite
+modulus of two materials.
 
 Examples
 --------
@@ -879,3 +879,6 @@ def light_contact_fraction_2d(mean_pressure: ArrayLike, full_contact_pressure: A
     """
     return _answer("light_contact_fraction_2d", [], mean_pressure, full_contact_pressure)
 
+
+def __dir__() -> list[str]:
+    return __all__

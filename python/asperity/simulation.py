@@ -1,4 +1,4 @@
-"""Motions: all at once, or pass after pass for laws of one's own."""
+"""Motions: computed at once, or pass after pass for custom laws."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _case, _core, fields
+from . import _case, _core
 from ._keywords import MotionKeywords, takes
 from ._progress import Teller
 from ._run import Run
+from ._table import Table, records
 from ._temporary import Temporary
 from ._units import path
 from .body import Body, Handed, bodies, heights_like
@@ -32,18 +33,18 @@ class Contacts(NamedTuple):
     position : ndarray of int
         Position in the pass, from 0, ascending.
     lower_cell, upper_cell : ndarray of int
-        The cell of each body, an index into its raveled heights.
+        Cell of each body, an index into its raveled heights.
     pressure : ndarray
-        Pa.
+        Pressure on the cell, Pa.
     plastic : ndarray
-        Plastic interference, m; 0 where the cell does not yield.
+        Plastic interference of the cell, m; 0 if the cell does not yield.
     lower_beyond, upper_beyond : ndarray
-        Part of a cell, from 0, below 1, by which the contact lies beyond that cell of the body, on the way to the next along x: above 0
-        only in a shift whose slower surface moves by parts of a cell. :meth:`Pass.on_bodies` brings values to the cells by it.
+        Distance from the cell of the body to the contact along x, in cells, at least 0 and below 1. It is above 0 only in a shift
+        whose slower surface moves by parts of a cell. :meth:`Pass.on_bodies` distributes values over the cells with it.
     shear : ndarray
         Shear traction along x of the upper body on the lower one, Pa; 0 without friction.
     temperature : ndarray
-        Temperature of both surfaces, K; NaN where it is not computed.
+        Temperature of both surfaces, K; NaN if it is not computed.
     """
 
     position: NDArray[np.int64]
@@ -57,7 +58,7 @@ class Contacts(NamedTuple):
     temperature: NDArray[np.float64]
 
     def by_position(self) -> Iterator[Contacts]:
-        """The contacts at one position after the other; positions without contact are left out."""
+        """Iterate over the contacts of each position. Positions without contact are left out."""
         starts = np.flatnonzero(np.diff(self.position, prepend=-1))
         ends = [*starts[1:], len(self.position)]
         for start, end in zip(starts, ends, strict=True):
@@ -65,43 +66,43 @@ class Contacts(NamedTuple):
 
 
 class _Moving:
-    """Two bodies that a motion changes."""
+    """The two bodies of a motion."""
 
     _core: Any
 
     @property
     def lower(self) -> NDArray[np.float64]:
-        """Heights of the lower body as they are now, m: a copy."""
+        """Present heights of the lower body, m: a copy."""
         heights: NDArray[np.float64] = self._core.heights()[0]
         return heights
 
     @property
     def upper(self) -> NDArray[np.float64]:
-        """Heights of the upper body's underside as they are now, m: a copy."""
+        """Present heights of the underside of the upper body, m: a copy."""
         heights: NDArray[np.float64] = self._core.heights()[1]
         return heights
 
 
 class Pass(_Moving):
-    """A pass that is solved, and not yet finished: the next one begins on what it leaves.
+    """A solved pass of a :class:`Simulation`, before its bodies change.
 
-    It is there until the loop goes on.
+    It is valid until the next iteration of the loop.
 
     Attributes
     ----------
     number : int
-        The pass, from 1.
+        Number of the pass, from 1.
     numbers : dict
-        The pass in numbers, with the columns of `passes.csv`, before anything is removed. With `acceleration` it may stand for
-        several: what is removed is then what all ``numbers["represents"]`` of them take off.
+        Numbers of the pass with the columns of `passes.csv`, before material is removed. With `acceleration` a pass may represent
+        several passes, ``numbers["represents"]`` of them; :meth:`remove` then takes the material of all of them off.
     pitch : tuple of float
         Size of a cell along x and y, m.
     sliding_distance : float
-        Distance over which the bodies slide from one position to the next, m.
+        Sliding distance from one position to the next, m.
     time : float
-        Time from one position to the next, s; NaN where the speed is not known.
+        Time from one position to the next, s; NaN without a speed.
     shapes : tuple
-        Numbers of cells of the lower and of the upper body.
+        Number of cells of the lower and of the upper body along x and y.
     """
 
     def __init__(
@@ -130,27 +131,27 @@ class Pass(_Moving):
 
     @cached_property
     def contacts(self) -> Contacts:
-        """The cells in contact at all positions."""
+        """Cells in contact at all positions."""
         return Contacts(*self._core.contacts(self.number))
 
     @cached_property
-    def steps(self) -> NDArray[np.void]:
+    def steps(self) -> Table:
         """A record for each position, with the columns of `steps.csv`."""
-        return fields.table(self._core.steps(self.number), _core.STEP_COLUMNS)
+        return records(self._core.steps(self.number), _core.STEP_COLUMNS)
 
     def on_bodies(self, values: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """What comes to each cell of the lower and of the upper body in the whole pass.
+        """Sum values of the contacts on the cells of the lower and of the upper body over the pass.
 
         Parameters
         ----------
         values : array_like
-            What comes to each cell in contact at each position, as the arrays of `contacts`; or one number for all.
+            A value for each cell in contact at each position, as the arrays of `contacts`, or one number for all.
 
         Returns
         -------
         tuple of ndarray
-            The sums, of the shapes of the bodies. Between two cells of a body each has its part: both sums add up to that of the
-            values.
+            The sums on the lower and on the upper body. A value between two cells of a body is divided among them, so that the total
+            of each array is the sum of the values.
         """
         contacts = self.contacts
         weights = np.broadcast_to(np.asarray(values, dtype=float), contacts.pressure.shape)
@@ -167,20 +168,19 @@ class Pass(_Moving):
         return sums[0], sums[1]
 
     def remove(self, depth_lower: ArrayLike, depth_upper: ArrayLike, law: str = "wear") -> None:
-        """Take material off before the next pass.
+        """Remove material before the next pass.
 
         Parameters
         ----------
         depth_lower, depth_upper : array_like
-            Depth that each cell of the body loses, m, below 0 where it grows: a matrix of the shape of its heights, or one number
-            for all cells.
+            Depth removed from each cell of the body, m; negative for growth. A matrix of the shape of its heights, or one number.
         law : str
-            By this name the columns `<law>_volume_lower` … of the results tell the volumes.
+            Name of the law. The results have the removed volumes in the columns `<law>_volume_lower` and `<law>_volume_upper`.
 
         Raises
         ------
         asperity.errors.CaseError
-            For a depth of another shape, or that is not finite.
+            If a depth has another shape, or is not finite.
         """
         if not (law.isidentifier() and law.islower()):
             raise bad_input("law", f"'law' is {law!r}, expected a word in small letters")
@@ -194,11 +194,18 @@ class Pass(_Moving):
 
 
 class Simulation(_Moving):
-    """A motion that yields each pass, for laws of one's own.
+    """A motion that yields each pass, for custom laws.
 
-    ``for p in asp.Simulation(...)`` solves a pass, hands it out as a :class:`Pass`, and finishes it when the loop goes on. A pass
-    at which the loop is left by ``break`` counts once :meth:`results` or :meth:`close` is called; one at which an exception
-    leaves it does not, and `resume` computes it again. The arguments are those of :func:`asperity.simulate`, without `law`.
+    ``for p in asp.Simulation(...)`` solves a pass, yields it as a :class:`Pass`, and finishes it in the next iteration. After a
+    ``break``, :meth:`results` or :meth:`close` finish the pass. After an exception the pass is not finished, and `resume` computes it
+    again.
+
+    Parameters
+    ----------
+    lower, upper, lower_material, upper_material
+        The bodies, as in :func:`contact`.
+    options
+        Keyword arguments of :func:`simulate`, without `law`.
 
     Examples
     --------
@@ -237,7 +244,7 @@ class Simulation(_Moving):
 
     @property
     def done(self) -> int:
-        """Number of passes that are finished."""
+        """Number of finished passes."""
         return int(self._core.done())
 
     def __iter__(self) -> Iterator[Pass]:
@@ -251,22 +258,22 @@ class Simulation(_Moving):
         self.close()
 
     def close(self) -> None:
-        """Finish the pass under way, if there is one, and write the summary; nothing more can be solved then."""
+        """Finish the present pass, and write the summary. No further pass can be solved."""
         self._core.finish()
         self._core.end()
 
     def results(self) -> Run:
-        """Finish the pass under way, if there is one; the results."""
+        """Finish the present pass, and return the results."""
         self.close()
         run = Run(self.directory)
-        # They keep the directory where that is a temporary one.
+        # A temporary directory lives as long as the results.
         run._temporary = self._temporary
         warn(run.warnings)
         return run
 
 
 Law = Callable[[Pass], "tuple[ArrayLike, ArrayLike] | None"]
-"""What is called with each pass, and gives the depths that it takes off the lower and the upper body, m, or nothing."""
+"""A law: takes each pass, and returns the depths to remove from the lower and the upper body, m, or `None`."""
 
 
 @takes(MotionKeywords)
@@ -279,15 +286,15 @@ def simulate(
     law: Law | None = None,
     **options: Unpack[MotionKeywords],
 ) -> Run:
-    """Let two bodies pass over each other, pass after pass.
+    """Move the upper body over the lower one, pass after pass.
 
     Parameters
     ----------
     lower, upper, lower_material, upper_material
-        The bodies, as of :func:`contact`.
+        The bodies, as in :func:`contact`.
     law : callable, optional
-        Called with each :class:`Pass` once it is solved, by the calling thread; it gives the depths that the pass takes off the
-        lower and the upper body, m, or `None`. The volumes are columns `wear_volume_lower` … of :attr:`Run.passes`.
+        Called with each solved :class:`Pass` in the calling thread. It returns the depths to remove from the lower and the upper
+        body, m, or `None`. The volumes are the columns `wear_volume_lower` and `wear_volume_upper` of :attr:`Run.passes`.
     **options
 
     Returns
@@ -297,7 +304,7 @@ def simulate(
     Raises
     ------
     asperity.errors.BadInput, asperity.errors.Failed, KeyboardInterrupt
-        As of :func:`contact`. What `law` raises ends the run; its pass does not count.
+        For the same reasons as :func:`contact`. An exception of `law` ends the run, and its pass is not finished.
     """
     simulation = Simulation(lower, upper, lower_material, upper_material, **options)
     for each in simulation:

@@ -1,11 +1,11 @@
-"""Surfaces: heights of one body, read, made or given, and the steps that prepare them for a contact."""
+"""Surfaces: the heights of one body, and the steps that prepare them for a contact."""
 
 from __future__ import annotations
 
 import copy
 import os
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,45 +29,52 @@ from .describe import (
     Summits,
     Window,
 )
-from .errors import _make, bad_input
+from .errors import AsperityError, _make, bad_input
 from .fields import Field
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from xarray import DataArray
 
 _STEPS = (
     "window", "despike", "fill", "level", "mirror", "rotate", "s_filter", "l_filter", "filter", "resample", "interpolate",
     "taper", "plus",
 )  # fmt: skip
-"""The steps of a preparation, in the order in which they act."""
+"""Steps of a preparation in the order of their action."""
 
 _MADE = ("generate", "form")
 
+Filter = Literal["gaussian", "robust"]
+"""Kind of an S-filter or an L-filter."""
+
 
 class Surface(Comparable):
-    """The heights of one body on a regular grid, its material below them.
+    """The heights of one body on a regular grid, with its material below them.
 
-    Index 0 of `heights` runs along x, the direction of motion, index 1 along y. A surface is not changed by its methods: each
-    gives a new one.
+    Index 0 of `heights` runs along x, the direction of motion, and index 1 along y. The methods do not change a surface; they
+    return a new one.
 
     Parameters
     ----------
     heights : array_like
-        A matrix ``[ix, iy]`` of heights, in metres if no `unit` is given; anything that ``np.asarray`` takes. It is copied. Masked or
-        NaN where missing. Also an xarray DataArray, which tells its pitch by its coordinates, and a topography of the package
-        SurfaceTopography, which tells pitch and unit.
+        A matrix ``[ix, iy]`` of heights, in metres without a `unit`. Missing heights are masked or NaN. The matrix is copied. An
+        xarray DataArray provides its pitch by its coordinates. A topography of the package SurfaceTopography provides its pitch
+        and its unit.
     pitch : float, str or pair of them
         Size of a cell along x and y, above 0, m.
     unit : str or float, optional
-        What a 1 in `heights` stands for, for example ``"um"``.
+        Unit of the heights, for example ``"um"``.
 
     Raises
     ------
     asperity.errors.CaseError
-        For heights that are no matrix of real numbers, or a pitch that is missing or wrong.
+        If the heights are no matrix of real numbers, or the pitch is missing or wrong.
 
     Notes
     -----
-    The steps of the preparation (:meth:`window` to :meth:`taper`, :meth:`plus`) act in the order of the case file, whatever
-    the order in which they are called: the part to keep, spikes, holes, form, direction, waves, grid, rim. A step that is asked
-    for a second time begins anew with the heights that all steps before it lead to.
+    The steps of the preparation (:meth:`window` to :meth:`taper`, :meth:`plus`) act in the order of the case file, whatever the order
+    of the calls: the part to keep, spikes, holes, form, direction, waves, grid, rim. If a step is called a second time, the
+    preparation starts again from the heights of all steps so far.
 
     Examples
     --------
@@ -98,10 +105,10 @@ class Surface(Comparable):
 
     @classmethod
     def _of(cls, table: dict[str, Any], given: Surface | None = None) -> Surface:
-        """The surface of a table `[topography]` of a case."""
+        """Makes the surface of a table `[topography]` of a case."""
         _core.check_surface(table)
         surface = cls.__new__(cls)
-        # What it names may be changed by others since.
+        # The caller may change lists in its table later.
         surface._table = copy.deepcopy(table)
         surface._given = None if given is None else given._given
         surface._given_pitch = None if given is None else given._given_pitch
@@ -110,18 +117,18 @@ class Surface(Comparable):
 
     @classmethod
     def _made_as(cls, how: str, kind: str, arguments: dict[str, Any]) -> Surface:
-        """The surface of a form or a generator; its keys are those of the `arguments` that are given."""
+        """Makes the surface of a form or a generator with the `arguments` that are not `None`."""
         return cls._of({how: kind, **{key: value for key, value in arguments.items() if value is not None}})
 
     def _with(self, **steps: Any) -> Surface:
-        """The same surface with further steps."""
+        """Makes the same surface with further steps."""
         steps = {key: value for key, value in steps.items() if value is not None}
         if any(key in self._table for key in steps):
             return Surface(self.heights, self.pitch)._with(**steps)
         return Surface._of({**self._table, **steps}, self)
 
     def _handed(self) -> tuple[NDArray[np.float64], tuple[float, float]] | None:
-        """The heights that the table names `given`."""
+        """The heights to which the table refers by `given`."""
         if self._given is None:
             return None
         assert self._given_pitch is not None
@@ -138,14 +145,14 @@ class Surface(Comparable):
                 made = _core.surface(self._table, self._handed())
             heights = made["heights"]
             heights.flags.writeable = False
-            # Nobody makes a view of it writeable again.
+            # A view of a read-only array cannot be made writeable again.
             made["heights"] = heights.view()
             self._made = made
         return self._made
 
     def _compared(self) -> dict[str, Any]:
         if any(key in self._table for key in _MADE) and not {"shape", "pitch"} <= self._table.keys():
-            # It has no heights before it meets another body.
+            # It has no heights without the grid of the other body.
             return {"table": self._table}
         return {"heights": self.heights, "pitch": self.pitch}
 
@@ -161,10 +168,20 @@ class Surface(Comparable):
         return np.array(self.heights, dtype=dtype) if copy or dtype else self.heights
 
     def __repr__(self) -> str:
-        source = next(iter(self._table.items()))
-        steps = [key for key in self._table if key in _STEPS]
-        what = "heights" if source[0] == "given" else f"{source[0]} {source[1]!r}"
-        return f"<Surface: {what}{''.join(f', {step}' for step in steps)}>"
+        key, value = next(iter(self._table.items()))
+        source = "" if key == "given" else f"from {os.path.basename(value)}" if key == "file" else f"{key} {value!r}"
+        parts = [source, *(step for step in self._table if step in _STEPS)]
+        try:
+            nx, ny, missing = *self.shape, self.undefined
+            size = " × ".join(dict.fromkeys(_core.format(step, "length") for step in self.pitch))
+            # Heights of 1e300 have no square.
+            with np.errstate(over="ignore", invalid="ignore"):
+                sq = "" if missing == nx * ny else f", Sq {_core.format(float(np.nanstd(self.heights)), 'length')}"
+            holes = f", {missing} missing" if missing else ""
+            parts.insert(0, f"{nx} × {ny} cells of {size}{sq}{holes}")
+        except AsperityError:
+            parts.append("on the grid of the other body")
+        return f"<Surface: {', '.join(part for part in parts if part)}>"
 
     def _repr_html_(self) -> str:
         from ._html import surface
@@ -173,7 +190,7 @@ class Surface(Comparable):
 
     @property
     def heights(self) -> NDArray[np.float64]:
-        """Heights, m, ``[ix, iy]``; NaN where undefined. Not to be written to: copy it to change it."""
+        """Heights, m, ``[ix, iy]``; NaN if missing. The array is read-only: copy it to change it."""
         heights: NDArray[np.float64] = self._all()["heights"]
         return heights
 
@@ -196,12 +213,12 @@ class Surface(Comparable):
 
     @property
     def undefined(self) -> int:
-        """Number of samples that are missing now."""
+        """Number of missing samples."""
         return int(np.count_nonzero(np.isnan(self.heights)))
 
     @property
     def filled(self) -> int:
-        """Number of samples that were missing, or removed as spikes, before anything filled them."""
+        """Number of samples that were missing or removed as spikes before they were filled."""
         return int(self._all()["undefined"]) + int(self._all()["spikes"])
 
     @property
@@ -211,27 +228,27 @@ class Surface(Comparable):
 
     @property
     def radius(self) -> float | None:
-        """Radius of the sphere or cylinder that :meth:`level` subtracted, m, below 0 of a hollow one; else none."""
+        """Radius of the sphere or cylinder that :meth:`level` subtracted, m, else `None`; negative for a hollow one."""
         radius = self._all()["radius"]
         return None if radius is None else float(radius)
 
     @property
     def is_underside(self) -> bool:
-        """Whether the heights are those of an upper body's underside, as results hold them."""
+        """Whether the heights are the underside of an upper body, as in results."""
         return bool(self._all()["underside"])
 
-    # ---- steps of the preparation, in the order in which they act
+    # ---- steps of the preparation, in the order of their action
 
     def window(self, x0: int, y0: int, nx: int, ny: int) -> Surface:
-        """Keep `nx` × `ny` samples from ``[x0, y0]`` on."""
+        """Keep `nx` × `ny` samples, the first of them ``[x0, y0]``."""
         return self._with(window=[x0, y0, nx, ny])
 
     def despike(self, factor: float = 6.0) -> Surface:
-        """Remove samples that stand out of their neighbourhood by more than `factor` times the scatter there."""
+        """Remove samples that differ from their neighbourhood by more than `factor` times its scatter."""
         return self._with(despike=factor)
 
     def fill(self, fill: Literal["harmonic", "nearest"] = "harmonic") -> Surface:
-        """Fill missing samples: by a membrane over each hole, or from the nearest sample."""
+        """Fill missing samples by a membrane over each hole, or with the nearest sample."""
         return self._with(fill=fill)
 
     def level(self, level: str = "plane") -> Surface:
@@ -243,21 +260,25 @@ class Surface(Comparable):
         return self._with(mirror=mirror)
 
     def rotate(self, rotate: Quantity) -> Surface:
-        """Turn by an angle, rad or text such as ``"30 deg"``, from x to y."""
+        """Rotate by an angle from x towards y, rad or a text such as ``"30 deg"``."""
         return self._with(rotate=rotate)
 
-    def s_filter(self, nesting_index: Quantity, filter: str | None = None) -> Surface:
-        """Take waves shorter than `nesting_index` away, m; `filter` is ``"gaussian"`` or ``"robust"``."""
+    def s_filter(self, nesting_index: Quantity, filter: Filter | None = None) -> Surface:
+        """Remove waves shorter than `nesting_index`, m, with a Gaussian or a robust `filter`."""
         return self._with(s_filter=nesting_index, filter=filter)
 
-    def l_filter(self, nesting_index: Quantity, filter: str | None = None) -> Surface:
-        """Take waves longer than `nesting_index` away, m."""
+    def l_filter(self, nesting_index: Quantity, filter: Filter | None = None) -> Surface:
+        """Remove waves longer than `nesting_index`, m, with a Gaussian or a robust `filter`."""
         return self._with(l_filter=nesting_index, filter=filter)
 
     def resample(
-        self, shape: Sequence[int] | None = None, *, pitch: Pair | None = None, interpolate: str | None = None
+        self,
+        shape: Sequence[int] | None = None,
+        *,
+        pitch: Pair | None = None,
+        interpolate: Literal["linear", "spline"] | None = None,
     ) -> Surface:
-        """Bring it to a number of cells on the same extent, or to cells of another `pitch`, m."""
+        """Resample to another number of cells on the same extent, or to another `pitch`, m."""
         if (shape is None) == (pitch is None):
             raise bad_input("resample", "give resample() a shape or a pitch, one of them")
         if shape is not None:
@@ -266,11 +287,11 @@ class Surface(Comparable):
         return base._with(pitch=list(lengths("pitch", pitch if pitch is not None else 0.0)), interpolate=interpolate)
 
     def taper(self, width: Quantity) -> Surface:
-        """Bring a rim of this width, m, down to the mean, so that the surface can be repeated."""
+        """Fade the heights to their mean over a rim of this width, m, so that the surface can be repeated."""
         return self._with(taper=width)
 
     def plus(self, other: Surface) -> Surface:
-        """Add the heights of another surface of the same grid; of one that is made without a shape, on this grid."""
+        """Add the heights of another surface on the same grid, or of a form or generator without a shape."""
         key = next((key for key in _MADE if key in other._table), None)
         if key is not None and "shape" not in other._table and not any(step in other._table for step in _STEPS):
             layer = {name: value for name, value in other._table.items() if name != "pitch"}
@@ -286,58 +307,88 @@ class Surface(Comparable):
     def __add__(self, other: Surface) -> Surface:
         return self.plus(other) if isinstance(other, Surface) else NotImplemented
 
-    # ---- what it is like
+    # ---- description
 
     @property
     def _grid(self) -> tuple[NDArray[np.float64], tuple[float, float]]:
         return self.heights, self.pitch
 
     def parameters(self) -> Parameters:
-        """All parameters of ISO 25178: heights, spatial, hybrid, functional, features; ``.Sq`` is a value, SI."""
-        return describe.parameters(self._grid)
+        """Return all parameters of ISO 25178: height, spatial, hybrid, functional and feature parameters.
+
+        ``.Sq`` is a value, SI. The parameters are computed once.
+        """
+        made = self._all()
+        if "parameters" not in made:
+            made["parameters"] = describe.parameters(self._grid)
+        found: Parameters = made["parameters"]
+        return found
+
+    @property
+    def sa(self) -> float:
+        """Arithmetical mean height Sa, m, one of :meth:`parameters`."""
+        return self.parameters().Sa
+
+    @property
+    def sq(self) -> float:
+        """Root mean square height Sq, m, one of :meth:`parameters`."""
+        return self.parameters().Sq
+
+    @property
+    def sz(self) -> float:
+        """Maximum height Sz, from the deepest pit to the highest peak, m, one of :meth:`parameters`."""
+        return self.parameters().Sz
+
+    @property
+    def sdq(self) -> float:
+        """Root mean square gradient Sdq, one of :meth:`parameters`."""
+        return self.parameters().Sdq
 
     def feature_parameters(self, pruning: float = WOLF_PRUNING) -> Parameters:
-        """The feature parameters of ISO 25178, from hills and dales pruned at this share of Sz, 0 to 1."""
+        """Return the feature parameters of ISO 25178, with hills and dales pruned at this share of Sz, 0 to 1."""
         return describe.feature_parameters(self._grid, pruning)
 
     def profile(self, axis: Axis = "x", index: int = 0) -> Profile:
-        """The profile along an axis at the sample `index` of the other axis."""
+        """Return the profile along an axis at the sample `index` of the other axis."""
         return describe.profile(self._grid, axis, index)
 
     def profile_parameters(self, axis: Axis, cutoff: Quantity) -> Parameters:
-        """Parameters of ISO 21920 of the roughness profiles along an axis, each the mean over them; cut-off λc, m."""
+        """Return the mean ISO 21920 parameters of the roughness profiles along an axis; `cutoff` is λc, m."""
         return describe.profile_parameters(self._grid, axis, cutoff)
 
     def bearing_curve(self) -> BearingCurve:
-        """The areal material ratio curve of the defined samples."""
+        """Return the areal material ratio curve of the defined samples."""
         return BearingCurve(self.heights)
 
     def height_distribution(self, classes: int | None = None) -> Distribution:
-        """The density of the heights from their mean; without a number of `classes` the rule of Freedman and Diaconis."""
+        """Return the probability density of the heights about their mean.
+
+        Without a number of `classes` the rule of Freedman and Diaconis is used.
+        """
         return describe.distribution(self._grid, None, classes)
 
     def slope_distribution(
         self, slope: Literal["x", "y", "magnitude"] = "magnitude", classes: int | None = None
     ) -> Distribution:
-        """The density of the slope along an axis, or of its magnitude."""
+        """Return the probability density of the slope along an axis, or of its magnitude."""
         return describe.distribution(self._grid, slope, classes)
 
     def spectrum(self, window: Window = "hann") -> Spectrum:
-        """The power spectral density; ``window="none"`` for a surface that is periodic."""
+        """Return the power spectral density. A periodic surface needs ``window="none"``."""
         return Spectrum(self._grid, window)
 
     def autocorrelation(self, *, periodic: bool = False) -> Correlation:
-        """The autocorrelation of a surface that ends at its rim, or is `periodic`."""
+        """Return the autocorrelation of a surface that ends at its rim, or is `periodic`."""
         return Correlation(self._grid, periodic)
 
     def moments(self, by: Literal["spectrum", "differences"] = "spectrum", window: Window = "hann") -> SpectralMoments:
-        """The spectral moments, by the spectrum under a window, or by differences, which soften short waves."""
+        """Return the spectral moments from the spectrum, or from differences, which attenuate short waves."""
         if by not in ("spectrum", "differences"):
             raise bad_input("by", f"'by' is {by!r}, expected \"spectrum\" or \"differences\"")
         return describe.moments_by_differences(self._grid) if by == "differences" else self.spectrum(window).moments()
 
     def summits(self) -> Summits:
-        """The summits, and the asperities of Greenwood and Williamson by them."""
+        """Return the summits, and the Greenwood–Williamson asperities derived from them."""
         return describe.summits(self._grid)
 
     def self_affinity(
@@ -348,10 +399,10 @@ class Surface(Comparable):
         axis: Axis = "x",
         window: Window = "hann",
     ) -> SelfAffinity:
-        """The self-affine law: Hurst exponent, its error and range.
+        """Return the self-affine law of the surface: Hurst exponent, its error and range.
 
-        Of the spectrum over a range of `wave_numbers`, rad/m, or over the longest that follows a law; or, where `lags` are
-        given, m, of the mean square height differences along `axis`. The spectrum is the better witness.
+        The law is fitted to the spectrum over a range of `wave_numbers`, rad/m, by default the longest range that follows a law. If
+        `lags`, m, are given, it is fitted to the mean square height differences along `axis`. The spectrum is more reliable.
         """
         if lags is None:
             return self.spectrum(window).self_affinity(wave_numbers)
@@ -360,38 +411,46 @@ class Surface(Comparable):
         return describe.self_affinity_of_differences(self._grid, axis, lags)
 
     def height_differences(self, axis: Axis = "x") -> NDArray[np.void]:
-        """Mean square differences of heights a lag apart along an axis: records of `lag`, m, and `value`, m²."""
+        """Return the mean square height differences along an axis: records of `lag`, m, and `value`, m²."""
         return describe.height_differences(self._grid, axis)
 
     def hills(self, pruning: float = WOLF_PRUNING) -> Segmentation:
-        """The hills that stand at least `pruning` of Sz, 0 to 1, above their saddles."""
+        """Return the hills that rise at least `pruning` times Sz, 0 to 1, above their saddles."""
         return describe.segments(self._grid, False, pruning)
 
     def dales(self, pruning: float = WOLF_PRUNING) -> Segmentation:
-        """The dales at least `pruning` of Sz, 0 to 1, deep below their saddles."""
+        """Return the dales that lie at least `pruning` times Sz, 0 to 1, below their saddles."""
         return describe.segments(self._grid, True, pruning)
 
-    # ---- where it goes
+    # ---- output
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Write the heights to a file, in the format that the end of its name tells: npy, x3p, sdf, gwy or vtk.
+        """Write the heights to a file. Its extension selects the format: npy, x3p, sdf, gwy or vtk.
 
         Raises
         ------
         asperity.errors.NoFormat
-            If the name tells none.
+            If the extension belongs to no format.
         asperity.errors.File
             If the file cannot be written.
         """
         _core.write_surface(paths("path", path), (self.heights, self.pitch))
 
-    def to_xarray(self) -> Any:
-        """The heights as a DataArray of xarray, with the centres of the cells as coordinates, m."""
+    def to_xarray(self) -> DataArray:
+        """Return the heights as an xarray DataArray, with the centres of the cells as coordinates, m."""
         return self._field.to_xarray()
 
-    def plot(self, **options: Any) -> Any:
-        """Draw the heights with matplotlib, on the axes `ax` if given; gives the axes. Other `options` go to ``imshow``."""
-        return self._field.plot(**options)
+    def plot(self, *, ax: Axes | None = None, **options: Any) -> Axes:
+        """Draw a map of the heights with matplotlib.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on; new ones by default.
+        **options
+            Passed on to ``Axes.imshow``.
+        """
+        return self._field.plot(ax=ax, **options)
 
     @property
     def _field(self) -> Field:
@@ -406,28 +465,28 @@ def read(
     unit: Quantity | None = None,
     pitch: Pair | None = None,
 ) -> Surface:
-    """Read a topography; its content tells the format, of which there are thirty.
+    """Read a topography. The content of the file tells its format, one of thirty.
 
     Parameters
     ----------
     path : str or path
         The file.
     channel : str, optional
-        The channel to read, see :func:`channels`; without it the first height channel.
+        The channel to read, see :func:`channels`; by default the first height channel.
     unit : str or float, optional
-        What a 1 in a file without units stands for, for example ``"um"``.
+        Unit of the heights in a file without units, for example ``"um"``.
     pitch : float, str or pair, optional
-        Size of a cell along x and y, m, of a file that has none; a file that has one is resampled to it.
+        Size of a cell along x and y, m. A file with a pitch is resampled to this one.
 
     Returns
     -------
     Surface
-        Heights in metres, NaN where missing.
+        The heights in metres; missing ones are NaN.
 
     Raises
     ------
     asperity.errors.MissingFile, asperity.errors.CaseError
-        If the file is not there, or holds no such topography.
+        If the file does not exist, or contains no such topography.
     """
     path = paths("path", path)
     if not os.path.exists(path):
@@ -441,7 +500,7 @@ def read(
 
 
 def channels(path: str | os.PathLike[str]) -> list[str]:
-    """Names of the height channels of a file, the one that is read without a `channel` first."""
+    """Return the names of the height channels of a file, the default one first."""
     return _core.channels(paths("path", path))
 
 
@@ -456,7 +515,7 @@ def _unit(unit: Quantity) -> float:
 
 
 def _heights(heights: Any) -> tuple[NDArray[np.float64], tuple[float, float] | None, float | None]:
-    """Heights as a matrix, their pitch where they tell it, and what a 1 stands for where they tell that."""
+    """Returns heights as a matrix, and their pitch and the unit of their numbers in metres if they have them."""
     if isinstance(heights, Surface):
         return heights.heights.copy(), heights.pitch, 1.0
     if hasattr(heights, "physical_sizes") and callable(getattr(heights, "heights", None)):
@@ -470,7 +529,7 @@ def _heights(heights: Any) -> tuple[NDArray[np.float64], tuple[float, float] | N
     if np.ma.isMaskedArray(heights):
         heights = np.ma.asarray(heights, dtype=np.float64).filled(np.nan)
     try:
-        # A copy: whoever hands them in may change them.
+        # A copy: the caller may change the heights later.
         found = np.array(heights)
     except (TypeError, ValueError) as error:
         raise bad_input("heights", f"'heights' is no matrix of numbers: {error}") from error
@@ -480,7 +539,7 @@ def _heights(heights: Any) -> tuple[NDArray[np.float64], tuple[float, float] | N
 
 
 def _of_topography(topography: Any) -> tuple[NDArray[np.float64], tuple[float, float], float]:
-    """Heights, pitch and unit of a topography of the package SurfaceTopography."""
+    """Returns heights, pitch and unit of a topography of the package SurfaceTopography."""
     found = topography.heights()
     array = np.array(np.ma.asarray(found, dtype=np.float64).filled(np.nan))
     if array.ndim != 2:
@@ -492,7 +551,7 @@ def _of_topography(topography: Any) -> tuple[NDArray[np.float64], tuple[float, f
 
 
 def _pitch_of_coordinates(array: Any) -> tuple[float, float] | None:
-    """The pitch of a DataArray of two dimensions, from its coordinates."""
+    """Returns the pitch of a DataArray with two dimensions, from its coordinates."""
     if len(array.dims) != 2 or any(name not in array.coords for name in array.dims):
         return None
     pitches = []

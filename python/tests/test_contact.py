@@ -165,7 +165,7 @@ def test_what_is_to_be_wary_of_is_a_warning(steel: asp.Material) -> None:
         ({"load": "2"}, "'load'", ValueError),
         ({"load": float("nan")}, "'load' is nan", ValueError),
         ({"load": object()}, "'load' is of type object, expected", TypeError),
-        ({}, "names none of 'load', 'mean_pressure', 'approach'", ValueError),
+        ({}, "no load is given, expected one of the arguments load, mean_pressure, approach, loads", ValueError),
         ({"load": 1e-3, "approach": 1e-9}, "both 'approach' and 'load' are given", ValueError),
         ({"load": 1e-3, "boundary": "open"}, "'boundary' is \"open\"", ValueError),
         ({"load": 1e-3, "method": "magic"}, "'method' is \"magic\"", ValueError),
@@ -235,3 +235,15 @@ def test_results_that_are_there_stay(pair: Pair, tmp_path: pathlib.Path) -> None
     assert replaced.load == pytest.approx(6e-3)
     with pytest.raises(errors.CaseError, match="'resume' and 'overwrite' are both given"):
         asp.contact(*pair, load="6 mN", out=tmp_path / "out", overwrite=True, resume=True)
+
+
+def test_a_material_softer_than_rubber_is_a_warning() -> None:
+    with pytest.warns(errors.ModelWarning, match='young = 210 is 210 Pa, softer than any rubber: was "210 GPa" meant') as caught:
+        asp.Material(210, 0.3)
+    assert caught[0].filename == __file__
+    with pytest.warns(errors.ModelWarning, match="young = 20 kPa is 20 kPa, .*: check its unit"):
+        asp.Material("20 kPa", 0.3)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        asp.Material("5 MPa", 0.49)
+        asp.Material("20 kPa", 0.49, coating=asp.Coating("1 um", "1 GPa", 0.3))

@@ -282,3 +282,23 @@ def test_what_a_run_writes_has_units_in_frame_and_dataset(tmp_path, steel):
 def test_units_suit_the_numbers(unit, number, text):
     factor, name = _show.scale(unit, number)
     assert f"{factor * number:.3g} {name}" == text
+
+
+def test_printed_objects_have_their_main_numbers_with_units(run, pair, steel):
+    assert str(pair[0]) == "<Surface: 24 × 16 cells of 1 µm, Sq 50 nm, generate 'low-pass'>"
+    assert repr(surface([[0.0, np.nan], [1e-9, 1e-9]])) == "<Surface: 2 × 2 cells of 1 µm, Sq 471.4 pm, 1 missing>"
+    assert repr(asp.form.flat(pitch="1 um")) == "<Surface: form 'flat', on the grid of the other body>"
+    assert str(steel) == "Material(young='210 GPa', poisson=0.3, hardness='4 GPa')"
+    coated = asp.Material(1.23456789e9, 0.3, coating=asp.Coating("2 um", "300 GPa", 0.25), plasticity=asp.Plasticity("1 GPa"))
+    for material in (steel, coated, asp.Material(np.inf, 0.3)):
+        assert eval(repr(material), {**vars(asp)}) == material
+    assert re.fullmatch(r"<Run: 2 of 2 passes, mean load 20 mN, Sq [\d.]+ nm \(lower\) and [\d.]+ nm \(upper\)>", repr(run))
+
+
+def test_completion_offers_only_names_of_the_package():
+    for module in (asp, asp.reference, asp.describe, asp.errors, asp.form, asp.generate):
+        names = dir(module)
+        assert names == sorted(module.__all__) and not {"np", "math", "annotations", "Any", "surface", "simulation"} & set(names)
+        for name in names:
+            assert hasattr(module, name), name
+            assert getattr(getattr(module, name), "__module__", "asperity").startswith(("asperity", "typing")), name

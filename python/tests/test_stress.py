@@ -135,7 +135,7 @@ def test_what_a_contact_has_is_not_given_twice():
     )
     with pytest.raises(asp.errors.CaseError, match="'poisson' is given beside a contact, which has its own"):
         asp.stress(c, 1e-6, poisson=0.3)
-    with pytest.raises(asp.errors.CaseError, match=r"\[subsurface\] does not support coatings yet"):
+    with pytest.raises(asp.errors.CaseError, match="stress under a coating is not supported yet"):
         asp.stress(c, 1e-6, body="upper")
 
 

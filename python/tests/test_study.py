@@ -240,3 +240,52 @@ def test_studies_pickle_copy_and_show(folder: pathlib.Path) -> None:
     assert repr(study) == "<Study load: 5 of 5 cases are done, in load>"
     assert "2 values, 1 mN to 2 mN" in study._repr_html_() and "3 values, 7 to 9" in study._repr_html_()
     assert asp.Study("load.toml", "elsewhere") != study
+
+
+def test_a_study_becomes_a_data_set_over_its_axes(folder: pathlib.Path) -> None:
+    pytest.importorskip("xarray")
+    write(STUDY.split("[[exclude]]")[0])
+    study = asp.Study("load.toml")
+    study.run(task=(1, 2), progress=False)
+    data = study.to_xarray()
+    assert dict(data.sizes) == {"contact.load": 2, "lower.topography.seed": 3} and data["contact.load"].attrs["units"] == "N"
+    assert data["contact_area"].attrs["units"] == "m²"
+    for case, load, seed in study.plan.tolist():
+        point = data.sel({"contact.load": load, "lower.topography.seed": seed})
+        row = study.table[study.table["case"] == case]
+        assert int(point["case"]) == case and str(point["state"].values) == study.states[case - 1]
+        assert float(point["contact_area"]) == row["contact_area"][0] if len(row) else np.isnan(point["contact_area"])
+    # The plan of the other study is no full grid.
+    write(STUDY)
+    data = asp.study("load.toml", out="other", progress=False).to_xarray()
+    assert dict(data.sizes) == {"case": 5} and data["lower.topography.seed"].dims == ("case",)
+
+
+def test_a_study_draws_its_cases_and_their_means(folder: pathlib.Path) -> None:
+    pytest.importorskip("matplotlib").use("agg")
+    study = asp.study("load.toml", progress=False)
+    table = study.table
+    ax = study.plot("contact_area", x="contact.load")
+    line, points = ax.lines
+    assert ax.get_xlabel() == "load (mN)" and ax.get_ylabel() == "contact area (µm²)"
+    assert points.get_ydata() == pytest.approx(1e12 * table["contact_area"])
+    means = [1e12 * table["contact_area"][table["contact.load"] == load].mean() for load in (1e-3, 2e-3)]
+    assert line.get_xdata() == pytest.approx([1.0, 2.0]) and line.get_ydata() == pytest.approx(means)
+    legend = study.plot("max_pressure", x="contact_area", color="contact.load").get_legend()
+    assert legend is not None and legend.get_title().get_text() == "load (mN)"
+    assert [text.get_text() for text in legend.get_texts()] == ["1", "2"]
+    for arguments, told in (({"quantity": "area"}, "'quantity' is 'area'"), ({"quantity": "state"}, "a column of numbers"),
+                            ({"quantity": "load", "color": "load"}, "an axis of the study")):  # fmt: skip
+        with pytest.raises(errors.CaseError, match=told):
+            study.plot(**arguments)
+
+
+def test_a_printed_study_has_suitable_units(folder: pathlib.Path) -> None:
+    pytest.importorskip("pandas")
+    study = asp.study("load.toml", progress=False)
+    shown = study.to_pandas(units="display")
+    assert shown["contact.load (mN)"].tolist() == pytest.approx([1.0, 1.0, 1.0, 2.0, 2.0])
+    assert shown["contact_area (µm²)"].to_numpy() == pytest.approx(1e12 * study.table["contact_area"])
+    assert shown.attrs["units"]["contact_area (µm²)"] == "µm²" and "state" in shown.columns
+    with pytest.raises(errors.CaseError, match="'units' is 'um'"):
+        study.to_pandas(units="um")  # type: ignore[arg-type]

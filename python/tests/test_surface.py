@@ -191,3 +191,10 @@ def test_files_that_are_none(tmp_path: pathlib.Path) -> None:
         rough(1).write(tmp_path / "a.xyz")
     with pytest.raises(OSError):
         rough(1).write(tmp_path / "no" / "folder" / "a.npy")
+
+
+def test_the_usual_parameters_are_properties() -> None:
+    surface = rough(1)
+    p = surface.parameters()
+    assert (surface.sa, surface.sq, surface.sz, surface.sdq) == (p.Sa, p.Sq, p.Sz, p.Sdq)
+    assert surface.parameters() is p and surface.sq == pytest.approx(50e-9)
