@@ -103,6 +103,10 @@ class Contact(Comparable):
         The resolved case, SI.
     flow : dict
         Plastic state of elasto-plastic bodies, a :class:`Flow` for ``"lower"`` and for ``"upper"``.
+    closed_form : dict or None
+        Closed form of the contact of two smooth forms (Hertz, Sneddon) at the same load, and the deviation of the computed contact
+        from it: the keys `theory`, `theory_max_pressure`, `max_pressure_deviation` and others of `closed_form` in `summary.json`.
+        `None` for other bodies, and if cells yield or wear.
     directory : pathlib.Path or None
         The results directory, or `None` if the contact was computed without `out`.
     """
@@ -137,6 +141,7 @@ class Contact(Comparable):
     warnings: list[str]
     case: dict[str, Any]
     flow: dict[str, Flow]
+    closed_form: dict[str, Any] | None
     directory: pathlib.Path | None
 
     def __init__(
@@ -149,6 +154,7 @@ class Contact(Comparable):
         warnings: list[str],
         case: dict[str, Any],
         flow: dict[str, Flow],
+        closed_form: dict[str, Any] | None = None,
         directory: pathlib.Path | None = None,
     ) -> None:
         self.flow = flow
@@ -158,6 +164,7 @@ class Contact(Comparable):
         self.sweep = records(sweep, _core.SWEEP_COLUMNS)
         self.warnings = list(warnings)
         self.case = case
+        self.closed_form = closed_form
         self.directory = directory
         self._names = list(record if record is not None else sweep[-1])
         self.__dict__.update(record if record is not None else sweep[-1])
@@ -428,6 +435,7 @@ def _solved(pair: tuple[Body, Body], keywords: Any, options: Mapping[str, Any]) 
             found["warnings"],
             found["case"],
             {body: Flow(**volume) for body, volume in found.get("flow", {}).items()},
+            found["closed_form"],
         )
     out = path("out", options["out"])
     with Teller(options["progress"]) as tell:
@@ -457,5 +465,6 @@ def stored(directory: str, core: Any) -> Contact:
         summary["warnings"],
         core.case(),
         of_results(core, None),
+        summary.get("closed_form"),
         pathlib.Path(directory),
     )

@@ -175,6 +175,12 @@ def contact(contact: Contact) -> str:
     force = numbers.get("tangential_force")
     if force is not None and any(force):
         rows.append(("tangential force", f"{_quantity(float(np.hypot(*force)), 'N')} ({numbers['force_ratio']:.3g} of the load)"))
+    theory = contact.closed_form
+    if theory is not None:
+        names = {"largest pressure": "max_pressure", "approach": "approach"}
+        known = [(words, theory[f"{name}_deviation"]) for words, name in names.items() if theory[f"{name}_deviation"] is not None]
+        deviations = ", ".join(f"{words} {100.0 * deviation:+.2f} %" for words, deviation in known)
+        rows.append((f"deviation from theory ({theory['theory']})", deviations))
     rows.append(("residual", f"{contact.residual:.1e}, {contact.convolutions:.4g} convolutions"))
     if len(contact.sweep) > 1:
         rows.insert(0, ("sweep", f"{len(contact.sweep)} points, this is the last one"))

@@ -247,3 +247,19 @@ def test_a_material_softer_than_rubber_is_a_warning() -> None:
         warnings.simplefilter("error")
         asp.Material("5 MPa", 0.49)
         asp.Material("20 kPa", 0.49, coating=asp.Coating("1 um", "1 GPa", 0.3))
+
+
+def test_smooth_forms_have_their_closed_form_beside_them(tmp_path: pathlib.Path) -> None:
+    steel = asp.Material(young="210 GPa", poisson=0.3)
+    ball, plane = asp.form.sphere("10 mm"), asp.form.flat((64, 64), pitch="4 um")
+    contact = asp.contact(plane, ball, steel, steel, load="10 N")
+    hertz = asp.reference.HertzSphere("10 mm", asp.composite_modulus(steel, steel), 10.0)
+    assert contact.closed_form["theory"] == "hertz-point"
+    assert contact.closed_form["theory_max_pressure"] == pytest.approx(hertz.peak_pressure())
+    deviation = contact.max_pressure / hertz.peak_pressure() - 1.0
+    assert contact.closed_form["max_pressure_deviation"] == pytest.approx(deviation) and abs(deviation) < 0.01
+    assert "deviation from theory" in contact._repr_html_()
+    written = asp.contact(plane, ball, steel, steel, load="10 N", out=tmp_path / "ball", progress=False)
+    assert written.closed_form == contact.closed_form
+    soft = asp.Material(young="210 GPa", poisson=0.3, hardness="0.5 GPa")
+    assert asp.contact(plane, ball, soft, steel, load="10 N").closed_form is None
