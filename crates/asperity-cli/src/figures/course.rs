@@ -1,7 +1,8 @@
 //! The course of a motion: curves over the positions of a pass, and over the passes.
 
 use asperity::motion::{IncrementRecord, PassRecord, StepRecord};
-use serde_json::Value;
+use asperity::study::Case;
+use asperity::study::case::CounterBody;
 
 use super::Curves;
 use super::running;
@@ -77,8 +78,8 @@ pub(crate) fn done(passes: &[PassRecord]) -> Vec<usize> {
 }
 
 /// Whether the upper body of a pass is another one than that of the first; how it was before is not kept.
-pub(crate) fn has_new_upper(case: &Value, pass: usize) -> bool {
-    pass > 1 && case["motion"]["counter"] == "fresh"
+pub(crate) fn has_new_upper(case: &Case, pass: usize) -> bool {
+    pass > 1 && case.motion.is_some_and(|motion| motion.counter == CounterBody::Fresh)
 }
 
 /// A quantity of the positions in the first, a middle and the last pass.

@@ -106,13 +106,13 @@ fn gather<'a>(
     }
     let points = results.sweep()?;
     if !points.is_empty() {
-        sweep::draw(&points, &results.case_json()?, &mut sheet)?;
+        sweep::draw(&points, &results.case()?, &mut sheet)?;
     }
-    let case = results.case_json()?;
-    if !case["plasticity"].is_null() {
+    let case = results.case()?;
+    if case.plasticity.is_some() {
         flow::draw(&results.flow_fields(passes.last().map(|pass| pass.pass))?, &of, &mut sheet)?;
     }
-    if !case["subsurface"].is_null() {
+    if case.subsurface.is_some() {
         let fields = results.subsurface_fields(passes.last().map(|pass| pass.pass))?;
         subsurface::draw(&fields, &of, &mut sheet)?;
     }

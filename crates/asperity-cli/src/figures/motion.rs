@@ -2,7 +2,7 @@
 
 use asperity::io::fields::Fields;
 use asperity::kernel::response;
-use asperity::motion::{PassRecord, StepRecord};
+use asperity::motion::{PassRecord, PlasticUpdate, StepRecord};
 use asperity::operator::Operators;
 use asperity::study::{Results, cap_name, pressure_name, temperature_name};
 use asperity::surface::{FunctionalParameters, HeightParameters, Topography};
@@ -10,7 +10,7 @@ use asperity::units::{Dimension, format};
 use asperity::{Field, Grid};
 
 use super::pressure;
-use super::profile::{Facing, Profile, boundary, materials};
+use super::profile::{Facing, Profile};
 use super::sheet::Sheet;
 use super::stored::{Cap, Stored};
 use super::surfaces;
@@ -42,7 +42,7 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
         _ => format!("{}, passes 1 to {all}", load(&passes[0])),
     };
     let after_pass = format!("{}, after pass {all}", load(&passes[pass - 1]));
-    let is_fresh = course::has_new_upper(&results.case_json()?, pass);
+    let is_fresh = course::has_new_upper(&results.case()?, pass);
 
     sheet.add("topographies", "topographies before and after", &throughout, || {
         Ok(topographies(&before, &after, all, is_fresh))
@@ -286,24 +286,24 @@ fn pressures(
 /// The section at a position, where what its pressure displaces is known: the surfaces that met there are those after the
 /// pass before, unless they yielded from step to step, and shear displaces nothing normally, unless bodies are dissimilar.
 fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<Option<Profile>> {
-    let case = results.case_json()?;
-    let [lower, upper] = materials(&case)?;
-    let bodies = response(&lower, &upper)?;
+    let case = results.case()?;
+    let bodies = response(&case.lower.material, &case.upper.material)?;
     let couples = bodies.coupled().is_some_and(|bodies| bodies.couples());
-    // Without end where it is a word.
-    let yields = |body: &str| !case[body]["hardness"].is_string();
-    let step_by_step = case["motion"]["plastic_update"] == "step" && (yields("lower") || yields("upper"));
+    let yields = case.lower.hardness.yields() || case.upper.hardness.yields();
+    let step_by_step =
+        yields && case.motion.is_some_and(|motion| motion.plastic_update == PlasticUpdate::Step);
     let unknown = course::has_new_upper(&case, step.pass);
-    if step_by_step || unknown || (!case["friction"].is_null() && couples) {
+    if step_by_step || unknown || (case.friction.is_some() && couples) {
         return Ok(None);
     }
     let [below, above] = results.surfaces_after(step.pass - 1)?;
-    let Some(boundary) = boundary(&case["contact"]["boundary"]) else { return Ok(None) };
     let shape = pressure.grid.shape;
     let columns = below.heights().nrows().min(above.heights().nrows());
     let largest = Grid { shape: [columns, shape[1]], ..pressure.grid };
     let mut displacement = Field::zeros(shape);
-    Operators::new(largest, bodies, boundary).on(shape).apply(&pressure.field, &mut displacement);
+    Operators::new(largest, bodies, case.contact.boundary)
+        .on(shape)
+        .apply(&pressure.field, &mut displacement);
     // Between two columns a surface is between their heights.
     let facing = |body: &Topography, first: f64, across: usize| {
         let (columns, here) = (body.heights().nrows() as isize, first.floor());

@@ -1,10 +1,11 @@
 //! A section along x through the most loaded spot: both bodies as they are pressed together, the gap, the pressure.
 
 use asperity::kernel::response;
-use asperity::material::{Coating, Compliances, Material, plastic_share};
-use asperity::operator::{Boundary, Edge, Operators};
-use asperity::{Choice, Field, Grid};
-use serde_json::Value;
+use asperity::material::{Compliances, Material, plastic_share};
+use asperity::operator::Operators;
+use asperity::study::Case;
+use asperity::study::case::Hardness;
+use asperity::{Field, Grid};
 
 use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
 use crate::report::Outcome;
@@ -45,7 +46,7 @@ pub(super) struct Profile {
 impl Profile {
     /// The section through the cell of the largest pressure, of several that in the midst of the most; none without
     /// contact.
-    pub(super) fn of(facing: &Facing, case: &Value) -> Outcome<Option<Self>> {
+    pub(super) fn of(facing: &Facing, case: &Case) -> Outcome<Option<Self>> {
         let Some([ix, iy]) = most_loaded(facing.pressure).filter(|_| facing.approach.is_finite()) else {
             return Ok(None);
         };
@@ -55,13 +56,16 @@ impl Profile {
         let around = (AROUND * (end - first)).max(MIN_AROUND);
         let shown = first.saturating_sub(around)..(end + around).min(row.len());
         // Which body flows depends on the cell where one of them has a map of its hardness.
-        let mapped = ["lower", "upper"].iter().any(|body| case[body]["hardness"].is_object());
-        if mapped && facing.plastic.iter().any(|w| *w > 0.0) {
-            return Ok(None);
-        }
-        let [lower, upper] = materials(case)?;
-        let plastic = plastic_share(lower.hardness, upper.hardness);
-        let sunk = sunk(facing, case, &lower, &upper)?;
+        let [lower, upper] = [&case.lower, &case.upper].map(|body| match body.hardness {
+            Hardness::Uniform(hardness) => Some(hardness),
+            Hardness::Map(_) | Hardness::Given(_) => None,
+        });
+        let plastic = match (lower, upper) {
+            (Some(lower), Some(upper)) => plastic_share(lower, upper),
+            _ if facing.plastic.iter().any(|w| *w > 0.0) => return Ok(None),
+            _ => 0.0,
+        };
+        let sunk = sunk(facing, case)?;
         let along = |value: &dyn Fn(usize) -> f64| -> Vec<[f64; 2]> {
             let x = |i: usize| ((facing.column + i) as f64 + 0.5) * facing.pitch[0];
             shown.clone().map(|i| [x(i), value(i)]).collect()
@@ -126,34 +130,9 @@ fn most_loaded(pressure: &Field) -> Option<[usize; 2]> {
     loaded.map(|((i, j), _)| [i, j]).max_by(|a, b| around(a).total_cmp(&around(b)))
 }
 
-/// What the bodies are made of.
-pub(super) fn materials(case: &Value) -> Outcome<[Material; 2]> {
-    let body = |name: &str| -> Outcome<Material> {
-        // What JSON cannot hold, or what is not there, is infinite.
-        let number = |key: &str| case[name][key].as_f64().unwrap_or(f64::INFINITY);
-        let constants = &case[name]["coating"];
-        let of = |key: &str| constants[key].as_f64().unwrap_or(f64::NAN);
-        let coating = match constants.is_null() {
-            true => None,
-            false => Some(Coating::new(of("thickness"), of("young"), of("poisson"))?),
-        };
-        let poisson = case[name]["poisson"].as_f64().unwrap_or(0.0);
-        Ok(Material { coating, ..Material::new(number("young"), poisson, number("hardness"))? })
-    };
-    Ok([body("lower")?, body("upper")?])
-}
-
-/// The boundary as `case.json` has it: a word for both axes, or one for each.
-pub(super) fn boundary(words: &Value) -> Option<Boundary> {
-    let edge = |word: &Value| Edge::of_word(word.as_str()?);
-    match words.as_array().map(Vec::as_slice) {
-        Some([x, y]) => Some(Boundary([edge(x)?, edge(y)?])),
-        _ => Some(Boundary([edge(words)?; 2])),
-    }
-}
-
 /// The part of the elastic displacement that is the lower body's, positive downwards.
-fn sunk(facing: &Facing, case: &Value, lower: &Material, upper: &Material) -> Outcome<Field> {
+fn sunk(facing: &Facing, case: &Case) -> Outcome<Field> {
+    let (lower, upper) = (&case.lower.material, &case.upper.material);
     let rigid = Material::elastic(f64::INFINITY, 0.0)?;
     if lower.young.is_infinite() && lower.coating.is_none() {
         return Ok(Field::zeros(facing.pressure.raw_dim()));
@@ -163,9 +142,10 @@ fn sunk(facing: &Facing, case: &Value, lower: &Material, upper: &Material) -> Ou
         return Ok(share * facing.displacement);
     }
     // Of a coated pair the share depends on the wavelength.
-    let boundary = boundary(&case["contact"]["boundary"]).unwrap_or_default();
     let grid = Grid { shape: facing.pressure.dim().into(), pitch: facing.pitch };
     let mut sunk = grid.zeros();
-    Operators::new(grid, response(lower, &rigid)?, boundary).on(grid.shape).apply(facing.pressure, &mut sunk);
+    Operators::new(grid, response(lower, &rigid)?, case.contact.boundary)
+        .on(grid.shape)
+        .apply(facing.pressure, &mut sunk);
     Ok(sunk)
 }

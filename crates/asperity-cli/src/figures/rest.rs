@@ -2,9 +2,8 @@
 
 use asperity::Field;
 use asperity::io::fields::{Attribute, Fields};
-use asperity::study::Results;
+use asperity::study::{Case, Results};
 use asperity::units::{Dimension, format};
-use serde_json::Value;
 
 use super::profile::{Facing, Profile};
 use super::sheet::Sheet;
@@ -22,7 +21,7 @@ pub(super) fn draw(results: &Results, sheet: &mut Sheet) -> Outcome<String> {
 
     bodies(&fields, sheet, &of)?;
     contact(&fields, &p, sheet, &of)?;
-    if let Some(profile) = profile(&fields, &results.case_json()?)? {
+    if let Some(profile) = profile(&fields, &results.case()?)? {
         sheet.add("profile", "section through the most loaded spot", &of, || Ok(profile))?;
     }
     if fields.names()?.iter().any(|name| name == "stick") {
@@ -81,7 +80,7 @@ fn contact(fields: &Fields, p: &Stored, sheet: &mut Sheet, of: &str) -> Outcome<
 }
 
 /// The section through the most loaded spot; none without contact.
-pub(crate) fn profile(fields: &Fields, case: &Value) -> Outcome<Option<Charts>> {
+pub(crate) fn profile(fields: &Fields, case: &Case) -> Outcome<Option<Charts>> {
     let read = |name| Stored::read(fields, name);
     let (lower, upper, pressure) = (read("lower")?, read("upper")?, read("pressure")?);
     let (displacement, plastic) = (read("displacement")?, read("plastic")?);

@@ -38,8 +38,7 @@ impl<'a> Sheet<'a> {
         wanted: &'a Wanted,
         stop: &'a (dyn Fn() -> bool + Sync),
     ) -> Outcome<Self> {
-        let case = results.case_json()?;
-        let title = case.get("title").and_then(|title| title.as_str()).unwrap_or_default();
+        let title = results.case()?.title;
         let mut case: String = title.chars().take(MAX_CHARACTERS).collect();
         if case.len() < title.len() {
             case.push('…');

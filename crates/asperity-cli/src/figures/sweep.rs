@@ -1,8 +1,10 @@
 //! Figures of a sweep: what changes from point to point.
 
 use asperity::motion::SweepRecord;
+use asperity::solver::Friction;
+use asperity::study::Case;
+use asperity::study::case::Prescribed;
 use asperity::units::{Dimension, format};
-use serde_json::Value;
 
 use super::Curves;
 use super::sheet::Sheet;
@@ -10,13 +12,6 @@ use crate::draw::{Axis, Chart, Mark, Series, Unit};
 use crate::report::Outcome;
 
 type Number = fn(&SweepRecord) -> f64;
-
-/// What may be swept: its key in [contact], its column.
-const SWEPT: [(&str, &str, Number); 3] = [
-    ("loads", "load", |p| p.load),
-    ("mean_pressures", "mean_pressure", |p| p.mean_pressure),
-    ("approaches", "approach", |p| p.approach),
-];
 
 /// What is drawn over it: the column, which is the name of the figure, its axis, and whether that is logarithmic beside a logarithmic
 /// one. The mean gap falls with the logarithm of the load.
@@ -27,19 +22,22 @@ const DRAWN: [(&str, &str, bool, Number); 4] = [
     ("max_pressure", "largest pressure", true, |p| p.max_pressure),
 ];
 
-pub(super) fn draw(points: &[SweepRecord], case: &Value, sheet: &mut Sheet) -> Outcome {
+pub(super) fn draw(points: &[SweepRecord], case: &Case, sheet: &mut Sheet) -> Outcome {
     let [from, to] = loads(points).map(|load| format(load, Dimension::Force));
     let of = if from == to { format!("load {from}") } else { format!("load {from} to {to}") };
     curves(points, case).into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))
 }
 
 /// All curves of a sweep of at least one point.
-pub(crate) fn curves(points: &[SweepRecord], case: &Value) -> Vec<Curves> {
-    if case["friction"].get("creepages").is_some() {
-        return vec![traction(points, &case["friction"])];
+pub(crate) fn curves(points: &[SweepRecord], case: &Case) -> Vec<Curves> {
+    if let Some(friction) = case.friction.as_ref().filter(|friction| !friction.creepages.is_empty()) {
+        return vec![traction(points, &friction.law)];
     }
-    let given = |(key, ..): &&(&str, &str, Number)| case["contact"].get(*key).is_some();
-    let (_, column, x) = *SWEPT.iter().find(given).unwrap_or(&SWEPT[0]);
+    let (column, x): (_, Number) = match case.contact.prescribed {
+        Prescribed::Load(_) => ("load", |point| point.load),
+        Prescribed::MeanPressure(_) => ("mean_pressure", |point| point.mean_pressure),
+        Prescribed::Approach(_) => ("approach", |point| point.approach),
+    };
     let swept = column.replace('_', " ");
     // The points in the order of what is swept, whatever order they were given in.
     let mut ordered: Vec<&SweepRecord> = points.iter().collect();
@@ -64,7 +62,7 @@ fn loads(points: &[SweepRecord]) -> [f64; 2] {
 /// The force ratio over the creepage, along x and along y, under what all that slides bears.
 ///
 /// Over the creepage with its sign where that has one direction, over its amount elsewhere.
-fn traction(points: &[SweepRecord], friction: &Value) -> Curves {
+fn traction(points: &[SweepRecord], friction: &Friction) -> Curves {
     /// Component, creepage and traction coefficient along each axis.
     const ALONG: [(&str, Number, Number); 2] = [
         ("along x", |p| p.creepage_x, |p| p.tangential_force_x / p.load),
@@ -90,8 +88,8 @@ fn traction(points: &[SweepRecord], friction: &Value) -> Curves {
     let mut series: Vec<Series> =
         shown.iter().map(|(name, _, ratio)| Series::new(*name, curve(*ratio), Mark::LineAndPoints)).collect();
     // Under a film's shear strength what slides bears less.
-    if let (Some(coefficient), None) = (friction["coefficient"].as_f64(), friction["shear_strength"].as_f64())
-    {
+    let coefficient = friction.coefficient;
+    if coefficient.is_finite() && friction.shear_strength.is_infinite() {
         let signs = [1.0, -1.0].into_iter().filter(|sign| {
             points.iter().any(|point| shown.iter().any(|(.., ratio)| sign * ratio(point) > 0.0))
         });

@@ -1,6 +1,7 @@
 //! The bodies: topographies before and after, their difference, profiles, parameters, material ratio, spectra.
 
 use asperity::study::Results;
+use asperity::study::case::{Source, TopographySpec};
 use asperity::surface::{Parameter, Parameters, Topography};
 use asperity::units::{Dimension, format};
 use serde_json::{Value, json};
@@ -42,7 +43,7 @@ pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Valu
     let before = found.kept(figures::as_measured(&before))?;
     let after = after.as_ref().and_then(|after| found.kept(figures::as_measured(after)));
     // Roughness parameters of a ball or a plane say nothing.
-    let are_forms = ["lower", "upper"].iter().all(|body| is_form(&found.case[*body]["topography"]));
+    let are_forms = [&found.case.lower, &found.case.upper].into_iter().all(|body| is_form(&body.topography));
     if !are_forms && before.iter().all(|body| body.grid().cells() <= MAX_CELLS) {
         html += &details("ISO 25178 parameters, material upwards", &parameters(&before, after.as_ref()));
         html += &curves::html(figures::of_surfaces(&before, after.as_ref()), charts);
@@ -51,8 +52,8 @@ pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Valu
 }
 
 /// Whether a topography is a form alone.
-fn is_form(topography: &Value) -> bool {
-    topography["form"].is_string() && topography["plus"].is_null()
+fn is_form(topography: &TopographySpec) -> bool {
+    matches!(topography.source, Source::Form { .. }) && topography.plus.is_empty()
 }
 
 type Pair = Option<[Stored; 2]>;
@@ -128,12 +129,13 @@ fn body(key: &str, title: &str, before: &Stored, after: Option<&Stored>) -> (Val
 
 /// What a body at rest has been through when its heights are kept.
 fn as_it_is(found: &Found, body: &str) -> Option<String> {
+    let of_body = if body == "lower" { &found.case.lower } else { &found.case.upper };
     match (found.moves(), found.updates.last()) {
         (false, Some(last)) => {
             let distance = format(last.distance, Dimension::Length);
             Some(format!("Heights after {distance} of sliding."))
         }
-        (false, None) if !found.case[body]["plasticity"].is_null() => {
+        (false, None) if of_body.plasticity.is_some() => {
             Some("Heights after plastic flow, without the elastic displacement.".to_owned())
         }
         _ => None,

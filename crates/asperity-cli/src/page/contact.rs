@@ -1,7 +1,7 @@
 //! The contact: maps over the kept positions and passes, with where both bodies are.
 
 use asperity::io::fields::Fields;
-use asperity::motion::{StepRecord, SweepRecord};
+use asperity::motion::{StepRecord, Strategy, SweepRecord};
 use asperity::study::{cap_name, pressure_name, temperature_name};
 use asperity::units::{Dimension, format};
 use asperity::{Field, Grid};
@@ -126,7 +126,7 @@ fn of_motion(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Op
     if last == 0 {
         return None;
     }
-    if found.case["output"]["pressure_every"] == 0 {
+    if found.case.output.pressure_every == 0 {
         let why = "No pressures were kept: <code>pressure_every = 0</code> in <code>[output]</code>.";
         return Some(format!("<p>{why}</p>"));
     }
@@ -162,7 +162,8 @@ fn of_motion(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Op
     }
     let count = groups.len();
     data["contact"] = shown(&frames, groups);
-    data["contact"]["wraps"] = (found.case["motion"]["strategy"] == "shift").into();
+    data["contact"]["wraps"] =
+        found.case.motion.is_some_and(|motion| motion.strategy != Strategy::Overlap).into();
     let mut html = SCRUBBER.to_owned() + &remark;
     if count < last || positions.len() < kept.len() {
         html += &format!(

@@ -14,7 +14,7 @@ use crate::figures::{self, Curves, Flowed};
 
 /// The section, and the data that it shows; none of bodies that do not flow.
 pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
-    if found.case["plasticity"].is_null() {
+    if found.case.plasticity.is_none() {
         return None;
     }
     let mut html = numbers(found).unwrap_or_default();

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use asperity::io::fields::Fields;
 use asperity::motion::{IncrementRecord, PassRecord, StepRecord, SweepRecord, UpdateRecord};
-use asperity::study::{Results, Summary};
+use asperity::study::{Case, Results, Summary};
 use serde_json::Value;
 
 use super::table::Table;
@@ -13,7 +13,9 @@ use crate::report::{self, Outcome};
 /// The records of a results directory.
 pub(super) struct Found<'a> {
     pub(super) results: &'a Results,
-    pub(super) case: Value,
+    pub(super) case: Case,
+    /// The content of `case.json`.
+    pub(super) resolved: Value,
     /// There once all is done.
     pub(super) summary: Option<Summary>,
     pub(super) passes: Vec<PassRecord>,
@@ -31,7 +33,7 @@ impl<'a> Found<'a> {
     /// Reads the records; an error only without a case that can be read.
     pub(super) fn in_results(results: &'a Results) -> asperity::Result<Self> {
         let mut missing = Vec::new();
-        let case = results.case_json()?;
+        let (case, resolved) = (results.case()?, results.case_json()?);
         let finished = results.directory().join("summary.json").exists();
         let summary = if finished { kept(results.summary(), &mut missing) } else { None };
         let passes = kept(results.passes(), &mut missing).unwrap_or_default();
@@ -43,6 +45,7 @@ impl<'a> Found<'a> {
             points: kept(results.sweep(), &mut missing).unwrap_or_default(),
             results,
             case,
+            resolved,
             summary,
             passes,
             missing,
@@ -70,7 +73,7 @@ impl<'a> Found<'a> {
     }
 
     pub(super) fn moves(&self) -> bool {
-        !self.case["motion"].is_null()
+        self.case.motion.is_some()
     }
 
     pub(super) fn directory(&self) -> &Path {

@@ -6,9 +6,9 @@ use super::{cards, verdict};
 
 /// The title of the case.
 pub(super) fn title(found: &Found) -> String {
-    match found.case["title"].as_str().map(str::trim) {
-        Some(title) if !title.is_empty() => title.to_owned(),
-        _ => "a contact".to_owned(),
+    match found.case.title.trim() {
+        "" => "a contact".to_owned(),
+        title => title.to_owned(),
     }
 }
 
@@ -33,8 +33,8 @@ fn unfinished(found: &Found) -> String {
     if found.is_finished() {
         return String::new();
     }
-    let so_far = match found.case["motion"]["passes"].as_u64() {
-        Some(all) => format!("{} of {all} passes are there", found.done[found.passes.len()]),
+    let so_far = match found.case.motion {
+        Some(motion) => format!("{} of {} passes are there", found.done[found.passes.len()], motion.passes),
         None if !found.points.is_empty() => format!("{} points are there", found.points.len()),
         None if !found.updates.is_empty() => format!("{} updates are there", found.updates.len() - 1),
         None => format!("{} increments are there", found.increments.len()),

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use asperity::study::Outcome;
+use asperity::study::case::Prescribed;
 use asperity::units::{Dimension, bytes, format, format_time};
 use serde_json::Value;
 
@@ -23,13 +24,12 @@ pub(super) fn section(found: &Found) -> String {
         _ => None,
     });
     let largest = residuals().chain(at_rest.map(|record| record.residual)).fold(0.0, f64::max);
-    let tolerance = found.case["contact"]["tolerance"].as_f64();
     if largest > 0.0 {
-        let against = tolerance.map_or(String::new(), |tolerance| format!(", tolerance {tolerance:.0e}"));
-        rows.push(("largest residual η".to_owned(), format!("{largest:.1e}{against}")));
+        let tolerance = found.case.contact.tolerance;
+        rows.push(("largest residual η".to_owned(), format!("{largest:.1e}, tolerance {tolerance:.0e}")));
     }
     let reached = found.passes.last().map(|pass| pass.mean_load).or(at_rest.map(|record| record.load));
-    if let (Some(wanted), Some(reached)) = (found.case["contact"]["load"].as_f64(), reached) {
+    if let (Prescribed::Load(wanted), Some(reached)) = (found.case.contact.prescribed, reached) {
         let off = (reached - wanted).abs() / wanted;
         let [wanted, reached] = [wanted, reached].map(|load| format(load, Dimension::Force));
         let text = match off {
@@ -43,7 +43,7 @@ pub(super) fn section(found: &Found) -> String {
     {
         rows.push(("passes".to_owned(), escaped(&computed_passes(*computed, *represented, *error_bound))));
     }
-    if let Some(identity) = found.case["identity"].as_str() {
+    if let Some(identity) = found.resolved["identity"].as_str() {
         rows.push(("identity".to_owned(), format!("<code>{}</code>", escaped(identity))));
     }
     rows.extend(cost(found));
@@ -53,7 +53,7 @@ pub(super) fn section(found: &Found) -> String {
     {
         html += &details("All numbers of the contact", &facts(numbers::of("static", &record)));
     }
-    html += &details("The case with all its defaults", &case::html(&found.case));
+    html += &details("The case with all its defaults", &case::html(&found.resolved));
     html += &details("Files", &files(found.directory()));
     html += &details("How to cite", CITATION);
     html

@@ -264,7 +264,7 @@ fn films_of_updates(pair: &Pair, updates: &[UpdateRecord]) -> Option<String> {
 fn thick_film(films: impl Iterator<Item = [[Metre; 2]; 2]>) -> Option<String> {
     let bodies = films.flat_map(|[lower, upper]| [("lower", lower), ("upper", upper)]);
     let thick = bodies.filter(|(_, [film, sq])| film > sq);
-    let (name, [film, sq]) = thick.max_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]))?;
+    let (name, [film, sq]) = thick.reduce(|most, next| if next.1[0] > most.1[0] { next } else { most })?;
     let [film, sq] = [film, sq].map(|length| units::format(length, Dimension::Length));
     Some(format!(
         "the film on the {name} body is up to {film} thick, and the body has an Sq of {sq}: the contact takes the film to be as stiff \

@@ -54,11 +54,11 @@ columns! {
     pub struct RunningIn {
         /// Passes that were computed.
         pub computed: usize,
-        /// Passes of the motion that the computed ones stand for.
+        /// Passes of the motion that the computed passes represent.
         pub represented: usize,
-        /// Bound of the error of the heights from not computing the others: the sum of the estimates.
+        /// Bound on the error of the heights by extrapolation: the sum of the estimates.
         pub error_bound: Metre,
-        /// Volumes that the lower and the upper body have lost, by the name of the law; below 0 where a film has grown.
+        /// Volumes that the lower and the upper body have lost, by law; negative for a grown film.
         pub lost: BTreeMap<String, [CubicMetre; 2]>,
     }
 }

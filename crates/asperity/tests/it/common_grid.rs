@@ -5,17 +5,22 @@ use std::path::Path;
 use asperity::study::case::Case;
 use asperity::study::{self, Given, bodies, grids};
 use asperity::surface::Topography;
-use asperity::{CellValues, Field, Grid, ndarray};
+use asperity::{CellValues, Error, Field, Grid, ndarray};
 
 const STEEL: &str = "young = \"210 GPa\"\npoisson = 0.3\n";
 
-/// A case of two named surfaces with these lines under `[contact]`, and further tables.
-fn case(contact: &str, more: &str) -> Case {
+/// A case of two named surfaces, the lower one with this hardness, with these lines under `[contact]`, and further tables.
+fn case_of(hardness: &str, contact: &str, more: &str) -> Case {
     let text = format!(
-        "[lower]\n{STEEL}hardness = {{ given = \"map\" }}\ntopography = {{ given = \"lower\" }}\n\
+        "[lower]\n{STEEL}{hardness}\ntopography = {{ given = \"lower\" }}\n\
          [upper]\n{STEEL}topography = {{ given = \"upper\" }}\n[contact]\n{contact}\n{more}"
     );
     Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap()
+}
+
+/// A case whose lower body has a map of the hardness.
+fn case(contact: &str, more: &str) -> Case {
+    case_of("hardness = { given = \"map\" }", contact, more)
 }
 
 /// A paraboloid about the centre of a grid, and a hardness of the lower body that grows along x.
@@ -63,7 +68,8 @@ fn surfaces_are_resampled_to_the_coarser_pitch_and_cropped_about_their_centres()
 
 #[test]
 fn without_a_common_grid_the_error_says_how_to_get_one() {
-    let error = bodies(&case("load = \"0.1 N\"", ""), given()).unwrap_err();
+    let error = bodies(&case_of("", "load = \"0.1 N\"", ""), given()).unwrap_err();
     assert!(error.to_string().contains("different pitches"), "{error}");
-    assert!(error.hint().unwrap().contains("`grid = \"common\"` in [contact]"), "{error:?}");
+    let Error::Case(case) = &error else { panic!("{error:?}") };
+    assert!(case.hint.as_ref().unwrap().contains("`grid = \"common\"` in [contact]"), "{error:?}");
 }

@@ -157,7 +157,7 @@ fn a_depth_that_is_none_and_flow_that_leaves_the_volume_are_told() {
     );
     let whole = study::rest(&case("20 N", FLOWS, VOLUME), Given::default(), &()).unwrap();
     assert!(!whole.warnings.iter().any(|warning| warning.contains("deepest layer")), "{:?}", whole.warnings);
-    assert!(whole.warnings.iter().any(|warning| warning.contains("above 15 %")), "{:?}", whole.warnings);
+    assert!(whole.warnings.iter().any(|warning| warning.contains("more than 15 %")), "{:?}", whole.warnings);
 }
 
 /// Below a ball that has yielded, the stress is the elastic plus the residual stress; it continues below the volume.

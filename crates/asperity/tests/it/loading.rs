@@ -686,9 +686,9 @@ fn what_only_the_answer_shows_is_said_with_it() {
             "{BODIES}{contact}[[history]]\nload = \"0.1 N\"\nforce = \"20 mN\"\nincrements = {increments}"
         )
     };
-    assert!(warnings("coarse", &both(1)).contains("`dissipation` is known within"));
+    assert!(warnings("coarse", &both(1)).contains("`dissipation` has an error of"));
     let fine = both(60).replace("increments = 2", "increments = 30");
-    assert!(!warnings("fine", &fine).contains("`dissipation` is known within"));
+    assert!(!warnings("fine", &fine).contains("`dissipation` has an error of"));
     // Reported once, whether it is predictable or not.
     let rolling = format!("{BODIES}{}creepage = 1e-3", contact.replace("increments = 2\n", ""));
     let rolling = rolling.replace("0.6 GPa", "0.2 GPa");

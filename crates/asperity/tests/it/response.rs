@@ -150,10 +150,10 @@ fn what_is_not_known_of_a_response_is_refused() {
     let stages = [Stage { loading, increments: 1 }];
     let loaded =
         load_in_stages(&pair(), Boundary::FREE, Some(&friction), &stages, &params, None, &(), &mut []);
-    unsupported(loaded.map(|_| ()).unwrap_err(), "shear");
+    unsupported(loaded.map(|_| ()).unwrap_err(), "gross sliding");
     let rolling = Rolling { creep: Creep::Creepage([0.001, 0.0]), spin: 0.0 };
     let rolled = roll(&pair(), Boundary::FREE, &friction, load, rolling, &params, &());
-    unsupported(rolled.map(|_| ()).unwrap_err(), "shear");
+    unsupported(rolled.map(|_| ()).unwrap_err(), "gross sliding");
     for (coupling, slides) in [(Coupling::Full, false), (Coupling::None, true)] {
         let motion = Motion::new(Strategy::Overlap, Control::Load(0.05))
             .with_passes(1)
@@ -165,7 +165,7 @@ fn what_is_not_known_of_a_response_is_refused() {
         let made = Simulation::new(pair(), Boundary::FREE, motion, params);
         match slides {
             true => made.unwrap().run(&(), &mut []).unwrap(),
-            false => unsupported(made.map(|_| ()).unwrap_err(), "shear"),
+            false => unsupported(made.map(|_| ()).unwrap_err(), "gross sliding"),
         }
     }
 }

@@ -320,9 +320,11 @@ fn what_bodies_that_flow_do_not_have_is_refused() {
         }
     };
     let periodic = Boundary::PERIODIC;
-    assert!(refused(simulation(&hard, periodic, shift(0.0, 1.0)), periodic).contains("no hardness"));
+    assert!(
+        refused(simulation(&hard, periodic, shift(0.0, 1.0)), periodic).contains("do not take a hardness")
+    );
     let free = simulation(&steel(), Boundary::FREE, shift(0.0, 1.0));
-    assert!(refused(free, Boundary::FREE).contains("periodic along x"));
+    assert!(refused(free, Boundary::FREE).contains("needs a periodic boundary"));
 }
 
 /// The ball in a case, with forward and return strokes at constant approach.
@@ -427,8 +429,11 @@ fn what_the_model_bears_badly_is_told() {
     };
     assert_eq!(warnings(&[]), "");
     assert!(warnings(&[("\"80 um\"", "\"20 um\"")]).contains("yields in its deepest layer"));
-    assert!(warnings(&[("layers = 12", "layers = 4")]).contains("more than a quarter of the contact across"));
-    assert!(warnings(&[("passes = 1", "passes = 1\nstride = 4")]).contains("a step of 4 cells is"));
+    assert!(
+        warnings(&[("layers = 12", "layers = 4")])
+            .contains("more than a quarter of the width of the contact")
+    );
+    assert!(warnings(&[("passes = 1", "passes = 1\nstride = 4")]).contains("a stride of 4 cells is"));
     assert!(warnings(&[("\"5 N\"", "\"60 N\"")]).contains("the largest plastic strain is"));
     let overlap = [
         ("strategy = \"shift\"\n", ""),

@@ -28,7 +28,7 @@ columns! {
         pub residual_displacement: Metre,
         /// Applications of the operator of the residual stress, over all increments.
         pub products: usize,
-        /// Largest mismatch of the stress over the yield stress at the end of an increment.
+        /// Largest return-mapping residual over the yield stress at the end of an increment.
         pub mismatch: f64,
         /// Response of the bodies to repeated loading, as a word.
         pub regime: Regime,
@@ -125,7 +125,7 @@ columns! {
         pub plastic_work: Joule,
         /// Applications of the operator of the residual stress.
         pub products: usize,
-        /// Mismatch of the stress over the yield stress.
+        /// Return-mapping residual over the yield stress.
         pub mismatch: f64,
     }
 }

@@ -23,7 +23,7 @@ columns! {
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct RunningRecord {
-        /// Passes of the motion that this computed one stands for, ≥ 1; plastic volumes are those of one.
+        /// Passes of the motion that this computed pass represents, ≥ 1; plastic volumes are those of one pass.
         pub represents: usize,
         /// Time since the beginning, at the end of these passes; unknown without a speed.
         #[serde(deserialize_with = "number_or_none")]

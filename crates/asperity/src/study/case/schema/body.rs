@@ -35,7 +35,7 @@ pub(in crate::study) mod both {
             ),
             "inf",
             "\"4 GPa\"",
-            "the largest pressure that the body bears, or a map of what each of its cells bears",
+            "largest pressure of the body, or a map of it",
         );
         COATING: Nested =
             table("coating", Absent("none"), "an elastic layer that covers it, see [below](#lowercoating-and-uppercoating)");
@@ -79,7 +79,7 @@ pub(in crate::study) mod upper {
             choice::<Mount>(),
             "`\"turned-over\"`; `\"as-is\"` of an underside",
             "\"as-is\"",
-            "`[upper]` only: how its heights face",
+            "`[upper]` only: orientation of its heights",
         );
     }
 }

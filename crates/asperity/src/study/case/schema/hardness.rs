@@ -21,7 +21,7 @@ pub(in crate::study) mod map {
             other(Some(Dimension::Pressure), "unit, or pressure > 0", |_, entry| entry.unit(Dimension::Pressure)),
             "\"Pa\"",
             "\"GPa\"",
-            "what a 1 in the file stands for",
+            "unit of the numbers in the file",
         );
     }
 }

@@ -189,7 +189,7 @@ pub(in crate::study) mod friction {
             count(1),
             "1",
             "20",
-            "equal steps in which the load and what acts in the plane grow from 0",
+            "equal steps in which load and tangential load grow from 0",
         );
     }
 }

@@ -61,24 +61,24 @@ pub(in crate::study) mod volume {
             number(Between { least: 1.0, most: 2.0, open: [false, false] }),
             "1",
             "1.2",
-            "thickness of a layer over that of the one above",
+            "ratio of the thickness of a layer to that of the layer above",
         );
         INCREMENTS: Typed<usize> = defaulted(
             "increments",
             count(1),
             "16",
             "32",
-            "static: equal steps of the load or the approach, of [contact], of each [[history]] without its own, and of taking the load off",
+            "static: equal steps of the loading in [contact], of each [[history]] without its own number, and of the unloading",
         );
         TOLERANCE: Typed<f64> = defaulted(
             "tolerance",
             FRACTION,
             "1e-4",
             "1e-5",
-            "mismatch of the stress over the yield stress at which a step is done",
+            "return-mapping residual over the yield stress at which a step ends",
         );
         UNLOAD: Typed<bool> =
-            defaulted("unload", FLAG, "true", "false", "static: whether the load is taken off at the end");
+            defaulted("unload", FLAG, "true", "false", "static: whether the contact is unloaded at the end");
         KEEP: Typed<read::Keep> = defaulted(
             "keep",
             choice::<read::Keep>(),

@@ -8,10 +8,10 @@ section! { &[], "";
         optional("title", TEXT, "the file's name without its extension", "\"a ball on a plate\"", "a name for reports");
     LOWER: Nested = table("lower", Required, "the body underneath");
     UPPER: Nested = table("upper", Required, "the body above");
-    CONTACT: Nested = table("contact", Required, "what presses the bodies together");
-    FRICTION: Nested = table("friction", Absent("none"), "their friction, and what acts in the plane");
+    CONTACT: Nested = table("contact", Required, "load or approach, boundary, solver");
+    FRICTION: Nested = table("friction", Absent("none"), "friction law and tangential loading");
     HISTORY: Nested = tables("history", Absent("none"), "further stages of the loading of a static contact");
-    MOTION: Nested = table("motion", Absent("none: one static contact"), "how the bodies move");
+    MOTION: Nested = table("motion", Absent("none: one static contact"), "motion of the bodies");
     SLIDING: Nested = table(
         "sliding",
         Absent("none"),
@@ -20,14 +20,14 @@ section! { &[], "";
     ACCELERATION: Nested = table(
         "acceleration",
         Absent("none: each is computed"),
-        "how many passes of bodies that wear a computed pass may stand for",
+        "extrapolation over passes of bodies that wear",
     );
-    TEMPERATURE: Nested = table("temperature", Absent("not known"), "how warm the bodies are");
+    TEMPERATURE: Nested = table("temperature", Absent("not known"), "temperature of the bodies");
     PLASTICITY: Nested = table(
         "plasticity",
         Absent("none"),
         "the volume under the surface in which bodies deform plastically",
     );
-    SUBSURFACE: Nested = table("subsurface", Absent("none"), "the stress under the surface that is wanted");
-    OUTPUT: Nested = table("output", Absent("its defaults"), "what is kept");
+    SUBSURFACE: Nested = table("subsurface", Absent("none"), "stress below the surface");
+    OUTPUT: Nested = table("output", Absent("its defaults"), "stored results");
 }

@@ -63,7 +63,7 @@ pub(in crate::study) mod film {
             PRESSURE,
             "that of the body",
             "\"2 GPa\"",
-            "the largest pressure that its cells bear where it is at its thickest, at most that of the body; in between in proportion",
+            "largest pressure under the thickest film, at most that of the body; in proportion in between",
         );
     }
 }
@@ -171,9 +171,9 @@ pub(in crate::study) mod acceleration {
             count(1),
             "10000",
             "1000",
-            "the largest number of passes that a computed one stands for; 1: all are computed",
+            "largest number of passes that a computed pass represents; 1 computes all",
         );
-        MAX_WEAR: Typed<f64> = defaulted("max_wear", LENGTH, "\"5 nm\"", "\"2 nm\"", "the deepest wear in a jump");
+        MAX_WEAR: Typed<f64> = defaulted("max_wear", LENGTH, "\"5 nm\"", "\"2 nm\"", "largest wear depth in an extrapolation");
     }
 
     #[cfg(test)]

@@ -93,7 +93,7 @@ pub(in crate::study::case) fn suits(table: &Table<'_>, kind: &str) -> Result<()>
     let known = known.map(|key| key.name).filter(|key| !(is_layer && of_the_whole(key)));
     table.known(&known.collect::<Vec<_>>(), |key| {
         if is_layer && of_the_whole(key) {
-            let hint = "what is added stands on the grid of the topography, as prepared".to_owned();
+            let hint = "leave it out here: the addition uses the grid of the prepared topography".to_owned();
             return Some((format!("'{key}' has no meaning in {}", table.name()), Some(hint)));
         }
         let owners = sections(table.path()).filter(|section| section.has(key) && section.kind != GIVEN);

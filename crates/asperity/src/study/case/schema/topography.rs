@@ -91,7 +91,7 @@ pub(in crate::study) mod every {
             "width of the rim that is brought down to the mean, at most half of the topography",
         );
         PLUS: Nested =
-            tables("plus", Absent("nothing"), "what is added to the heights, see [below](#plus-roughness-on-a-form-and-other-sums)");
+            tables("plus", Absent("nothing"), "further heights to add, see [below](#plus-roughness-on-a-form-and-other-sums)");
     }
 }
 
@@ -120,7 +120,7 @@ pub(in crate::study) mod file {
             other(Some(Dimension::Length), "unit, or length > 0", |_, entry| entry.unit(Dimension::Length)),
             "metres; integers in tiff need one",
             "\"nm\"",
-            "what a 1 stands for in a file without units: the heights of npy, text, csv, tiff, HDF5, NetCDF and ibw, x and y of a \
+            "unit of the numbers in a file without units: the heights of npy, text, csv, tiff, HDF5, NetCDF and ibw, x and y of a \
              table of points too; an error for a file that has its own",
         );
         DESPIKE: Optional<f64> = optional(
@@ -135,7 +135,7 @@ pub(in crate::study) mod file {
             choice::<Fill>(),
             "\"none\"",
             "\"harmonic\"",
-            "what becomes of missing heights: with `\"none\"` they are an error, `\"harmonic\"` is a membrane over each hole",
+            "treatment of missing heights: with `\"none\"` they are an error, `\"harmonic\"` is a membrane over each hole",
         );
     }
 }
