@@ -21,7 +21,9 @@ pub(crate) fn deviations(record: &ClosedFormRecord) -> String {
         ("approach", record.approach_deviation),
     ];
     let shown = of.into_iter().filter_map(|(name, deviation)| Some((name, 100.0 * deviation?)));
-    shown.map(|(name, percent)| format!("{name} {percent:+.2} %")).collect::<Vec<_>>().join(", ")
+    // No sign of a zero that is left by rounding.
+    let rounded = |percent: f64| (100.0 * percent).round() / 100.0 + 0.0;
+    shown.map(|(name, percent)| format!("{name} {:+.2} %", rounded(percent))).collect::<Vec<_>>().join(", ")
 }
 
 fn values([a, b]: [Metre; 2], max_pressure: Option<Pascal>, approach: Option<Metre>) -> String {

@@ -40,9 +40,18 @@ pub(super) fn with_code(text: &str) -> String {
     parts.iter().enumerate().map(part).collect()
 }
 
-/// Text about numbers with the sign that they have in print.
+/// Writes the sign of negative numbers in a text as in print. Hyphens stay.
 pub(super) fn minus(text: &str) -> String {
-    text.replace('-', "−")
+    let mut printed = String::with_capacity(text.len());
+    let mut before = ' ';
+    let mut rest = text.chars().peekable();
+    while let Some(c) = rest.next() {
+        let begins = before == 'e' || !before.is_alphanumeric();
+        let is_sign = c == '-' && begins && rest.peek().is_some_and(char::is_ascii_digit);
+        printed.push(if is_sign { '−' } else { c });
+        before = c;
+    }
+    printed
 }
 
 /// A number with its value, SI, for programs that read the page; `key` says where it stands in `summary.json`.
@@ -72,6 +81,12 @@ pub(super) fn details(summary: &str, content: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn negative_numbers_have_a_minus_and_words_a_hyphen() {
+        assert_eq!(minus("-3.2 nm, (-1, 8.5e-3)"), "−3.2 nm, (−1, 8.5e−3)");
+        assert_eq!(minus("Rigid-body approach by ISO 21920-2"), "Rigid-body approach by ISO 21920-2");
+    }
 
     #[test]
     fn code_is_what_stands_between_backticks() {
