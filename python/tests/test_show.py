@@ -173,7 +173,7 @@ def test_a_run_writes_its_page(run, tmp_path):
     path = run.report(tmp_path / "page.html")
     assert path == tmp_path / "page.html"
     page = path.read_text(encoding="utf-8")
-    assert page.startswith("<!doctype html>") and "2 passes, mean load" in page
+    assert page.startswith("<!doctype html>") and "After 2 passes under a mean load of" in page
     for column in ("mean_load", "max_pressure", "sq_lower"):
         told = re.search(rf'data-key="passes\.1\.{column}" value="([^"]+)"', page)
         assert told is not None and float(told[1]) == run.passes[column][1], column

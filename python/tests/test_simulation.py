@@ -140,7 +140,7 @@ def test_a_pass_there_and_back_and_across_has_its_steps(pair: Pair) -> None:
         steps = run.steps[run.steps["pass"] == number]
         assert np.array_equal(steps["offset"], steps["offset"][::-1]) and len(set(steps["offset_y"])) == 1
         assert np.array_equal(steps["load"], steps["load"][::-1])
-    with pytest.raises(errors.CaseError, match="a fresh counter-body is made from another seed"):
+    with pytest.raises(errors.CaseError, match="needs a generated upper surface"):
         asp.simulate(pair[0], asp.Body(asp.form.flat((32, 32), pitch="1 um"), pair[0].material), load=0.02, counter="fresh")
 
 
@@ -242,9 +242,9 @@ def test_a_law_that_gives_what_has_no_meaning(pair: Pair, law, told: str) -> Non
         ({"stride": -1}, "'stride' is -1"),
         ({"strategy": "roll"}, "'strategy' is \"roll\""),
         ({"control": "approach"}, "'control'"),
-        ({"boundary": "periodic"}, "periodic along x has no overlap"),
+        ({"boundary": "periodic"}, "needs a boundary that is free along x"),
         ({"rim": 0.7}, "'rim' is 0.7"),
-        ({"speed_upper": 1}, "speed has no meaning"),
+        ({"speed_upper": 1}, "applies to strategy = \"shift\" only"),
     ],
 )
 def test_bad_arguments_are_named(pair: Pair, arguments: dict, told: str) -> None:

@@ -38,7 +38,8 @@ fn instead_of_a_case(path: &Path, command: &str) -> Option<(String, Option<Strin
             inner.map(|inner| format!("the case file is `{0}`: asperity {command} {0}", inner.display()));
         return Some((format!("`{}` is a folder, expected a case file", path.display()), hint));
     }
-    let text = std::fs::read_to_string(path).ok()?;
+    // Reading a pipe would wait for its writer.
+    let text = path.is_file().then(|| std::fs::read_to_string(path).ok())??;
     let table: toml::Table = toml::from_str(&text).ok()?;
     let is_study = table.contains_key("base") && !table.contains_key("lower");
     let path = path.display();

@@ -981,8 +981,8 @@ fn the_fields_of_results_are_topographies() {
         ("pressed/fields.h5", "lower, upper, displacement, gap, plastic"),
     ] {
         let told = ok(&asperity(&folder, &format!("surface info {file} --channel lower")));
-        assert!(told.starts_with("format     results\nchannel    lower\n"), "{told}");
-        assert!(told.contains(&format!("channels   {channels}\n")), "{told}");
+        assert!(told.starts_with("format    results\nchannel   lower\n"), "{told}");
+        assert!(told.contains(&format!("channels  {channels}\n")), "{told}");
         let told = ok(&asperity(&folder, &format!("surface info {file} --channel upper")));
         assert!(told.contains("an underside: as [upper] it is mounted as it is"), "{told}");
         ok(&asperity(&folder, &format!("surface convert {file} out.npy --channel upper --overwrite")));
@@ -1249,7 +1249,7 @@ fn the_table_of_bodies_that_run_in_counts_the_passes_of_the_motion() {
     let table = ok(&run(&folder, "case.toml --out results"));
     let lines: Vec<Vec<&str>> = table.lines().map(|line| line.split_whitespace().collect()).collect();
     let heads = lines.iter().find(|words| words.first() == Some(&"pass")).unwrap();
-    assert_eq!(heads[2..], ["area", "Sq", "lower", "Sq", "upper", "wear"], "{table}");
+    assert_eq!(heads[2..], ["load", "p", "max", "area", "Sq", "lower", "Sq", "upper", "wear"], "{table}");
     let rows: Vec<f64> = lines.iter().filter_map(|words| words.first()?.parse().ok()).collect();
     assert!(rows.starts_with(&[1.0, 3.0]) && rows.ends_with(&[20_000.0]), "{table}");
     // k W s of both bodies, whatever stood for what.

@@ -50,7 +50,7 @@ fn temporary_files_are_swept_from_every_folder_that_is_written_to() {
     };
     ok(&asperity(&folder, "run case.toml --out out"));
     half("out/figures/.asperity-aaaaaa");
-    ok(&asperity(&folder, "plot out"));
+    ok(&asperity(&folder, "plot out --overwrite"));
     assert!(temporary(&out).is_empty(), "{:?}", temporary(&out));
     for path in [".asperity-a", "fields/.asperity-b", "figures/.asperity-c"] {
         half(&format!("out/{path}"));
@@ -88,7 +88,7 @@ fn a_second_run_in_one_directory_is_refused_as_long_as_the_first_lives() {
         assert!(error.contains(told), "{flag}: {error}");
     }
     // Who only reads is welcome.
-    ok(&asperity(&folder, "plot out"));
+    ok(&asperity(&folder, "plot out --overwrite"));
     assert!(first.try_wait().unwrap().is_none(), "the first goes on");
     first.kill().unwrap();
     first.wait().unwrap();
@@ -222,7 +222,7 @@ fn what_cannot_be_written_to_stdout_is_an_error_and_a_closed_pipe_is_none() {
         "check case.toml",
         "run case.toml --out full",
         "run moving.toml --out moving",
-        "plot there",
+        "plot there --overwrite",
         "example",
         "example hertz",
         "surface info a.npy --pitch 1um",
@@ -288,7 +288,7 @@ fn ctrl_c_counts_while_figures_are_drawn() {
     let told = "error: interrupted before all figures were drawn\nhint: the results are whole; `asperity plot out --overwrite` draws";
     assert!(stderr(&output).contains(told), "{}", stderr(&output));
     assert!(out.join("summary.json").exists() && !out.join("figures/approach.png").exists());
-    ok(&asperity(&folder, "plot out"));
+    ok(&asperity(&folder, "plot out --overwrite"));
     assert!(out.join("figures/approach.png").exists());
 }
 
