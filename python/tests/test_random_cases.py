@@ -29,7 +29,9 @@ SEED = int(os.environ.get("SEED", "0"))
 COMMAND = os.environ.get("ASPERITY", f"{sys.executable} -m asperity").split()
 
 # What a case may rightly come to in place of results.
-NO_ANSWER = re.compile(r"closes the whole periodic gap|plastic limit|holds? at most|bears? at most|cannot carry|full contact")
+NO_ANSWER = re.compile(
+    r"closes the whole periodic gap|plastic limit|holds? at most|is at most|cannot carry|full contact|a single pass wears so much"
+)
 # Cells of these columns may be empty.
 OPTIONAL = {
     "approach", "friction_coefficient", "max_flash_temperature", "stiffness", "time", "friction_power", "max_temperature",
@@ -44,7 +46,7 @@ def test_a_random_case_holds_the_laws_of_every_result(seed: int, tmp_path: pathl
     assert checked.returncode == 0, checked.stderr
     out = tmp_path / "results"
     ran = command("run", path, "--out", out, "--threads", 1, "--quiet")
-    if ran.returncode == 1 and NO_ANSWER.search(ran.stderr):
+    if ran.returncode in (1, 2) and NO_ANSWER.search(ran.stderr):
         pytest.skip(ran.stderr.splitlines()[0])
     assert ran.returncode == 0, ran.stderr
     results = Results(out)
