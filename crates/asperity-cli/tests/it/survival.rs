@@ -303,7 +303,7 @@ fn what_is_no_file_is_named_as_what_it_is_and_waited_for_by_nobody() {
         for (name, told) in [
             ("pipe", "error: pipe: is a pipe (FIFO), expected a case file"),
             ("/dev/zero", "error: /dev/zero: is a device, expected a case file"),
-            ("folder.toml", "error: folder.toml: is a directory, expected a case file"),
+            ("folder.toml", "error: `folder.toml` is a folder, expected a case file"),
             ("large.toml", "error: large.toml: holds 5500000 bytes, a case file has 4194304 at most"),
         ] {
             let error = refused(&asperity(&folder, &format!("{command} {name}")));
