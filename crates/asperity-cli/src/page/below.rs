@@ -15,9 +15,7 @@ use crate::report::{Failure, Outcome};
 
 /// The section, and the data that it shows; none where no stress was wanted.
 pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
-    if found.case.subsurface.is_none() {
-        return None;
-    }
+    found.case.subsurface.as_ref()?;
     let pass = found.passes.last().map(|pass| pass.pass);
     let there = match found.moves() {
         true => pass.is_some(),

@@ -14,9 +14,7 @@ use crate::figures::{self, Curves, Flowed};
 
 /// The section, and the data that it shows; none of bodies that do not flow.
 pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
-    if found.case.plasticity.is_none() {
-        return None;
-    }
+    found.case.plasticity?;
     let mut html = numbers(found).unwrap_or_default();
     let pass = found.passes.last().map(|pass| pass.pass);
     let file = pass.map_or("plasticity.h5".to_owned(), |pass| format!("fields/plasticity-{pass:04}.h5"));

@@ -120,7 +120,7 @@ impl<'a> Step<'a> {
     }
 
     /// Returns whether no step of the course follows. A motion may be given more passes later, so none of its passes is the last.
-    pub(crate) fn is_last(&self) -> bool {
+    pub fn is_last(&self) -> bool {
         match self {
             Self::Increment { of, .. }
             | Self::Flow { of, .. }
