@@ -1,5 +1,7 @@
 //! The contact at one position, stored as its cells in contact only.
 
+use std::sync::Arc;
+
 use crate::error::Result;
 use crate::grid::{Field, Seat};
 use crate::motion::pair::Pair;
@@ -28,6 +30,9 @@ pub struct Contact {
     /// Absolute temperature of the surfaces on each cell in contact, in the order of the pressures; `None` if it is not
     /// computed.
     pub temperature: Option<Vec<Kelvin>>,
+    /// Gap of all cells, m, where an output asks for it ([`crate::motion::Simulation::keeping_gaps`]): below 0 by up to the plastic
+    /// interference on cells at the hardness.
+    pub gap: Option<Arc<Field>>,
     /// Load W = ΔA Σ p, N.
     pub load: Newton,
     /// Friction force Q = ΔA Σ q along x of the upper body on the lower one.
@@ -52,7 +57,7 @@ impl Contact {
         start: Option<&Field>,
         params: &Params,
         watch: &dyn Watch,
-    ) -> Result<Self> {
+    ) -> Result<(Self, Solution)> {
         let watch = &OneOfMany(watch);
         let gap = pair.initial_gap(&position);
         let shape = [position.columns, gap.ncols()];
@@ -68,7 +73,13 @@ impl Contact {
                 solve_normal_watched(operator.as_mut(), &gap, &bounds, control, start, params, watch)?
             }
         };
-        Ok(Self::new(position, sliding, &solution))
+        Ok((Self::new(position, sliding, &solution), solution))
+    }
+
+    /// Keeps the gap of the `solution`, if it is `wanted`.
+    #[must_use]
+    pub(super) fn with_gap(self, solution: &Solution, wanted: bool) -> Self {
+        Self { gap: wanted.then(|| Arc::new(solution.gap())), ..self }
     }
 
     /// Returns the same contact at a position of the return stroke, at no further cost.
@@ -93,6 +104,7 @@ impl Contact {
             pressure,
             plastic: Vec::new(),
             temperature: None,
+            gap: None,
             load,
             tangential_force: 0.0,
             approach,
@@ -121,6 +133,7 @@ impl Contact {
             pressure,
             plastic,
             temperature: None,
+            gap: None,
             load: solution.load(),
             approach: solution.approach,
             residual: solution.residual,

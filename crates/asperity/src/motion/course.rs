@@ -5,6 +5,7 @@ use crate::motion::record::{IncrementRecord, SweepRecord};
 use crate::motion::report::PassReport;
 use crate::motion::state::{LoadedContact, LoadingState, SlidingState};
 use crate::motion::watch::{Progress, Watch};
+use crate::solver::{Equilibrium, Solution};
 use crate::units::Newton;
 
 /// A computation in steps: increments of a loading, updates of a contact that wears in place, points of a load sweep, or
@@ -40,6 +41,8 @@ pub enum Step<'a> {
     Flow {
         /// The record of the increment.
         record: &'a IncrementRecord,
+        /// The contact at its end; `None` once the bodies are apart.
+        contact: Option<&'a Equilibrium>,
         /// Total number of increments, unloading included.
         of: usize,
     },
@@ -47,6 +50,8 @@ pub enum Step<'a> {
     Update {
         /// The contact after it.
         state: &'a SlidingState,
+        /// The solution at its end.
+        solution: &'a Solution,
         /// Total number of updates, without the initial contact.
         of: usize,
     },
@@ -166,8 +171,8 @@ impl<'a> Step<'a> {
         };
         match self {
             Self::Increment { state, of } => solved(state.contact.normal().load(), *of),
-            Self::Flow { record, of } => solved(record.load, *of),
-            Self::Update { state, of } => {
+            Self::Flow { record, of, .. } => solved(record.load, *of),
+            Self::Update { state, of, .. } => {
                 let update = state.updates.last().expect("the update just done");
                 solved(update.load, *of);
                 watch.update(update);

@@ -187,7 +187,7 @@ impl Course for Flowing<'_> {
     }
 
     fn report<'a>(&'a self, record: &'a IncrementRecord) -> Step<'a> {
-        Step::Flow { record, of: self.path.increments() }
+        Step::Flow { record, contact: self.contact.equilibrium(), of: self.path.increments() }
     }
 
     fn take(&mut self, record: IncrementRecord) {

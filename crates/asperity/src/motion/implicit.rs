@@ -79,7 +79,9 @@ impl Solver<'_> {
                     stats,
                     ..solution
                 };
-                Contact::new(*position, self.motion.sliding(position.way).as_ref(), &at_position)
+                let sliding = self.motion.sliding(position.way);
+                Contact::new(*position, sliding.as_ref(), &at_position)
+                    .with_gap(&at_position, before.gap.is_some())
             };
         Ok(contacts.map(contact).collect())
     }

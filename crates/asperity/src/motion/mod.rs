@@ -12,6 +12,7 @@ mod implicit;
 mod jump;
 mod law;
 mod loading;
+mod observed;
 mod pair;
 mod pass;
 mod path;
@@ -45,6 +46,7 @@ pub use heat::FLASH;
 pub use jump::{Acceleration, Jump};
 pub use law::{Law, Sums, Touching};
 pub use loading::{Stage, load_in_stages, roll};
+pub use observed::ObservedContact;
 pub use pair::Pair;
 #[cfg(feature = "study")]
 pub(crate) use pair::{facing_values, initial_gap};

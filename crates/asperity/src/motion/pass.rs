@@ -48,6 +48,8 @@ pub(super) struct Solver<'a> {
     pub(super) motion: &'a Motion,
     pub(super) interiors: &'a [Interior; 2],
     pub(super) laws: &'a [Box<dyn Law>],
+    /// Whether the gap of each position is kept.
+    pub(super) gaps: &'a [bool],
     pub(super) watch: &'a dyn Watch,
     /// Pass and trial, for progress reports.
     pub(super) progress: Progress,
@@ -103,7 +105,7 @@ impl Solver<'_> {
                 params,
                 self.watch,
             );
-            let mut contact = contact.map_err(|source| match source {
+            let (contact, solution) = contact.map_err(|source| match source {
                 Error::Interrupted => source,
                 source => Error::AtPosition {
                     pass: self.progress.pass,
@@ -112,6 +114,7 @@ impl Solver<'_> {
                     source: Box::new(source),
                 },
             })?;
+            let mut contact = contact.with_gap(&solution, self.gaps[index]);
             if let Some(latest) = earlier.first() {
                 contact.stats.convolutions += latest[index].stats.convolutions;
             }

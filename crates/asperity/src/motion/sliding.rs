@@ -259,7 +259,7 @@ impl InPlace {
     }
 
     /// Solves the contact before sliding.
-    fn begin(&mut self, watch: &dyn Watch) -> Result<SlidingState> {
+    fn begin(&mut self, watch: &dyn Watch) -> Result<Updated> {
         let pair = self.pair.clone();
         let (solution, contact) = self.press(&pair, None, 0.0.into(), 0, watch)?;
         let flash = self.flash(&contact)?;
@@ -269,19 +269,20 @@ impl InPlace {
             lost: self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect(),
             ..self.record(&pair, &contact, flash.as_ref())
         };
-        Ok(SlidingState { pressure: solution.pressure, updates: vec![record], pair })
+        let state = SlidingState { pressure: solution.pressure.clone(), updates: vec![record], pair };
+        Ok(Updated { state, solution })
     }
 
     /// Solves the update that ends at the distance of this `index`.
-    fn advance(&mut self, state: &mut SlidingState, index: usize, watch: &dyn Watch) -> Result<()> {
+    fn advance(&mut self, mut state: SlidingState, index: usize, watch: &dyn Watch) -> Result<Updated> {
         let passage = self.slide.passage(index);
         let mut compliance =
             self.compliance(&state.pair, &law::nothing(&self.laws, &state.pair), passage.distance);
         let (mut stats, mut solutions) = (Stats::default(), 0);
-        let (contact, flash, sums) = loop {
+        let (solution, contact, flash, sums) = loop {
             let (solution, contact) =
                 self.press(&state.pair, Some(&state.pressure), compliance.clone(), index, watch)?;
-            state.pressure = solution.pressure;
+            state.pressure.assign(&solution.pressure);
             stats = stats.and(&solution.stats);
             solutions += 1;
             let flash = self.flash(&contact)?;
@@ -291,7 +292,7 @@ impl InPlace {
                 |(cell, _): &(u32, f64)| (next.at(*cell as usize) - compliance.at(*cell as usize)).abs();
             let most = contact.pressure.iter().map(change).fold(0.0, f64::max);
             if most <= COEFFICIENT_ACCURACY * next.max() || solutions == MAX_SOLUTIONS {
-                break (contact, flash, sums);
+                break (solution, contact, flash, sums);
             }
             compliance = next;
         };
@@ -311,7 +312,7 @@ impl InPlace {
             convolutions: stats.convolutions,
             ..self.record(&state.pair, &contact, flash.as_ref())
         });
-        Ok(())
+        Ok(Updated { state, solution })
     }
 
     /// Solves the contact of a `pair` with the additional cell `compliance`, from the pressure `start`, after `done`
@@ -416,6 +417,12 @@ impl InPlace {
     }
 }
 
+/// An update, and the contact at its end.
+struct Updated {
+    state: SlidingState,
+    solution: Solution,
+}
+
 /// The updates of a contact that wears in place.
 struct Updates {
     contact: InPlace,
@@ -424,10 +431,10 @@ struct Updates {
 }
 
 impl Course for Updates {
-    type Solved = SlidingState;
+    type Solved = Updated;
 
-    fn next(&mut self, watch: &dyn Watch) -> Result<Option<SlidingState>> {
-        let Some(mut state) = self.state.take() else { return self.contact.begin(watch).map(Some) };
+    fn next(&mut self, watch: &dyn Watch) -> Result<Option<Updated>> {
+        let Some(state) = self.state.take() else { return self.contact.begin(watch).map(Some) };
         let index = state.updates.len() - 1;
         if index == self.contact.slide.ends.len() {
             self.state = Some(state);
@@ -436,15 +443,14 @@ impl Course for Updates {
         if watch.stop() {
             return Err(Error::Interrupted);
         }
-        self.contact.advance(&mut state, index, watch)?;
-        Ok(Some(state))
+        self.contact.advance(state, index, watch).map(Some)
     }
 
-    fn report<'a>(&'a self, state: &'a SlidingState) -> Step<'a> {
-        Step::Update { state, of: self.contact.slide.ends.len() }
+    fn report<'a>(&'a self, Updated { state, solution }: &'a Updated) -> Step<'a> {
+        Step::Update { state, solution, of: self.contact.slide.ends.len() }
     }
 
-    fn take(&mut self, state: SlidingState) {
+    fn take(&mut self, Updated { state, .. }: Updated) {
         self.state = Some(state);
     }
 }

@@ -15,6 +15,7 @@ mod identity; // identity of a run, to resume it
 mod json; // records as JSON
 mod columns; // the dictionary of columns and numbers
 pub mod many; // many cases made from one, each in its folder
+mod observe; // observers of solved contacts
 mod passes; // a motion, pass after pass
 mod prepare; // from a case to its two surfaces
 mod rest; // a static contact

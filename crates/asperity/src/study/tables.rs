@@ -145,6 +145,23 @@ pub(super) fn rows_there(path: &Path) -> Result<usize> {
     Ok(text.iter().filter(|byte| **byte == b'\n').count().saturating_sub(1))
 }
 
+/// Counts the first rows of the table at `path` whose number in a `column` is at most `last`; 0 if there is no table.
+///
+/// # Errors
+/// [`Error::File`].
+pub(super) fn rows_up_to(path: &Path, column: &str, last: usize) -> Result<usize> {
+    if rows_there(path)? == 0 {
+        return Ok(0);
+    }
+    let text = regular::read(path, TABLE, u64::MAX).map_err(failed(path))?;
+    let ended = text.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
+    let mut table = csv::Reader::from_reader(&text[..ended]);
+    let headers = table.headers().map_err(|error| failed(path)(error.into()))?;
+    let Some(index) = headers.iter().position(|name| name == column) else { return Ok(0) };
+    let number = |row: csv::Result<csv::StringRecord>| row.ok()?.get(index)?.parse::<usize>().ok();
+    Ok(table.records().map_while(number).take_while(|number| *number <= last).count())
+}
+
 /// Writes a table with these columns.
 fn write_rows(path: &Path, columns: &[String], rows: &[Row]) -> Result<()> {
     let text = lines(columns, rows);

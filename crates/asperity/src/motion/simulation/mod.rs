@@ -45,6 +45,8 @@ pub struct Simulation {
     positions: Vec<Position>,
     /// Number of positions, the first ones, that are solved. The others are the same contacts on the return stroke.
     distinct: usize,
+    /// Whether the contact at each position keeps its gap.
+    gaps: Vec<bool>,
     operators: Operators,
     boundary: Boundary,
     interiors: [Interior; 2],
@@ -86,6 +88,7 @@ impl Simulation {
             memory_together(&motion, params.method, pair.yields(), &columns, pair.lower.width()).is_some();
         Ok(Self {
             together,
+            gaps: vec![false; positions.len()],
             boundary,
             interiors: interiors(&pair, boundary, &motion, 0.0),
             changes: Changes::new(),
@@ -174,6 +177,16 @@ impl Simulation {
     pub fn with_law(mut self, mut law: impl Law + 'static) -> Self {
         law.prepare(&mut self.pair);
         self.changes.add(Box::new(law), || Softness::of(&self.pair, self.boundary));
+        self
+    }
+
+    /// Keeps the gap of the contact at each position whose index is `wanted` ([`Contact::gap`]), for outputs that need it.
+    #[must_use]
+    pub fn keeping_gaps(mut self, wanted: impl Fn(usize) -> bool) -> Self {
+        let last = self.gaps.len() - 1;
+        // The contacts of a return stroke may be those of the outward stroke.
+        let gaps = self.gaps.iter_mut().enumerate();
+        gaps.for_each(|(index, gap)| *gap = wanted(index) || wanted(last - index));
         self
     }
 
@@ -428,6 +441,7 @@ impl Simulation {
             motion: &self.motion,
             interiors: &self.interiors,
             laws: &self.changes.laws,
+            gaps: &self.gaps,
             watch,
             progress,
         }

@@ -100,6 +100,7 @@ impl Simulation {
             let start = start.map(|c| c.pressure_field(pair.lower.width()));
             let control = Control::Load(load);
             Contact::solve(pair, &self.operators, *fullest, None, control, start.as_ref(), &params, watch)
+                .map(|(contact, _)| contact)
         };
         let (less, more) = ((load * share).min(0.9 * limit), (1.2 * load * share).min(0.95 * limit));
         let scale = height_scale(pair);

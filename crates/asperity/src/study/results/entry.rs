@@ -15,6 +15,7 @@ use crate::io::lock::{self, Lock};
 use crate::motion::{StepRecord, SweepRecord};
 use crate::study::case::Keep;
 use crate::study::identity;
+use crate::study::observe::OBSERVERS;
 use crate::study::tables;
 use serde_json::Value;
 
@@ -294,6 +295,9 @@ pub(super) fn clear(results: &Results, kept: Kept, keep: Keep) -> Result<()> {
             {
                 results.remove(&at(name))?;
             }
+            for name in OBSERVERS {
+                results.remove(&results.observer_table(name))?;
+            }
             let folders = [results.fields_folder(), results.figures_folder()];
             for path in folders.into_iter().filter(|path| path.exists()) {
                 fs::remove_dir_all(&path).map_err(|source| Error::File { path, source })?;
@@ -313,6 +317,9 @@ const AT_REST: [&str; 5] = ["fields.h5", "fields.vti", "subsurface.h5", "subsurf
 fn clear_later(results: &Results, passes: usize, keep: Keep) -> Result<()> {
     let mut names: Vec<_> = (0..=passes).map(|pass| results.fields_path(pass)).collect();
     names.extend((1..=passes).map(|pass| results.subsurface_path(Some(pass))));
+    for name in OBSERVERS {
+        names.extend((1..=passes).map(|pass| results.observer_fields(name, pass)));
+    }
     names.push(results.state_path(passes));
     let first = if keep == Keep::Last { passes } else { 1 };
     names.extend((first..=passes).map(|pass| results.flow_path(Some(pass))));

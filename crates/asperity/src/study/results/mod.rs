@@ -326,6 +326,25 @@ impl Results {
         self.directory.join("sweep.csv")
     }
 
+    /// Path of the table of an observer.
+    pub(in crate::study) fn observer_table(&self, name: &str) -> PathBuf {
+        self.directory.join(format!("{name}.csv"))
+    }
+
+    /// Path of the fields of an observer in a pass, or at a point.
+    pub(in crate::study) fn observer_fields(&self, name: &str, step: usize) -> PathBuf {
+        self.fields_folder().join(format!("{name}-{step:04}.h5"))
+    }
+
+    /// Reads the rows of an observer; empty if there are none.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub(in crate::study) fn observed<T: DeserializeOwned>(&self, name: &str) -> Result<Vec<T>> {
+        let path = self.observer_table(name);
+        if path.exists() { tables::read_growing(&path) } else { Ok(Vec::new()) }
+    }
+
     pub(super) fn point_path(&self, point: usize) -> PathBuf {
         self.fields_folder().join(format!("point-{point:04}.h5"))
     }
@@ -584,6 +603,6 @@ pub fn traction_name(step: usize) -> String {
 }
 
 /// Whether the fields of a point, from 1, are kept, with those of every n-th.
-pub(super) fn is_kept(point: usize, every: usize) -> bool {
+pub(in crate::study) fn is_kept(point: usize, every: usize) -> bool {
     every > 0 && (point - 1).is_multiple_of(every)
 }

@@ -81,6 +81,11 @@ impl Writer {
         &self.results
     }
 
+    /// The identity of the run.
+    pub(in crate::study) fn identity(&self) -> &str {
+        &self.identity
+    }
+
     /// Returns the warning about the directory, if any.
     pub fn warning(&self) -> Option<&'static str> {
         (!self.lock.binds()).then_some(NO_LOCKS)

@@ -1,0 +1,212 @@
+//! Observers: they compute something from each solved contact and change nothing.
+//!
+//! An observer has a table of its own with a row for each contact that it looks at, and fields. The fields of a static contact are
+//! those of its last contact, in `fields.h5`. The fields of points and positions that are kept are in `fields/NAME-NNNN.h5`, a file for
+//! each point or pass. The rows of a step are written before the row of the step itself, which marks it as done; a resumed run removes
+//! the rows of later steps.
+
+use serde::de::DeserializeOwned;
+
+use crate::error::{Error, Result};
+use crate::io::fields::FieldFile;
+use crate::motion::{ObservedContact, Position, Step};
+use crate::study::fields::NamedField;
+use crate::study::results::{Results, Writer, is_kept};
+use crate::study::tables::{self, GrowingTable, Record};
+
+/// Names of all observers.
+pub(super) const OBSERVERS: [&str; 2] = ["conductance", "flow"];
+
+/// Computes something from a solved contact and changes nothing.
+pub(super) trait Observer {
+    /// A row of its table.
+    type Record: Record + DeserializeOwned + Clone;
+
+    /// Name of its table, `NAME.csv`, and of its field files, `fields/NAME-NNNN.h5`.
+    const NAME: &'static str;
+
+    /// Interval of the positions of a pass, or of the increments, updates or points, that are looked at: 1 for all of them; 0 for
+    /// the position of full overlap of each pass, or for the last contact.
+    fn every(&self) -> usize;
+
+    /// Computes the row and the fields of a contact.
+    ///
+    /// # Errors
+    /// The reason why they cannot be computed.
+    fn observe(
+        &mut self,
+        place: Place,
+        contact: &ObservedContact<'_>,
+    ) -> Result<(Self::Record, Vec<NamedField>)>;
+}
+
+/// Place of a contact in its course.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Place {
+    /// Number of the pass, from 1; `None` for a static contact.
+    pub(super) pass: Option<usize>,
+    /// Number of the position, increment, update or point, from 1, but from 0 for updates; 1 for a contact in one step.
+    pub(super) step: usize,
+}
+
+/// An observer with what it has seen.
+pub(super) struct Observed<O: Observer> {
+    observer: O,
+    /// The rows that are not in a file.
+    records: Vec<O::Record>,
+    /// The fields of the last contact of a static contact.
+    fields: Vec<NamedField>,
+    files: Option<Files>,
+}
+
+/// The files of an observer.
+struct Files {
+    results: Results,
+    identity: String,
+    table: GrowingTable,
+    /// Interval of the points or positions whose fields are kept; 0 for none.
+    kept_every: usize,
+}
+
+impl<O: Observer> Observed<O> {
+    /// Creates an observer whose rows stay in memory.
+    pub(super) fn in_memory(observer: O) -> Self {
+        Self { observer, records: Vec::new(), fields: Vec::new(), files: None }
+    }
+
+    /// Creates an observer that writes its table and its fields to the results of a `writer`, after `done` steps.
+    ///
+    /// # Errors
+    /// [`Error::File`]; [`Error::NotResumable`] if the table of the finished steps is missing.
+    pub(super) fn in_files(
+        observer: O,
+        writer: &Writer,
+        done: Option<usize>,
+        kept_every: usize,
+        is_motion: bool,
+    ) -> Result<Self> {
+        let results = writer.results().clone();
+        let path = results.observer_table(O::NAME);
+        let column = if is_motion { "pass" } else { "step" };
+        let rows = match done {
+            None => 0,
+            Some(_) if !path.exists() && observer.every() > 0 => {
+                return Err(Error::NotResumable { path, reason: "is missing" });
+            }
+            Some(done) => tables::rows_up_to(&path, column, done)?,
+        };
+        let table = GrowingTable::open(path, rows)?;
+        let identity = writer.identity().to_owned();
+        let files = Some(Files { results, identity, table, kept_every });
+        Ok(Self { files, ..Self::in_memory(observer) })
+    }
+
+    /// Looks at the contacts of a step.
+    ///
+    /// # Errors
+    /// The errors of the observer, [`Error::File`], [`Error::NotFinite`].
+    pub(super) fn step(&mut self, step: &Step<'_>) -> Result<()> {
+        let number = step.number();
+        let mut rows = Vec::new();
+        let mut file = None;
+        for contact in step.contacts() {
+            let place = match step.pass() {
+                Some(_) => Place { pass: Some(number), step: contact.index + 1 },
+                None => Place { pass: None, step: number },
+            };
+            let is_wanted = match step.pass() {
+                Some(report) => {
+                    let position = &report.contacts[contact.index].position;
+                    wants_position(self.observer.every(), contact.index, position)
+                }
+                None => wants_step(self.observer.every(), number) || step.is_last(),
+            };
+            if !is_wanted {
+                continue;
+            }
+            let (row, fields) = self.observer.observe(place, &contact)?;
+            rows.push(row);
+            if let Some(files) = &self.files {
+                let is_kept = match step {
+                    Step::Pass(_) => files.kept_every > 0 && contact.index.is_multiple_of(files.kept_every),
+                    Step::Point { .. } => is_kept(number, files.kept_every),
+                    _ => false,
+                };
+                if is_kept {
+                    let file = file.get_or_insert_with(|| files.field_file(O::NAME, number, step.pass().is_some()));
+                    for NamedField { name, values, unit } in &fields {
+                        let name = match place.pass {
+                            Some(_) => format!("{name}_{:05}", place.step),
+                            None => (*name).to_owned(),
+                        };
+                        file.add_field(&name, unit, &contact.grid, contact.corner, values);
+                    }
+                }
+            }
+            if step.pass().is_none() {
+                self.fields = fields;
+            }
+        }
+        if let Some(file) = file {
+            file.write()?;
+        }
+        self.add(rows)
+    }
+
+    /// Looks at a contact that is solved in one step.
+    ///
+    /// # Errors
+    /// The errors of [`Observed::step`].
+    pub(super) fn contact(&mut self, contact: &ObservedContact<'_>) -> Result<()> {
+        let (row, fields) = self.observer.observe(Place { pass: None, step: 1 }, contact)?;
+        self.fields = fields;
+        self.add(vec![row])
+    }
+
+    fn add(&mut self, rows: Vec<O::Record>) -> Result<()> {
+        match &mut self.files {
+            Some(files) => files.table.add(&rows),
+            None => {
+                tables::checked(&rows)?;
+                self.records.extend(rows);
+                Ok(())
+            }
+        }
+    }
+
+    /// Whether it looks at a position of a pass.
+    pub(super) fn wants(&self, index: usize, position: &Position) -> bool {
+        wants_position(self.observer.every(), index, position)
+    }
+
+    /// Returns all rows, and the fields of the last contact of a static contact.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub(super) fn finish(self) -> Result<(Vec<O::Record>, Vec<NamedField>)> {
+        let rows = match self.files {
+            Some(files) => files.results.observed(O::NAME)?,
+            None => self.records,
+        };
+        Ok((rows, self.fields))
+    }
+}
+
+impl Files {
+    fn field_file(&self, name: &str, number: usize, is_pass: bool) -> FieldFile {
+        let mut file = FieldFile::of_run(&self.identity, &self.results.observer_fields(name, number));
+        file.set(if is_pass { "pass" } else { "point" }, number);
+        file
+    }
+}
+
+fn wants_position(every: usize, index: usize, position: &Position) -> bool {
+    match every {
+        0 => position.offset == 0.0,
+        every => index.is_multiple_of(every),
+    }
+}
+
+fn wants_step(every: usize, number: usize) -> bool {
+    every > 0 && (number + every - 1).is_multiple_of(every)
+}
