@@ -26,6 +26,12 @@ pub struct Coating {
     pub young: Pascal,
     /// Poisson's ratio, 0 ≤ ν ≤ 0.5.
     pub poisson: f64,
+    /// Thermal conductivity, W/(m K), > 0, if known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub conductivity: Option<f64>,
+    /// Electrical resistivity, Ω m, > 0, if known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub resistivity: Option<f64>,
 }
 
 impl Coating {
@@ -49,7 +55,7 @@ impl Coating {
             "a finite modulus above 0: a rigid coating leaves nothing to deform",
         )?;
         check("poisson", poisson, (0.0..=0.5).contains(&poisson), "Poisson's ratio from 0 to 0.5")?;
-        Ok(Self { thickness, young, poisson })
+        Ok(Self { thickness, young, poisson, conductivity: None, resistivity: None })
     }
 }
 

@@ -144,6 +144,19 @@ impl From<Dimension> for Unit {
             Dimension::Conductivity => Self::Of("W/(m K)"),
             Dimension::HeatCapacity => Self::Of("J/(kg K)"),
             Dimension::Density => Self::Of("kg/m³"),
+            Dimension::TemperatureDifference => Self::Of("K"),
+            Dimension::Voltage => Self::Of("V"),
+            Dimension::ThermalResistance => Self::Of("K/W"),
+            Dimension::ElectricalResistance => Self::Of("Ω"),
+            Dimension::Resistivity => Self::Of("Ω m"),
+            Dimension::ThermalConductance => Self::Of("W/K"),
+            Dimension::ElectricalConductance => Self::Of("S"),
+            Dimension::ThermalConductanceOfArea => Self::Of("W/(m² K)"),
+            Dimension::ElectricalConductanceOfArea => Self::Of("S/m²"),
+            Dimension::ThermalResistanceOfArea => Self::Of("m² K/W"),
+            Dimension::ElectricalResistanceOfArea => Self::Of("Ω m²"),
+            Dimension::Viscosity => Self::Of("Pa s"),
+            Dimension::VolumeFlow => Self::Of("m³/s"),
         }
     }
 }

@@ -37,6 +37,32 @@ pub enum Dimension {
     Density,
     /// Watts.
     Power,
+    /// Kelvins between two bodies.
+    TemperatureDifference,
+    /// Volts.
+    Voltage,
+    /// Kelvins per watt.
+    ThermalResistance,
+    /// Ohms.
+    ElectricalResistance,
+    /// Ohm metres.
+    Resistivity,
+    /// Watts per kelvin.
+    ThermalConductance,
+    /// Siemens.
+    ElectricalConductance,
+    /// Watts per square metre and kelvin.
+    ThermalConductanceOfArea,
+    /// Siemens per square metre.
+    ElectricalConductanceOfArea,
+    /// Square metre kelvins per watt.
+    ThermalResistanceOfArea,
+    /// Ohm square metres.
+    ElectricalResistanceOfArea,
+    /// Pascal seconds.
+    Viscosity,
+    /// Cubic metres per second.
+    VolumeFlow,
 }
 
 /// Reason why a text is not a quantity of the expected dimension.
@@ -78,7 +104,8 @@ pub enum UnitError {
 
 /// Reads a quantity, in SI.
 ///
-/// A number without a unit is in SI already. `inf` is accepted for pressures only (a rigid or unyielding body). The result
+/// A number without a unit is in SI already. `inf` is accepted for pressures (a rigid or unyielding body) and for
+/// conductivities (a body without resistance of its own). The result
 /// is the `f64` nearest to the written value, prefix included: `"0.1 um"` is `1e-7`.
 ///
 /// # Errors
@@ -88,7 +115,7 @@ pub fn parse(text: &str, expected: Dimension) -> Result<f64, UnitError> {
     let bare = trimmed.strip_prefix(['+', '-']).unwrap_or(trimmed);
     if bare == "inf" || bare == "nan" {
         return match trimmed {
-            "inf" | "+inf" if expected == Dimension::Pressure => Ok(f64::INFINITY),
+            "inf" | "+inf" if matches!(expected, Dimension::Pressure | Dimension::Conductivity) => Ok(f64::INFINITY),
             _ => Err(UnitError::NotFinite { text: text.to_owned(), expected }),
         };
     }
@@ -257,6 +284,19 @@ impl Dimension {
             Self::HeatCapacity => "a heat capacity",
             Self::Density => "a density",
             Self::Power => "a power",
+            Self::TemperatureDifference => "a temperature difference",
+            Self::Voltage => "a voltage",
+            Self::ThermalResistance => "a thermal resistance",
+            Self::ElectricalResistance => "an electrical resistance",
+            Self::Resistivity => "an electrical resistivity",
+            Self::ThermalConductance => "a thermal conductance",
+            Self::ElectricalConductance => "an electrical conductance",
+            Self::ThermalConductanceOfArea => "a thermal conductance of an area",
+            Self::ElectricalConductanceOfArea => "an electrical conductance of an area",
+            Self::ThermalResistanceOfArea => "a thermal resistance of an area",
+            Self::ElectricalResistanceOfArea => "an electrical resistance of an area",
+            Self::Viscosity => "a viscosity",
+            Self::VolumeFlow => "a flow of volume",
         }
     }
 
@@ -280,6 +320,19 @@ impl Dimension {
             Self::HeatCapacity => "460 J/(kg K)",
             Self::Density => "7850 kg/m3",
             Self::Power => "2 W",
+            Self::TemperatureDifference => "10 K",
+            Self::Voltage => "0.1 V",
+            Self::ThermalResistance => "20 K/W",
+            Self::ElectricalResistance => "5 mohm",
+            Self::Resistivity => "1.7e-8 ohm m",
+            Self::ThermalConductance => "50 mW/K",
+            Self::ElectricalConductance => "200 S",
+            Self::ThermalConductanceOfArea => "5 kW/(m2 K)",
+            Self::ElectricalConductanceOfArea => "1e9 S/m2",
+            Self::ThermalResistanceOfArea => "1e-8 m2 K/W",
+            Self::ElectricalResistanceOfArea => "1e-12 ohm m2",
+            Self::Viscosity => "80 mPa s",
+            Self::VolumeFlow => "2 mm3/s",
         }
     }
 
@@ -294,7 +347,7 @@ impl Dimension {
     }
 
     /// All dimensions.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 30] = [
         Self::Length,
         Self::Area,
         Self::Volume,
@@ -312,6 +365,19 @@ impl Dimension {
         Self::HeatCapacity,
         Self::Density,
         Self::Power,
+        Self::TemperatureDifference,
+        Self::Voltage,
+        Self::ThermalResistance,
+        Self::ElectricalResistance,
+        Self::Resistivity,
+        Self::ThermalConductance,
+        Self::ElectricalConductance,
+        Self::ThermalConductanceOfArea,
+        Self::ElectricalConductanceOfArea,
+        Self::ThermalResistanceOfArea,
+        Self::ElectricalResistanceOfArea,
+        Self::Viscosity,
+        Self::VolumeFlow,
     ];
 
     fn scale(self) -> Scale {
@@ -334,6 +400,19 @@ impl Dimension {
             Self::HeatCapacity => scale(Base::Of("J/(kg K)"), 1, 0),
             Self::Density => scale(Base::Of("kg/m³"), 1, 0),
             Self::Power => scale(Base::Of("W"), 1, 12),
+            Self::TemperatureDifference => scale(Base::Of("K"), 1, 0),
+            Self::Voltage => scale(Base::Of("V"), 1, 3),
+            Self::ThermalResistance => scale(Base::Of("K/W"), 1, 12),
+            Self::ElectricalResistance => scale(Base::Of("Ω"), 1, 12),
+            Self::Resistivity => scale(Base::Of("Ω m"), 1, 3),
+            Self::ThermalConductance => scale(Base::Of("W/K"), 1, 12),
+            Self::ElectricalConductance => scale(Base::Of("S"), 1, 12),
+            Self::ThermalConductanceOfArea => scale(Base::Of("W/(m² K)"), 1, 12),
+            Self::ElectricalConductanceOfArea => scale(Base::Of("S/m²"), 1, 12),
+            Self::ThermalResistanceOfArea => scale(Base::Of("m² K/W"), 1, 0),
+            Self::ElectricalResistanceOfArea => scale(Base::Of("Ω m²"), 1, 0),
+            Self::Viscosity => scale(Base::Of("Pa s"), 1, 3),
+            Self::VolumeFlow => scale(Base::CubedPerSecond, 3, 0),
         }
     }
 
@@ -373,6 +452,10 @@ impl Dimension {
                 | Self::Conductivity
                 | Self::HeatCapacity
                 | Self::Density
+                | Self::TemperatureDifference
+                | Self::ThermalResistanceOfArea
+                | Self::ElectricalResistanceOfArea
+                | Self::Resistivity
         )
     }
 
@@ -421,6 +504,14 @@ impl Dimension {
                 ("g/cm^3", 3, 1.0),
             ],
             Self::Temperature => &[("°C", 0, 1.0), ("degC", 0, 1.0), ("C", 0, 1.0)],
+            Self::ThermalConductanceOfArea => &[("W/(m2 K)", 0, 1.0), ("kW/(m2 K)", 3, 1.0), ("W/(m^2 K)", 0, 1.0), ("W/m2/K", 0, 1.0), ("W/m2K", 0, 1.0)],
+            Self::ElectricalConductanceOfArea => &[("S/m2", 0, 1.0), ("S/m^2", 0, 1.0)],
+            Self::ElectricalResistance => &[("ohm", 0, 1.0), ("mohm", -3, 1.0), ("uohm", -6, 1.0), ("kohm", 3, 1.0)],
+            Self::ThermalResistanceOfArea => &[("m2 K/W", 0, 1.0), ("m^2 K/W", 0, 1.0), ("m2K/W", 0, 1.0), ("mm2 K/W", -6, 1.0), ("cm2 K/W", -4, 1.0)],
+            Self::ElectricalResistanceOfArea => &[("ohm m2", 0, 1.0), ("ohm m²", 0, 1.0), ("ohm m^2", 0, 1.0), ("Ω m2", 0, 1.0), ("ohm cm2", -4, 1.0), ("ohm mm2", -6, 1.0)],
+            Self::Resistivity => &[("ohm m", 0, 1.0), ("ohm*m", 0, 1.0), ("nohm m", -9, 1.0), ("uohm m", -6, 1.0), ("uohm cm", -8, 1.0), ("µΩ cm", -8, 1.0), ("ohm cm", -2, 1.0)],
+            Self::Viscosity => &[("Pa*s", 0, 1.0), ("Pas", 0, 1.0), ("mPa*s", -3, 1.0), ("mPas", -3, 1.0), ("cP", -3, 1.0), ("P", -1, 1.0)],
+            Self::VolumeFlow => &[("l/min", -3, 1.0 / 60.0), ("ml/min", -6, 1.0 / 60.0), ("ul/min", -9, 1.0 / 60.0), ("L/min", -3, 1.0 / 60.0), ("mL/min", -6, 1.0 / 60.0)],
             _ => &[],
         }
     }
@@ -438,6 +529,7 @@ impl Dimension {
                 (length, 1.0 / Self::Time.unit(time).filter(|(exponent, _)| *exponent == 0)?.1)
             }
             Base::Squared => (["²", "^2", "2"].iter().find_map(|end| unit.strip_suffix(end))?, 1.0),
+            Base::CubedPerSecond => (["³/s", "^3/s", "3/s"].iter().find_map(|end| unit.strip_suffix(end))?, 1.0),
             Base::Cubed => (["³", "^3", "3"].iter().find_map(|end| unit.strip_suffix(end))?, 1.0),
         };
         let prefix = stem.strip_suffix(base.symbol())?;
@@ -466,6 +558,7 @@ enum Base {
     Of(&'static str),
     Squared,
     Cubed,
+    CubedPerSecond,
     PerSecond,
 }
 
@@ -479,6 +572,7 @@ impl Base {
             Self::Of(_) => "",
             Self::Squared => "²",
             Self::Cubed => "³",
+            Self::CubedPerSecond => "³/s",
             Self::PerSecond => "/s",
         }
     }

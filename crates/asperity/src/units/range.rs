@@ -43,6 +43,19 @@ impl Dimension {
             Self::HeatCapacity => (1e-3, 1e9, "J/(kg K)"),
             Self::Density => (1e-3, 1e6, "kg/m³"),
             Self::Power => (1e-18, 1e15, "W"),
+            Self::TemperatureDifference => (1e-6, 1e5, "K"),
+            Self::Voltage => (1e-12, 1e9, "V"),
+            Self::ThermalResistance => (1e-18, 1e18, "K/W"),
+            Self::ElectricalResistance => (1e-18, 1e18, "Ω"),
+            Self::Resistivity => (1e-12, 1e18, "Ω m"),
+            Self::ThermalConductance => (1e-18, 1e18, "W/K"),
+            Self::ElectricalConductance => (1e-18, 1e18, "S"),
+            Self::ThermalConductanceOfArea => (1e-18, 1e18, "W/(m² K)"),
+            Self::ElectricalConductanceOfArea => (1e-18, 1e18, "S/m²"),
+            Self::ThermalResistanceOfArea => (1e-18, 1e6, "m² K/W"),
+            Self::ElectricalResistanceOfArea => (1e-18, 1e6, "Ω m²"),
+            Self::Viscosity => (1e-9, 1e9, "Pa s"),
+            Self::VolumeFlow => (1e-45, 1e18, "m³/s"),
         };
         Range { least, most, unit }
     }

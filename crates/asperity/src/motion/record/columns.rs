@@ -160,6 +160,13 @@ macro_rules! columns {
     (@unit [Second]) => { "s" };
     (@unit [Kelvin]) => { "K" };
     (@unit [Watt]) => { "W" };
+    (@unit [WattPerKelvin]) => { "W/K" };
+    (@unit [Siemens]) => { "S" };
+    (@unit [WattPerSquareMetreKelvin]) => { "W/(m² K)" };
+    (@unit [SiemensPerSquareMetre]) => { "S/m²" };
+    (@unit [KelvinPerWatt]) => { "K/W" };
+    (@unit [Ohm]) => { "Ω" };
+    (@unit [CubicMetrePerSecond]) => { "m³/s" };
 }
 
 pub(crate) use columns;

@@ -13,7 +13,8 @@ use crate::error::Result;
 use crate::material::{Coating, Material};
 use crate::surface::UNDERSIDE;
 
-pub(super) fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
+/// Reads a body of a case that may have a table [conductance]; files are relative to the `folder` of the case.
+pub(super) fn body(table: &Table<'_>, folder: &Path, has_conductance: bool) -> Result<Body> {
     let is_upper = table.path() == "upper";
     known_in(table)?;
     let young = both::YOUNG.of(table)?;
@@ -32,14 +33,29 @@ pub(super) fn body(table: &Table<'_>, folder: &Path) -> Result<Body> {
     };
     // Checked above, entry by entry, so this cannot fail.
     let material = Material { coating, ..Material::elastic(young, poisson)? };
-    let thermal = running::thermal(table)?;
-    Ok(Body { material, hardness, plasticity, thermal, wear, film, topography, mount })
+    let thermal = running::thermal(table, has_conductance)?;
+    let conductivity = if thermal.is_none() { both::CONDUCTIVITY.of(table)? } else { None };
+    let resistivity = both::RESISTIVITY.of(table)?;
+    Ok(Body {
+        material,
+        hardness,
+        plasticity,
+        thermal,
+        conductivity,
+        resistivity,
+        wear,
+        film,
+        topography,
+        mount,
+    })
 }
 
 fn coating(table: &Table<'_>) -> Result<Coating> {
     known_in(table)?;
     let (thickness, young) = (coating_keys::THICKNESS.of(table)?, coating_keys::YOUNG.of(table)?);
-    Coating::new(thickness, young, coating_keys::POISSON.of(table)?)
+    let coating = Coating::new(thickness, young, coating_keys::POISSON.of(table)?)?;
+    let conductivity = coating_keys::CONDUCTIVITY.of(table)?;
+    Ok(Coating { conductivity, resistivity: coating_keys::RESISTIVITY.of(table)?, ..coating })
 }
 
 /// Whether a results file there may contain the underside of a body.

@@ -4,10 +4,12 @@
 //! serialises under the keys of the file, so that a summary contains the computed case.
 
 mod body;
+mod conductance;
 mod contact;
 pub(in crate::study) mod cursor;
 pub(in crate::study) mod document;
 mod friction;
+mod gap_flow;
 mod hardness;
 mod motion;
 mod output;
@@ -29,8 +31,10 @@ use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
 
+pub use self::conductance::ConductanceSpec;
 use self::document::Document;
 pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
+pub use self::gap_flow::{Direction, GapFlowSpec};
 pub use self::hardness::{GivenMap, Hardness, HardnessMap};
 pub use self::plasticity::{FlowSpec, HardeningKey, PlasticitySpec};
 pub use self::prescribed::Prescribed;
@@ -90,6 +94,12 @@ pub struct Case {
     /// Requested output of the stress under the surface; `None` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub subsurface: Option<SubsurfaceSpec>,
+    /// Requested conductance of the contacts; `None` if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub conductance: Option<ConductanceSpec>,
+    /// Requested flow through the gap; `None` if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flow: Option<GapFlowSpec>,
     /// Output options.
     pub output: Output,
     #[serde(skip)]
@@ -111,6 +121,12 @@ pub struct Body {
     /// Thermal constants of the body; unknown if absent.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub thermal: Option<Thermal>,
+    /// Thermal conductivity, W/(m K), of a body that has no other thermal constants, > 0 or infinite; unknown if absent.
+    #[serde(serialize_with = "with_infinity", skip_serializing_if = "Option::is_none")]
+    pub conductivity: Option<f64>,
+    /// Electrical resistivity, Ω m, > 0; unknown if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resistivity: Option<f64>,
     /// Wear of the body; none if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wear: Option<WearSpec>,
@@ -400,6 +416,10 @@ impl From<f64> for Number {
     fn from(value: f64) -> Self {
         if value.is_finite() { Self::Finite(value) } else { Self::Infinite("inf") }
     }
+}
+
+fn with_infinity<S: Serializer>(value: &Option<f64>, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    value.map(Number::from).serialize(serializer)
 }
 
 fn with_infinities<S: Serializer>(

@@ -3,10 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use super::body::body;
+use super::conductance::conductance;
 use super::contact::contact;
 use super::cursor::Table;
 use super::document::Document;
 use super::friction::{friction, stages};
+use super::gap_flow::flow;
 use super::motion::motion;
 use super::output::output;
 use super::plasticity::plasticity;
@@ -44,9 +46,10 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     known_in(root)?;
     let stem = || file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let title = keys::TITLE.of(root)?.unwrap_or_else(stem);
-    let lower = body(&keys::LOWER.demand(root)?, folder)?;
+    let has_conductance = keys::CONDUCTANCE.entry(root).is_some();
+    let lower = body(&keys::LOWER.demand(root)?, folder, has_conductance)?;
     let upper_table = keys::UPPER.demand(root)?;
-    let upper = body(&upper_table, folder)?;
+    let upper = body(&upper_table, folder, has_conductance)?;
     one_tells_the_other(&lower.topography, &upper.topography, &upper_table)?;
     let contact = contact(&keys::CONTACT.demand(root)?)?;
     let mut motion = keys::MOTION.of(root)?.map(|table| motion(&table, contact.prescribed)).transpose()?;
@@ -68,6 +71,8 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     let heated = lower.thermal.is_some();
     let temperature = keys::TEMPERATURE.of(root)?.map(|table| temperature(&table, heated)).transpose()?;
     let subsurface = keys::SUBSURFACE.of(root)?.map(|table| subsurface(&table)).transpose()?;
+    let conductance = keys::CONDUCTANCE.of(root)?.map(|table| conductance(&table)).transpose()?;
+    let flow = keys::FLOW.of(root)?.map(|table| flow(&table, contact.boundary)).transpose()?;
     Ok(Case {
         title,
         lower,
@@ -81,6 +86,8 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
         temperature,
         plasticity,
         subsurface,
+        conductance,
+        flow,
         output: output(root)?,
         document: Document::default(),
     })

@@ -11,6 +11,9 @@ use crate::units::Dimension;
 /// Poisson's ratio.
 const RATIO: Value<f64> = number(Between { least: 0.0, most: 0.5, open: [false, false] });
 
+/// An electrical resistivity.
+const RESISTIVITY_VALUE: Value<f64> = quantity(Dimension::Resistivity, AboveZero);
+
 /// `[lower]` and `[upper]`.
 pub(in crate::study) mod both {
     use super::*;
@@ -46,10 +49,17 @@ pub(in crate::study) mod both {
             table("plasticity", Absent("elastic"), "how it deforms plastically below its surface, see [below](#plasticity)");
         CONDUCTIVITY: Optional<f64> = optional(
             "conductivity",
-            quantity(Dimension::Conductivity, AboveZero),
+            quantity(Dimension::Conductivity, AboveZeroOrInfinite("a body without resistance of its own, with [conductance] alone")),
             "not known",
             "\"46 W/(m K)\"",
-            "thermal conductivity, for a flash temperature; of both bodies",
+            "thermal conductivity, for a flash temperature and for [conductance]; of both bodies",
+        );
+        RESISTIVITY: Optional<f64> = optional(
+            "resistivity",
+            RESISTIVITY_VALUE,
+            "not known",
+            "\"1.7e-8 ohm m\"",
+            "electrical resistivity, for [conductance] with `kind = \"electrical\"`; of both bodies",
         );
         HEAT_CAPACITY: Optional<f64> = optional(
             "heat_capacity",
@@ -92,5 +102,19 @@ pub(in crate::study) mod coating {
         THICKNESS: Typed<f64> = required("thickness", LENGTH, "\"2 um\"", "thickness of the layer");
         YOUNG: Typed<f64> = required("young", PRESSURE, "\"300 GPa\"", "its Young's modulus");
         POISSON: Typed<f64> = required("poisson", RATIO, "0.3", "its Poisson's ratio");
+        CONDUCTIVITY: Optional<f64> = optional(
+            "conductivity",
+            quantity(Dimension::Conductivity, AboveZero),
+            "not known",
+            "\"20 W/(m K)\"",
+            "its thermal conductivity, for [conductance]",
+        );
+        RESISTIVITY: Optional<f64> = optional(
+            "resistivity",
+            RESISTIVITY_VALUE,
+            "not known",
+            "\"1e-6 ohm m\"",
+            "its electrical resistivity, for [conductance]",
+        );
     }
 }

@@ -8,6 +8,7 @@ pub(in crate::study) mod loading;
 pub(in crate::study) mod hardness;
 pub(in crate::study) mod list;
 pub(in crate::study) mod moving;
+pub(in crate::study) mod passage;
 pub(in crate::study) mod results;
 pub(in crate::study) mod plasticity;
 pub(in crate::study) mod root;
@@ -140,6 +141,8 @@ pub fn keys() -> &'static [Section] {
         moving::motion::SECTION,
         loading::friction::SECTION,
         results::subsurface::SECTION,
+        passage::conductance::SECTION,
+        passage::flow::SECTION,
         results::output::SECTION,
         running_in::acceleration::SECTION,
         moving::sliding::SECTION,

@@ -1,0 +1,127 @@
+//! The keys of what a contact lets through: heat or current, and a fluid.
+
+use super::Bounds::{AboveZero, FromZero};
+use super::typed::{
+    DEPTH, FLAG, Optional, PRESSURE, Typed, choice, count, defaulted, optional, other, quantity, required, section,
+};
+use crate::units::Dimension;
+
+/// `[conductance]`.
+pub(in crate::study) mod conductance {
+    use super::*;
+    use crate::conductance::Kind;
+
+    section! { &["conductance"], "";
+        KIND: Typed<Kind> = defaulted(
+            "kind",
+            choice::<Kind>(),
+            "\"thermal\"",
+            "\"electrical\"",
+            "whether heat or current passes: bodies need `conductivity` or `resistivity`",
+        );
+        FILM: Optional<()> = optional(
+            "film",
+            other(
+                None,
+                "resistance of an area ≥ 0, such as \"1e-8 m2 K/W\"; \"1e-12 ohm m2\" with `kind = \"electrical\"`",
+                |_, _| Ok(()),
+            ),
+            "none",
+            "\"1e-8 m2 K/W\"",
+            "resistance of a film on the spots, of an area",
+        );
+        GAS: Optional<f64> = optional(
+            "gas",
+            quantity(Dimension::Conductivity, AboveZero),
+            "none",
+            "\"0.026 W/(m K)\"",
+            "thermal conductivity of a gas in the gap",
+        );
+        JUMP: Typed<f64> = defaulted(
+            "jump",
+            DEPTH,
+            "0.0",
+            "\"0.37 um\"",
+            "temperature jump distance of the gas at both surfaces together, which adds to the gap",
+        );
+        DROP: Optional<()> = optional(
+            "drop",
+            other(
+                None,
+                "temperature difference > 0, such as \"10 K\"; \"0.1 V\" with `kind = \"electrical\"`",
+                |_, _| Ok(()),
+            ),
+            "1 K, or 1 V",
+            "\"10 K\"",
+            "difference between the bodies; it scales flux and power, nothing else",
+        );
+        EVERY: Typed<usize> = defaulted(
+            "every",
+            count(0),
+            "1",
+            "4",
+            "interval of the positions of a pass, or of the increments, updates or points, whose conductance is computed; 0: once a \
+             pass, where the left edges are flush, or for the last contact alone",
+        );
+    }
+}
+
+/// `[flow]`.
+pub(in crate::study) mod flow {
+    use super::*;
+    use crate::flow::Ends;
+    use crate::study::case::gap_flow::Direction;
+
+    section! { &["flow"], "";
+        VISCOSITY: Typed<f64> = required(
+            "viscosity",
+            quantity(Dimension::Viscosity, AboveZero),
+            "\"80 mPa s\"",
+            "viscosity of the fluid, constant",
+        );
+        PRESSURE: Typed<f64> = defaulted(
+            "pressure",
+            quantity(Dimension::Pressure, FromZero),
+            "1e5",
+            "\"1 bar\"",
+            "pressure difference that drives the leakage",
+        );
+        ALONG: Optional<Direction> = optional(
+            "along",
+            choice::<Direction>(),
+            "along both axes",
+            "\"x\"",
+            "direction of the flow",
+        );
+        ENDS: Optional<Ends> = optional(
+            "ends",
+            choice::<Ends>(),
+            "`\"periodic\"` along periodic axes, `\"reservoirs\"` along free ones",
+            "\"reservoirs\"",
+            "`\"periodic\"`: the gap repeats itself, under a mean gradient of pressure; `\"reservoirs\"`: the fluid has two pressures at \
+             the ends of the grid, and the sides are closed along a free axis",
+        );
+        GAS: Typed<bool> = defaulted(
+            "gas",
+            FLAG,
+            "false",
+            "true",
+            "whether the fluid is an ideal gas at constant temperature; needs `outlet`",
+        );
+        OUTLET: Optional<f64> = optional(
+            "outlet",
+            PRESSURE,
+            "with a gas: must be given",
+            "\"1 bar\"",
+            "absolute pressure of a gas at the outlet, to which its leakage refers",
+        );
+        EVERY: Typed<usize> = defaulted(
+            "every",
+            count(0),
+            "1",
+            "4",
+            "interval of the positions of a pass, or of the increments, updates or points, whose flow is computed; 0: once a pass, \
+             where the left edges are flush, or for the last contact alone",
+        );
+    }
+}
