@@ -31,7 +31,7 @@ use serde::{Serialize, Serializer};
 
 use self::document::Document;
 pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
-pub use self::hardness::{GivenMap, Hardness, HardnessMap};
+pub use self::hardness::{Hardness, HardnessInput, HardnessMap};
 pub use self::plasticity::{FlowSpec, HardeningKey, PlasticitySpec};
 pub use self::prescribed::Prescribed;
 pub use self::running::{FilmSpec, TemperatureSpec, WearKey, WearSpec};
