@@ -6,7 +6,7 @@ use asperity::Choice;
 use asperity::motion::{FilmLaw, LoadControl, OffsetY, Path, PlasticUpdate, Point, Stage};
 use asperity::solver::{Control, Creep, Friction, Rolling, Tangential};
 use asperity::study::case::{Body, Boundary, CounterBody, LoadingPath, Mount, Side, StrategyKind, WearKey};
-use asperity::study::{Bodies, Case, Demand, Estimate, Given, Plan, Prepared, bodies, estimate};
+use asperity::study::{Bodies, Case, Demand, Estimate, MountedSurface, Plan, SurfaceInput, bodies, estimate};
 use asperity::units::{self, Dimension, bytes};
 
 use crate::args::Check;
@@ -17,10 +17,10 @@ use crate::{machine, place};
 pub(crate) fn check(arguments: &Check) -> Outcome {
     let case = place::case(&arguments.case, "check")?;
     let demand = machine::demand(&case)?;
-    let bodies = bodies(&case, Given::default())?;
+    let bodies = bodies(&case, SurfaceInput::default())?;
     let estimate = estimate(&case, &bodies)?;
     print(&text(&case, &bodies, &estimate, &demand))?;
-    for warning in estimate.warnings.iter().chain(&estimate.foreseen) {
+    for warning in estimate.warnings.iter().chain(&estimate.predicted) {
         note(&format!("warning: {}", clipped(warning)));
     }
     Ok(())
@@ -55,7 +55,7 @@ fn text(case: &Case, bodies: &Bodies, estimate: &Estimate, demand: &Demand) -> S
     page
 }
 
-fn body(body: &Prepared) -> String {
+fn body(body: &MountedSurface) -> String {
     let grid = body.topography.grid();
     let length = |value| units::format(value, Dimension::Length);
     let ([nx, ny], [dx, dy], [lx, ly]) = (grid.shape, grid.pitch, grid.extent());

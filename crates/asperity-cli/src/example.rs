@@ -11,7 +11,7 @@ use crate::args::Example;
 use crate::report::{Failure, Outcome, note, print};
 
 /// A case with its data.
-struct Kit {
+struct ExampleFiles {
     name: &'static str,
     about: &'static str,
     files: &'static [(&'static str, &'static [u8])],
@@ -21,23 +21,23 @@ struct Kit {
 const STUDY: &str = "load.toml";
 
 /// The examples that the command writes.
-const KITS: [Kit; 8] = [
-    Kit {
+const KITS: [ExampleFiles; 8] = [
+    ExampleFiles {
         name: "quickstart",
         about: "two rough steel surfaces run in: 64 × 64 cells, 5 passes",
         files: &[("case.toml", include_bytes!("../examples/quickstart/case.toml"))],
     },
-    Kit {
+    ExampleFiles {
         name: "hertz",
         about: "a ball on a plane, at rest: compare with Hertz",
         files: &[("case.toml", include_bytes!("../examples/hertz/case.toml"))],
     },
-    Kit {
+    ExampleFiles {
         name: "friction",
         about: "a ball pushed to and fro on a plane: stick, slip and the loop of Cattaneo and Mindlin",
         files: &[("case.toml", include_bytes!("../examples/friction/case.toml"))],
     },
-    Kit {
+    ExampleFiles {
         name: "measured",
         about: "a ground disc from an x3p file with missing heights, against a polished plate",
         files: &[
@@ -46,17 +46,17 @@ const KITS: [Kit; 8] = [
             ("README.md", include_bytes!("../examples/measured/README.md")),
         ],
     },
-    Kit {
+    ExampleFiles {
         name: "running-in",
         about: "wear, tribofilm and flash temperature over 100 000 passes, 141 of them computed",
         files: &[("case.toml", include_bytes!("../examples/running-in/case.toml"))],
     },
-    Kit {
+    ExampleFiles {
         name: "rolling",
         about: "a ball rolls ten times over ground steel, which flows below its surface and shakes down",
         files: &[("case.toml", include_bytes!("../examples/rolling/case.toml"))],
     },
-    Kit {
+    ExampleFiles {
         name: "study",
         about: "many cases made of one: contact area over pressure for two roughnesses, in samples",
         files: &[
@@ -64,7 +64,7 @@ const KITS: [Kit; 8] = [
             (STUDY, include_bytes!("../examples/study/load.toml")),
         ],
     },
-    Kit {
+    ExampleFiles {
         name: "paper",
         about: "the paper's problem: 100 × 100 cells, every position of 3 passes",
         files: &[("case.toml", include_bytes!("../examples/paper/case.toml"))],
@@ -96,7 +96,7 @@ pub(crate) fn unpack(name: &str, folder: &Path) -> Outcome<PathBuf> {
     Ok(folder.join("case.toml"))
 }
 
-fn kit(name: &str) -> Outcome<&'static Kit> {
+fn kit(name: &str) -> Outcome<&'static ExampleFiles> {
     KITS.iter().find(|kit| kit.name == name).ok_or_else(|| {
         let names: Vec<_> = KITS.iter().map(|kit| format!("`{}`", kit.name)).collect();
         let hint = format!("there are {}", names.join(", "));
@@ -111,7 +111,7 @@ fn list() -> String {
     })
 }
 
-fn write(kit: &Kit, folder: &Path) -> Outcome<Vec<PathBuf>> {
+fn write(kit: &ExampleFiles, folder: &Path) -> Outcome<Vec<PathBuf>> {
     fs::create_dir_all(folder).map_err(|source| Error::File { path: folder.to_owned(), source })?;
     io::sweep(folder);
     kit.files

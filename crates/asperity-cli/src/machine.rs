@@ -1,12 +1,12 @@
 //! The machine: how much memory there is, and whether it suffices.
 
-use asperity::study::{self, Case, Demand, Given};
+use asperity::study::{self, Case, Demand, SurfaceInput};
 use asperity::{Error, Result};
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 
 /// What the case takes on all threads, an error if there is not so much.
 pub(crate) fn demand(case: &Case) -> Result<Demand> {
-    let demand = study::demand(case, &Given::default(), rayon::current_num_threads())?;
+    let demand = study::demand(case, &SurfaceInput::default(), rayon::current_num_threads())?;
     demand.fits(available())?;
     Ok(demand)
 }

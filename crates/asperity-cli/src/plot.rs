@@ -1,7 +1,7 @@
 //! `asperity plot`: the figures of a results directory, drawn again.
 
 use crate::args::Plot;
-use crate::figures::{self, Wanted};
+use crate::figures::{self, FigureOptions};
 use crate::place;
 use crate::report::{Failure, Outcome, print};
 
@@ -13,7 +13,7 @@ pub(crate) fn plot(arguments: &Plot) -> Outcome {
         let hint = Some("name the figure whose range it is: --only pressure");
         return Err(Failure::usage("--range without --only", hint));
     }
-    let wanted = Wanted { paper, only: only.clone(), keep: !overwrite };
+    let wanted = FigureOptions { paper, only: only.clone(), keep: !overwrite };
     let drawn = figures::draw(&place::results(directory, "plot")?, &wanted, &|| false)?;
     print(&drawn.iter().map(|path| format!("{}\n", path.display())).collect::<String>())
 }

@@ -7,7 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use asperity::Field;
-use asperity::study::{Case, Existing, Given, Outcome, Results, demand_on_ranks, run};
+use asperity::study::{Case, Existing, SurfaceInput, Outcome, Results, demand_on_ranks, run};
 use tempfile::TempDir;
 
 /// Two rough bodies of 256 × 256 cells.
@@ -85,7 +85,7 @@ fn compare(text_of_case: &str, count: usize) {
     assert!(found.status.success(), "{}{}", text(&found.stdout), text(&found.stderr));
     let one = folder.path().join("one");
     let case = Case::load(&file).unwrap();
-    run(&case, Given::default(), &one, Existing::Keep, &()).unwrap();
+    run(&case, SurfaceInput::default(), &one, Existing::Keep, &()).unwrap();
     let [ranks, one] = [folder.path().join("ranks"), one].map(|path| Results::open(&path).unwrap());
     assert_eq!(ranks.case_json().unwrap(), one.case_json().unwrap());
     let names = one.static_fields().unwrap().names().unwrap();

@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use asperity::motion::Flowed;
+use asperity::motion::FlowResult;
 use asperity::study::case::Case;
-use asperity::study::{self, Given, NamedField, Outcome, Rest};
+use asperity::study::{self, SurfaceInput, NamedField, Outcome, StaticResult};
 use numpy::ndarray::{Array4, ArrayD};
 use numpy::{IntoPyArray, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -18,15 +18,15 @@ use crate::{tables, work};
 /// Arguments of a call: surfaces by name, maps of the hardness by name.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub(crate) struct Handed<'py> {
+pub(crate) struct CallArguments<'py> {
     topographies: HashMap<String, Heights<'py>>,
     hardness: HashMap<String, PyReadonlyArray2<'py, f64>>,
 }
 
-impl Handed<'_> {
+impl CallArguments<'_> {
     /// Copies all of them.
-    fn given(&self, py: Python<'_>) -> PyResult<Given> {
-        let mut given = Given::default();
+    fn given(&self, py: Python<'_>) -> PyResult<SurfaceInput> {
+        let mut given = SurfaceInput::default();
         for (name, heights) in &self.topographies {
             given.topographies.insert(name.clone(), topography(py, heights)?);
         }
@@ -60,9 +60,9 @@ impl Source<'_> {
 pub(crate) fn asked(
     py: Python<'_>,
     source: &Source<'_>,
-    handed: &Handed<'_>,
+    handed: &CallArguments<'_>,
     threads: usize,
-) -> PyResult<(Case, Given)> {
+) -> PyResult<(Case, SurfaceInput)> {
     let (case, given) = (source.case(py)?, handed.given(py)?);
     let cores = || std::thread::available_parallelism().map_or(1, usize::from);
     let threads = if threads == 0 { cores() } else { threads };
@@ -76,12 +76,12 @@ pub(crate) fn asked(
 pub(crate) fn rest<'py>(
     py: Python<'py>,
     source: Source<'py>,
-    handed: Handed<'py>,
+    handed: CallArguments<'py>,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (case, given) = asked(py, &source, &handed, threads)?;
-    let Rest { outcome, increments, updates, fields, closed_form, flowed, warnings, .. } =
+    let StaticResult { outcome, increments, updates, fields, closed_form, flow_result, warnings, .. } =
         work::run(py, threads, progress.as_ref(), |watch| study::rest(&case, given, watch))?;
     let contact = PyDict::new(py);
     match outcome {
@@ -101,22 +101,22 @@ pub(crate) fn rest<'py>(
         arrays.set_item(name, (array(py, values), unit))?;
     }
     contact.set_item("fields", arrays)?;
-    if let Some(flowed) = flowed {
-        contact.set_item("flow", flow(py, flowed)?)?;
+    if let Some(flow_result) = flow_result {
+        contact.set_item("flow", flow(py, flow_result)?)?;
     }
     Ok(contact)
 }
 
 /// Returns the plastic state below the surfaces: the arrays of each body, by their names in files.
-fn flow<'py>(py: Python<'py>, flowed: Flowed) -> PyResult<Bound<'py, PyDict>> {
+fn flow<'py>(py: Python<'py>, flow_result: FlowResult) -> PyResult<Bound<'py, PyDict>> {
     let bodies = PyDict::new(py);
     let layers_last = |values: ArrayD<f64>, axes: &[usize]| {
         values.permuted_axes(axes).as_standard_layout().into_owned().into_pyarray(py)
     };
     // From [layer, component, ix, iy] and [layer, ix, iy].
     let tensor = |values: Array4<f64>| layers_last(values.into_dyn(), &[1, 2, 3, 0]);
-    let left = flowed.residual.into_iter().map(Some).chain(std::iter::repeat_with(|| None));
-    for (volume, left) in flowed.volumes.into_iter().zip(left) {
+    let left = flow_result.residual.into_iter().map(Some).chain(std::iter::repeat_with(|| None));
+    for (volume, left) in flow_result.volumes.into_iter().zip(left) {
         let body = PyDict::new(py);
         let left = left.unwrap_or_else(|| volume.clone());
         body.set_item("depths", volume.faces)?;

@@ -366,11 +366,11 @@ impl CoreCorrelation {
 }
 
 /// Summits with sample, height and curvature; the judged area; the asperities.
-type Found = (Vec<(usize, usize, f64, f64)>, f64, Asperities);
+type SummitData = (Vec<(usize, usize, f64, f64)>, f64, Asperities);
 
 /// Finds the summits.
 #[pyfunction]
-pub(crate) fn summits(py: Python<'_>, heights: Heights<'_>) -> PyResult<Found> {
+pub(crate) fn summits(py: Python<'_>, heights: Heights<'_>) -> PyResult<SummitData> {
     of(py, &heights, |topography| {
         let found = Summits::of(topography);
         let all = found.summits.iter();

@@ -10,7 +10,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 use crate::arrays::{array, field, record};
-use crate::contact::{Handed, Source, asked};
+use crate::contact::{CallArguments, Source, asked};
 use crate::work;
 
 fn existing(word: &str) -> Existing {
@@ -26,7 +26,7 @@ fn existing(word: &str) -> Existing {
 pub(crate) fn run<'py>(
     py: Python<'py>,
     source: Source<'py>,
-    handed: Handed<'py>,
+    handed: CallArguments<'py>,
     directory: PathBuf,
     existing: &str,
     threads: usize,
@@ -72,7 +72,7 @@ impl CorePasses {
     fn new<'py>(
         py: Python<'py>,
         source: Source<'py>,
-        handed: Handed<'py>,
+        handed: CallArguments<'py>,
         directory: PathBuf,
         existing: &str,
         threads: usize,

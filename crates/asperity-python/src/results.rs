@@ -13,7 +13,7 @@ use crate::arrays::{object, ok, record};
 use crate::work;
 
 /// A stored array: values, unit, names of the axes, pitch and origin along each.
-type Stored<'py> = (Bound<'py, PyArrayDyn<f64>>, String, Vec<String>, Vec<f64>, Vec<f64>);
+type StoredArray<'py> = (Bound<'py, PyArrayDyn<f64>>, String, Vec<String>, Vec<f64>, Vec<f64>);
 
 /// Returns the SI unit of a column of a table or of a number of a summary: "1" for a pure number, an empty text for a text;
 /// `None` if there is no such column.
@@ -101,7 +101,7 @@ impl CoreResults {
         kind: &str,
         number: Option<usize>,
         name: &str,
-    ) -> PyResult<Stored<'py>> {
+    ) -> PyResult<StoredArray<'py>> {
         let stored = py.detach(|| self.fields(kind, number).and_then(|fields| fields.read(name)));
         let stored = ok(stored, py)?;
         let axes = stored.axes.split(',').map(str::to_owned).collect();

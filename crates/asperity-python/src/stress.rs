@@ -15,10 +15,10 @@ use crate::work;
 
 /// Loading of a body: pressure and pitch, shear along x and y on the lower body, boundary along both axes, Poisson's ratio,
 /// and whether it is the upper body.
-type Given<'py> = (Heights<'py>, [Option<PyReadonlyArray2<'py, f64>>; 2], [String; 2], f64, bool);
+type LoadedBody<'py> = (Heights<'py>, [Option<PyReadonlyArray2<'py, f64>>; 2], [String; 2], f64, bool);
 
 /// Creates the body on any thread.
-fn body(py: Python<'_>, given: &Given<'_>) -> PyResult<(impl Fn() -> Subsurface + Send + use<>, Grid)> {
+fn body(py: Python<'_>, given: &LoadedBody<'_>) -> PyResult<(impl Fn() -> Subsurface + Send + use<>, Grid)> {
     let ((pressure, pitch), shear, edges, poisson, is_upper) = given;
     let pressure = field(pressure);
     let grid = ok(Grid::new([pressure.nrows(), pressure.ncols()], *pitch), py)?;
@@ -34,7 +34,7 @@ fn body(py: Python<'_>, given: &Given<'_>) -> PyResult<(impl Fn() -> Subsurface 
 #[pyfunction]
 pub(crate) fn stress<'py>(
     py: Python<'py>,
-    given: Given<'py>,
+    given: LoadedBody<'py>,
     depths: Vec<f64>,
     threads: usize,
 ) -> PyResult<Vec<Bound<'py, PyArray3<f64>>>> {
@@ -68,7 +68,7 @@ type Most = (f64, [usize; 2], f64);
 #[pyfunction]
 pub(crate) fn most_stressed(
     py: Python<'_>,
-    given: Given<'_>,
+    given: LoadedBody<'_>,
     depths: Vec<f64>,
     threads: usize,
 ) -> PyResult<(Most, Most)> {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use asperity::Grid;
 use asperity::motion::Watch;
-use asperity::study::{self, Given, Made};
+use asperity::study::{self, SurfaceInput, PreparedTopography};
 use asperity::surface::{ReadOptions, Round, Topography};
 use asperity::units::{self, Dimension};
 use numpy::PyReadonlyArray2;
@@ -38,11 +38,11 @@ pub(crate) fn surface<'py>(
     let whole = PyDict::new(py);
     whole.set_item("topography", table)?;
     let text = tables::text(&whole)?;
-    let mut handed = Given::default();
+    let mut handed = SurfaceInput::default();
     if let Some(heights) = &given {
         handed.topographies.insert("heights".to_owned(), topography(py, heights)?);
     }
-    let Made { topography, origin, findings, .. } =
+    let PreparedTopography { topography, origin, findings, .. } =
         work::run(py, 0, None, |looking| {
             study::topography_until(&text, Path::new(""), handed, &|| looking.stop())
         })?;

@@ -25,10 +25,10 @@ pub(crate) fn run<T: Send>(
     py: Python<'_>,
     threads: usize,
     progress: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(&Looking) -> Result<T> + Send,
+    work: impl FnOnce(&Observer) -> Result<T> + Send,
 ) -> PyResult<T> {
     let pool = pool(threads)?;
-    let looking = Looking::default();
+    let looking = Observer::default();
     let mut outcome = None;
     let mut raised = None;
     pool.in_place_scope(|scope| {
@@ -68,7 +68,7 @@ type Told = (usize, usize, usize, usize, usize, f64, Option<f64>);
 
 /// Observer of the work.
 #[derive(Default)]
-pub(crate) struct Looking {
+pub(crate) struct Observer {
     stop: AtomicBool,
     now: Mutex<Option<Told>>,
     over: AtomicUsize,
@@ -76,7 +76,7 @@ pub(crate) struct Looking {
     ends: Condvar,
 }
 
-impl Looking {
+impl Observer {
     /// Counts a finished case of `cases`, which are reported as the positions of one pass.
     pub(crate) fn over(&self, cases: usize) {
         let over = self.over.fetch_add(1, Ordering::Relaxed) + 1;
@@ -104,7 +104,7 @@ impl Looking {
     }
 }
 
-impl Watch for Looking {
+impl Watch for Observer {
     fn at(&self, progress: &Progress) {
         let Progress { pass, passes, trial, solved, positions, load, together, .. } = *progress;
         *held(&self.now) = Some((pass, passes, trial, solved, positions, load, together));

@@ -1,10 +1,10 @@
 //! Regular grids and the fields on them.
 
 mod finite; // the check of all results
-mod seat;
+mod placement;
 
 pub(crate) use finite::check_finite;
-pub use seat::Seat;
+pub use placement::Placement;
 
 use crate::error::{Error, Result};
 use crate::units::{Dimension, Metre, SquareMetre};

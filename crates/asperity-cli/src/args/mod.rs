@@ -18,7 +18,7 @@ use values::threads;
 pub(crate) use drawing::{Drawing, RangedDrawing};
 pub(crate) use generate::{Generate, Recipe};
 pub(crate) use study::Study;
-pub(crate) use surface::{Convert, Info, Input, PlotSurface, Reading, Surface};
+pub(crate) use surface::{Convert, Info, Input, PlotSurface, ReadingArguments, Surface};
 
 /// Contact of two rough surfaces that press together and move
 ///

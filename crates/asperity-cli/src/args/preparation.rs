@@ -8,7 +8,7 @@ use super::values::{Window, angle, choice, default, factor, positive_length, res
 /// What is done with a topography, in this order.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Preparation, in this order")]
-pub(crate) struct Preparing {
+pub(crate) struct PreparationArguments {
     /// Part to keep, in samples
     #[arg(long, value_name = "X0,Y0,NX,NY", value_parser = window)]
     window: Option<Window>,
@@ -47,7 +47,7 @@ pub(crate) struct Preparing {
     taper: Option<f64>,
 }
 
-impl Preparing {
+impl PreparationArguments {
     /// As the library takes it.
     pub(crate) fn preparation(&self) -> Preparation {
         Preparation {

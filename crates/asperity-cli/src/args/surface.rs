@@ -6,7 +6,7 @@ use clap::{Args, Subcommand};
 
 use super::drawing::RangedDrawing;
 use super::generate::Generate;
-use super::preparation::Preparing;
+use super::preparation::PreparationArguments;
 use super::values::{Pair, lengths, positive_length};
 
 /// Make, describe, draw and convert topographies
@@ -79,13 +79,13 @@ pub(crate) struct Input {
     #[arg(index = 1)]
     pub(crate) file: PathBuf,
     #[command(flatten)]
-    pub(crate) reading: Reading,
+    pub(crate) reading: ReadingArguments,
     #[command(flatten)]
-    pub(crate) preparing: Preparing,
+    pub(crate) preparing: PreparationArguments,
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct Reading {
+pub(crate) struct ReadingArguments {
     /// Height channel; by default the first
     #[arg(long, value_name = "NAME")]
     pub(crate) channel: Option<String>,

@@ -193,7 +193,7 @@ impl Charts {
                 if series.name.is_empty() {
                     continue;
                 }
-                let look = Look::of(series, &names);
+                let look = Style::of(series, &names);
                 let side = if both && series.side == Side::Right { " (right)" } else { "" };
                 legend.add(look.key(), format!("{}{side}", series.name));
             }
@@ -239,7 +239,7 @@ impl<'a> Drawn<'a> {
         left.mesh(scene);
         let mut nothing = true;
         for series in &chart.series {
-            let look = Look::of(series, names);
+            let look = Style::of(series, names);
             let y = match (series.side, &self.right) {
                 (Side::Right, Some(right)) => right,
                 _ => &self.y,
@@ -290,13 +290,13 @@ fn scale(axis: &Axis, values: impl Iterator<Item = f64>, margin: f64, to_zero: b
 
 /// How a series looks.
 #[derive(Clone, Copy)]
-struct Look {
+struct Style {
     stroke: Stroke,
     mark: Mark,
     shape: usize,
 }
 
-impl Look {
+impl Style {
     /// The look of a series, by the place of its name; "a body, undeformed" has the colour of "a body".
     fn of(series: &Series, names: &[&str]) -> Self {
         let place = |wanted: &str| names.iter().position(|name| *name == wanted);

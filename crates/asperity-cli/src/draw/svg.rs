@@ -53,7 +53,7 @@ impl Display for Element<'_> {
                         write!(f, "Z")?;
                     }
                 }
-                write!(f, "\"{}/>", Look { fill: *fill, stroke: *stroke })
+                write!(f, "\"{}/>", Style { fill: *fill, stroke: *stroke })
             }
             Step::Text(words) => write_words(f, words),
             Step::Image(image, Rect { x, y, width, height }) => write!(
@@ -97,7 +97,7 @@ fn write_words(f: &mut Formatter<'_>, words: &Words) -> Result {
     if words.upright {
         write!(f, " transform=\"rotate(-90 {} {})\"", N(x), N(y))?;
     }
-    write!(f, ">{}</text>", Escaped(&words.text))
+    write!(f, ">{}</text>", EscapedText(&words.text))
 }
 
 /// A number to a hundredth of a point.
@@ -120,12 +120,12 @@ impl Display for Hex {
     }
 }
 
-struct Look {
+struct Style {
     fill: Option<Rgb>,
     stroke: Option<Stroke>,
 }
 
-impl Display for Look {
+impl Display for Style {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match self.fill {
             Some(fill) => write!(f, " fill=\"{}\"", Hex(fill))?,
@@ -139,9 +139,9 @@ impl Display for Look {
 }
 
 /// Text as XML holds it.
-struct Escaped<'a>(&'a str);
+struct EscapedText<'a>(&'a str);
 
-impl Display for Escaped<'_> {
+impl Display for EscapedText<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         self.0.chars().try_for_each(|c| match c {
             '&' => f.write_str("&amp;"),

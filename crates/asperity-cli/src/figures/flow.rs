@@ -7,7 +7,7 @@ use asperity::{Field, Grid};
 
 use super::Curves;
 use super::sheet::Sheet;
-use super::stored::Stored;
+use super::stored::StoredArray;
 use crate::draw::{Axis, Chart, Charts, Colours, Map, Maps, Mark, Quantity, Series, Unit};
 use crate::report::{Failure, Outcome};
 
@@ -18,7 +18,7 @@ const MAX_ROWS: usize = 400;
 
 /// Draws them, of each body that has flowed.
 pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Outcome {
-    for Flowed { body, y, extent, strain, stress, surface } in flowed(fields)? {
+    for FlowSection { body, y, extent, strain, stress, surface } in flow_sections(fields)? {
         let section = format!("{of}, section at y = {}", format(y, Dimension::Length));
         let ends = extent.map(|length| [0.0, length]);
         let map = |field, name, unit, colours| {
@@ -71,7 +71,7 @@ pub(crate) fn of_increments(increments: &[IncrementRecord]) -> Option<Curves> {
 }
 
 /// A body that flows, on a section along x through its largest plastic strain.
-pub(crate) struct Flowed {
+pub(crate) struct FlowSection {
     /// `lower` or `upper`.
     pub(crate) body: &'static str,
     /// Where the section is.
@@ -83,13 +83,13 @@ pub(crate) struct Flowed {
     /// Residual stress along x, where it is kept.
     pub(crate) stress: Option<Field>,
     /// Change of the heights by plastic flow, where it is kept.
-    pub(crate) surface: Option<Stored>,
+    pub(crate) surface: Option<StoredArray>,
 }
 
 /// The bodies that flow.
-pub(crate) fn flowed(fields: &Fields) -> Outcome<Vec<Flowed>> {
+pub(crate) fn flow_sections(fields: &Fields) -> Outcome<Vec<FlowSection>> {
     let names = fields.names()?;
-    let of = |body: &'static str| -> Outcome<Option<Flowed>> {
+    let of = |body: &'static str| -> Outcome<Option<FlowSection>> {
         let layered = |quantity: &str| -> Outcome<Option<Layered>> {
             let name = format!("{quantity}_{body}");
             if names.contains(&name) { Layered::read(fields, &name, body).map(Some) } else { Ok(None) }
@@ -97,8 +97,8 @@ pub(crate) fn flowed(fields: &Fields) -> Outcome<Vec<Flowed>> {
         let Some(accumulated) = layered("accumulated")? else { return Ok(None) };
         let row = accumulated.row_of_largest();
         let left = format!("residual_displacement_{body}");
-        let left = if names.contains(&left) { Some(Stored::read(fields, &left)?) } else { None };
-        Ok(Some(Flowed {
+        let left = if names.contains(&left) { Some(StoredArray::read(fields, &left)?) } else { None };
+        Ok(Some(FlowSection {
             body,
             y: accumulated.grid.centre(1, row),
             extent: [accumulated.grid.extent()[0], accumulated.faces[accumulated.faces.len() - 1]],

@@ -4,22 +4,22 @@ use asperity::Field;
 use asperity::io::fields::Fields;
 
 use super::sheet::Sheet;
-use super::stored::Stored;
+use super::stored::StoredArray;
 use crate::draw::{Colours, Maps, Unit};
 use crate::report::Outcome;
 
 /// Where cells under the pressure stick (1) and slip (2).
-pub(crate) fn stick(p: &Stored, mut stick: Stored) -> Stored {
+pub(crate) fn stick(p: &StoredArray, mut stick: StoredArray) -> StoredArray {
     stick.field.zip_mut_with(&p.field, |stick, p| *stick = if *p > 0.0 { 2.0 - *stick } else { 0.0 });
     stick
 }
 
-pub(super) fn draw(fields: &Fields, p: &Stored, of: &str, sheet: &mut Sheet) -> Outcome {
-    let read = |name| Stored::read(fields, name);
+pub(super) fn draw(fields: &Fields, p: &StoredArray, of: &str, sheet: &mut Sheet) -> Outcome {
+    let read = |name| StoredArray::read(fields, name);
     let shear = [read("traction_x")?, read("traction_y")?];
     let slip = [read("slip_x")?, read("slip_y")?];
     let stick = stick(p, read("stick")?);
-    let magnitude = |vector: &[Stored; 2]| {
+    let magnitude = |vector: &[StoredArray; 2]| {
         let mut size: Field = vector[0].field.clone();
         size.zip_mut_with(&vector[1].field, |x, y| *x = x.hypot(*y));
         vector[0].with(size)

@@ -27,21 +27,21 @@ use crate::draw::{Charts, Mark, Paper, Series};
 use crate::report::Outcome;
 
 pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, has_new_upper};
-pub(crate) use flow::{Flowed, flowed, of_increments as of_flowing};
+pub(crate) use flow::{FlowSection, flow_sections, of_increments as of_flow_increments};
 pub(crate) use friction::stick;
 pub(crate) use loading::curves as of_loading;
 pub(crate) use pressure::histogram;
 pub(crate) use rest::{approach, open_gap, profile as profile_at_rest};
 pub(crate) use rolling::curves as of_rolling;
 pub(crate) use sliding::curves as of_sliding;
-pub(crate) use stored::{Cap, Stored, in_frame_of};
+pub(crate) use stored::{Cap, StoredArray, in_frame_of};
 pub(crate) use subsurface::columns as stress_columns;
 pub(crate) use surfaces::{as_measured, changed, curves as of_surfaces};
 pub(crate) use sweep::curves as of_sweep;
 
 /// Which figures are drawn, and how.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Wanted {
+pub(crate) struct FigureOptions {
     /// Paper and kind of file.
     pub(crate) paper: Paper,
     /// Names of the figures; all if there is none.
@@ -78,20 +78,20 @@ fn of_bodies(curves: [Curve; 2]) -> Vec<Series> {
 /// once `stop` says so.
 pub(crate) fn draw(
     results: &Results,
-    wanted: &Wanted,
+    wanted: &FigureOptions,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Outcome<Vec<PathBuf>> {
     gather(results, wanted, stop)?.finish()
 }
 
 /// The figures of `results` as PNG files in memory, with their titles.
-pub(crate) fn pictures(results: &Results, wanted: &Wanted) -> Outcome<Vec<(String, Vec<u8>)>> {
+pub(crate) fn pictures(results: &Results, wanted: &FigureOptions) -> Outcome<Vec<(String, Vec<u8>)>> {
     gather(results, wanted, &|| false)?.pictures()
 }
 
 fn gather<'a>(
     results: &Results,
-    wanted: &'a Wanted,
+    wanted: &'a FigureOptions,
     stop: &'a (dyn Fn() -> bool + Sync),
 ) -> Outcome<sheet::Sheet<'a>> {
     let mut sheet = sheet::Sheet::new(results, wanted, stop)?;

@@ -10,9 +10,9 @@ use asperity::units::{Dimension, format};
 use asperity::{Field, Grid};
 
 use super::pressure;
-use super::profile::{Facing, Profile};
+use super::profile::{OverlapFields, Profile};
 use super::sheet::Sheet;
-use super::stored::{Cap, Stored};
+use super::stored::{Cap, StoredArray};
 use super::surfaces;
 use super::{course, rolling};
 use crate::draw::{Axis, Chart, Charts, Colours, Maps, Mark, Series, Unit, range_of_heights};
@@ -31,8 +31,8 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
     let pass = passes.len();
     let done = course::done(passes);
     let [first, last] = [results.fields_after(0)?, results.fields_after(pass)?];
-    let before = [Stored::read(&first, "lower")?, Stored::read(&first, "upper")?];
-    let after = [Stored::read(&last, "lower")?, Stored::read(&last, "upper")?];
+    let before = [StoredArray::read(&first, "lower")?, StoredArray::read(&first, "upper")?];
+    let after = [StoredArray::read(&last, "lower")?, StoredArray::read(&last, "upper")?];
     let cap = Cap::read(&last)?;
     let load = |record: &PassRecord| format!("mean load {}", format(record.mean_load, Dimension::Force));
     let all = done[pass];
@@ -58,7 +58,8 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
     sheet.add_dear(&surfaces::NAMES, &throughout, || {
         Ok(surfaces::curves(&surfaces::as_measured(&before)?, Some(&surfaces::as_measured(&after)?)))
     })?;
-    let mean = [Stored::read(&last, "mean_pressure_lower")?, Stored::read(&last, "mean_pressure_upper")?];
+    let mean =
+        [StoredArray::read(&last, "mean_pressure_lower")?, StoredArray::read(&last, "mean_pressure_upper")?];
     sheet.add("mean_pressure", "mean pressure over the pass", &of, || {
         let largest = mean.iter().flat_map(|m| m.field.iter()).copied().fold(f64::MIN_POSITIVE, f64::max);
         let maps = [(&mean[0], "on the lower body"), (&mean[1], "on the upper body")];
@@ -122,8 +123,8 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
 
 /// Both bodies before and after, each on one scale, so that its change shows.
 fn topographies<'a>(
-    before: &'a [Stored; 2],
-    after: &'a [Stored; 2],
+    before: &'a [StoredArray; 2],
+    after: &'a [StoredArray; 2],
     pass: usize,
     is_fresh: bool,
 ) -> Maps<'a> {
@@ -138,7 +139,7 @@ fn topographies<'a>(
         remarks.extend(remark);
         Some(range)
     });
-    let map = |stored: &'a Stored, title: String, body: usize| {
+    let map = |stored: &'a StoredArray, title: String, body: usize| {
         let map = stored.heights(title);
         match ranges[body] {
             Some(range) => map.range(range),
@@ -155,12 +156,12 @@ fn topographies<'a>(
 }
 
 /// What a law keeps of both bodies under the name of a state, 0 on one of which it keeps nothing; none if on neither.
-fn of_bodies(fields: &Fields, state: &str, bodies: &[Stored; 2]) -> Outcome<Option<[Stored; 2]>> {
+fn of_bodies(fields: &Fields, state: &str, bodies: &[StoredArray; 2]) -> Outcome<Option<[StoredArray; 2]>> {
     let names = fields.names()?;
     let read = |body: usize| {
         let name = format!("{state}_{}", ["lower", "upper"][body]);
         match names.contains(&name) {
-            true => Stored::read(fields, &name),
+            true => StoredArray::read(fields, &name),
             false => Ok(bodies[body].with(Field::zeros(bodies[body].field.raw_dim()))),
         }
     };
@@ -169,11 +170,12 @@ fn of_bodies(fields: &Fields, state: &str, bodies: &[Stored; 2]) -> Outcome<Opti
 }
 
 /// Changes of height on one scale about zero, of the bodies that have changed; of the lower one where none has.
-fn changes_of(changes: &[Stored]) -> Maps<'_> {
-    let size = |stored: &Stored| stored.field.iter().fold(0.0, |most: f64, change| most.max(change.abs()));
+fn changes_of(changes: &[StoredArray]) -> Maps<'_> {
+    let size =
+        |stored: &StoredArray| stored.field.iter().fold(0.0, |most: f64, change| most.max(change.abs()));
     let largest = changes.iter().map(size).fold(f64::MIN_POSITIVE, f64::max);
     let map = |(stored, body)| {
-        let map = Stored::map(stored, body, "change of height", Unit::Length, Colours::Signed);
+        let map = StoredArray::map(stored, body, "change of height", Unit::Length, Colours::Signed);
         map.range([-largest, largest])
     };
     let bodies = || changes.iter().zip(["lower body", "upper body"]);
@@ -182,9 +184,9 @@ fn changes_of(changes: &[Stored]) -> Maps<'_> {
 }
 
 /// A length on each body, on one scale: a body on which there is none is then seen to have none.
-fn on_bodies<'a>(fields: &'a [Stored], quantity: &'a str) -> Maps<'a> {
+fn on_bodies<'a>(fields: &'a [StoredArray], quantity: &'a str) -> Maps<'a> {
     let largest = fields.iter().flat_map(|field| &field.field).copied().fold(f64::MIN_POSITIVE, f64::max);
-    let map = |(field, body): (&'a Stored, &str)| {
+    let map = |(field, body): (&'a StoredArray, &str)| {
         field.map(body, quantity, Unit::Length, Colours::Pressure).range([0.0, largest])
     };
     Maps::new(fields.iter().zip(["lower body", "upper body"]).map(map).collect())
@@ -209,7 +211,7 @@ fn pressures(
     // Of the positions where pressures come to the hardness that of the largest load.
     let loaded = kept.iter().filter(|step| step.max_pressure >= largest * (1.0 - 1e-6));
     let Some(most) = loaded.max_by(|a, b| a.load.total_cmp(&b.load)) else { return Ok(()) };
-    let read = |step: &StepRecord| Stored::read(fields, &pressure_name(step.step));
+    let read = |step: &StepRecord| StoredArray::read(fields, &pressure_name(step.step));
     let range = [0.0, largest.max(f64::MIN_POSITIVE)];
     let number = SHEET.min(kept.len());
     // The middles of equal parts of the pass: its very ends show next to nothing.
@@ -218,11 +220,11 @@ fn pressures(
     let caps: Vec<Cap> = middles
         .iter()
         .map(|step| match names.contains(&cap_name(step.step)) {
-            true => Ok(Cap::Field(Stored::read(fields, &cap_name(step.step))?.framed(lower).field)),
+            true => Ok(Cap::Field(StoredArray::read(fields, &cap_name(step.step))?.framed(lower).field)),
             false => Cap::read(fields),
         })
         .collect::<Outcome<_>>()?;
-    let shown: Vec<(String, Stored)> = middles
+    let shown: Vec<(String, StoredArray)> = middles
         .iter()
         .map(|step| {
             let title = format!("position {}: {}", step.step, format(step.load, Dimension::Force));
@@ -235,11 +237,11 @@ fn pressures(
     let is_heated = |step: &StepRecord| names.contains(&temperature_name(step.step));
     if middles.iter().any(|step| is_heated(step)) {
         // Results of earlier versions have no temperature of a position at which nothing touches.
-        let temperatures: Vec<Stored> = middles
+        let temperatures: Vec<StoredArray> = middles
             .iter()
             .zip(&shown)
             .map(|(step, (_, pressure))| match is_heated(step) {
-                true => Ok(Stored::read(fields, &temperature_name(step.step))?.celsius().framed(lower)),
+                true => Ok(StoredArray::read(fields, &temperature_name(step.step))?.celsius().framed(lower)),
                 false => Ok(pressure.with(Field::from_elem(pressure.field.raw_dim(), f64::NAN))),
             })
             .collect::<Outcome<_>>()?;
@@ -256,14 +258,14 @@ fn pressures(
             Ok(Maps::new(maps.collect()))
         })?;
     }
-    let contacts: Vec<Stored> =
+    let contacts: Vec<StoredArray> =
         shown.iter().zip(&caps).map(|((_, stored), cap)| stored.contact(cap)).collect();
     sheet.add("contact", "contact on the lower body", of, || {
         let titled = contacts.iter().zip(&shown).map(|(contact, (title, _))| (contact, title));
         let maps = titled.map(|(contact, title)| contact.map(title, "", Unit::Number, cap.colours()));
         Ok(Maps::new(maps.map(|map| map.missing("outside the overlap")).collect()))
     })?;
-    let frames: Vec<Stored> =
+    let frames: Vec<StoredArray> =
         kept.iter().map(|step| Ok(read(step)?.framed(lower))).collect::<Outcome<_>>()?;
     sheet.add("pressure_histogram", "distribution of the pressure over the contact", of, || {
         Ok(pressure::histogram(frames.iter().map(|stored| &stored.field), &caps[0]))
@@ -285,7 +287,7 @@ fn pressures(
 
 /// The section at a position, where what its pressure displaces is known: the surfaces that met there are those after the
 /// pass before, unless they yielded from step to step, and shear displaces nothing normally, unless bodies are dissimilar.
-fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<Option<Profile>> {
+fn section(results: &Results, pressure: &StoredArray, step: &StepRecord) -> Outcome<Option<Profile>> {
     let case = results.case()?;
     let bodies = response(&case.lower.material, &case.upper.material)?;
     let couples = bodies.coupled().is_some_and(|bodies| bodies.couples());
@@ -323,7 +325,7 @@ fn section(results: &Results, pressure: &Stored, step: &StepRecord) -> Outcome<O
     // What is left of the interference where they touch.
     let mut plastic = &below - &above - &displacement + step.approach;
     plastic.zip_mut_with(&pressure.field, |w, p| *w = if *p > 0.0 { w.max(0.0) } else { 0.0 });
-    let facing = Facing {
+    let facing = OverlapFields {
         lower: &below,
         upper: &above,
         pressure: &pressure.field,

@@ -16,7 +16,7 @@ const AROUND: usize = 4;
 const MIN_AROUND: usize = 12;
 
 /// What faces at one position, all on one grid.
-pub(super) struct Facing<'a> {
+pub(super) struct OverlapFields<'a> {
     pub(super) lower: &'a Field,
     /// The upper body's underside.
     pub(super) upper: &'a Field,
@@ -46,7 +46,7 @@ pub(super) struct Profile {
 impl Profile {
     /// The section through the cell of the largest pressure, of several that in the midst of the most; none without
     /// contact.
-    pub(super) fn of(facing: &Facing, case: &Case) -> Outcome<Option<Self>> {
+    pub(super) fn of(facing: &OverlapFields, case: &Case) -> Outcome<Option<Self>> {
         let Some([ix, iy]) = most_loaded(facing.pressure).filter(|_| facing.approach.is_finite()) else {
             return Ok(None);
         };
@@ -65,21 +65,21 @@ impl Profile {
             _ if facing.plastic.iter().any(|w| *w > 0.0) => return Ok(None),
             _ => 0.0,
         };
-        let sunk = sunk(facing, case)?;
+        let lower_displacement = lower_displacement(facing, case)?;
         let along = |value: &dyn Fn(usize) -> f64| -> Vec<[f64; 2]> {
             let x = |i: usize| ((facing.column + i) as f64 + 0.5) * facing.pitch[0];
             shown.clone().map(|i| [x(i), value(i)]).collect()
         };
         let (u, w) = (|i: usize| facing.displacement[[i, iy]], |i: usize| facing.plastic[[i, iy]]);
-        let sunk = |i: usize| sunk[[i, iy]];
+        let lower_displacement = |i: usize| lower_displacement[[i, iy]];
         let below = |i: usize| facing.lower[[i, iy]];
         let above = |i: usize| facing.upper[[i, iy]] - facing.approach;
         Ok(Some(Self {
             y: (iy as f64 + 0.5) * facing.pitch[1],
             undeformed: [along(&below), along(&above)],
             deformed: [
-                along(&|i| below(i) - sunk(i) - plastic * w(i)),
-                along(&|i| above(i) + u(i) - sunk(i) + (1.0 - plastic) * w(i)),
+                along(&|i| below(i) - lower_displacement(i) - plastic * w(i)),
+                along(&|i| above(i) + u(i) - lower_displacement(i) + (1.0 - plastic) * w(i)),
             ],
             // Where they touch there is none, and no rounding of one.
             gap: along(&|i| if row[i] > 0.0 { 0.0 } else { above(i) - below(i) + u(i) + w(i) }),
@@ -131,7 +131,7 @@ fn most_loaded(pressure: &Field) -> Option<[usize; 2]> {
 }
 
 /// The part of the elastic displacement that is the lower body's, positive downwards.
-fn sunk(facing: &Facing, case: &Case) -> Outcome<Field> {
+fn lower_displacement(facing: &OverlapFields, case: &Case) -> Outcome<Field> {
     let (lower, upper) = (&case.lower.material, &case.upper.material);
     let rigid = Material::elastic(f64::INFINITY, 0.0)?;
     if lower.young.is_infinite() && lower.coating.is_none() {
@@ -143,9 +143,9 @@ fn sunk(facing: &Facing, case: &Case) -> Outcome<Field> {
     }
     // Of a coated pair the share depends on the wavelength.
     let grid = Grid { shape: facing.pressure.dim().into(), pitch: facing.pitch };
-    let mut sunk = grid.zeros();
+    let mut lower_displacement = grid.zeros();
     Operators::new(grid, response(lower, &rigid)?, case.contact.boundary)
         .on(grid.shape)
-        .apply(facing.pressure, &mut sunk);
-    Ok(sunk)
+        .apply(facing.pressure, &mut lower_displacement);
+    Ok(lower_displacement)
 }

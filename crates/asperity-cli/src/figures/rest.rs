@@ -5,9 +5,9 @@ use asperity::io::fields::{Attribute, Fields};
 use asperity::study::{Case, Results};
 use asperity::units::{Dimension, format};
 
-use super::profile::{Facing, Profile};
+use super::profile::{OverlapFields, Profile};
 use super::sheet::Sheet;
-use super::stored::{Cap, Stored};
+use super::stored::{Cap, StoredArray};
 use super::{course, flow, friction, loading, pressure, surfaces};
 use crate::draw::{Charts, Colours, Maps, Unit, range_of_heights};
 use crate::report::Outcome;
@@ -15,7 +15,7 @@ use crate::report::Outcome;
 /// Draws them, and says of what load they are.
 pub(super) fn draw(results: &Results, sheet: &mut Sheet) -> Outcome<String> {
     let fields = results.static_fields()?;
-    let p = Stored::read(&fields, "pressure")?;
+    let p = StoredArray::read(&fields, "pressure")?;
     let load = p.field.sum() * p.grid.pitch[0] * p.grid.pitch[1];
     let of = format!("load {}", format(load, Dimension::Force));
 
@@ -40,7 +40,7 @@ pub(super) fn draw(results: &Results, sheet: &mut Sheet) -> Outcome<String> {
 
 /// The bodies as they are pressed together.
 fn bodies(fields: &Fields, sheet: &mut Sheet, of: &str) -> Outcome<()> {
-    let bodies = [Stored::read(fields, "lower")?, Stored::read(fields, "upper")?];
+    let bodies = [StoredArray::read(fields, "lower")?, StoredArray::read(fields, "upper")?];
     let [lower, upper] = &bodies;
     sheet.add("topographies", "topographies", of, || Ok(topographies(lower, upper)))?;
     for (name, title, body) in [
@@ -55,7 +55,7 @@ fn bodies(fields: &Fields, sheet: &mut Sheet, of: &str) -> Outcome<()> {
 }
 
 /// The pressure `p`, and what it makes of the gap.
-fn contact(fields: &Fields, p: &Stored, sheet: &mut Sheet, of: &str) -> Outcome<()> {
+fn contact(fields: &Fields, p: &StoredArray, sheet: &mut Sheet, of: &str) -> Outcome<()> {
     let cap = Cap::read(fields)?;
     sheet.add("pressure", "pressure", of, || Ok(Maps::new(vec![p.pressure("")])))?;
     sheet.add("pressure_histogram", "distribution of the pressure over the contact", of, || {
@@ -65,8 +65,8 @@ fn contact(fields: &Fields, p: &Stored, sheet: &mut Sheet, of: &str) -> Outcome<
     sheet.add("contact", "contact", of, || {
         Ok(Maps::new(vec![contact.map("", "", Unit::Number, cap.colours())]))
     })?;
-    let plastic = Stored::read(fields, "plastic")?;
-    let open = open_gap(Stored::read(fields, "gap")?, &plastic.field, p);
+    let plastic = StoredArray::read(fields, "plastic")?;
+    let open = open_gap(StoredArray::read(fields, "gap")?, &plastic.field, p);
     sheet.add("gap", "deformed gap", of, || {
         let map = open.map("", "gap", Unit::Length, Colours::Gap);
         Ok(Maps::new(vec![map.outlined(&p.field, "edge of the contact")]))
@@ -81,10 +81,10 @@ fn contact(fields: &Fields, p: &Stored, sheet: &mut Sheet, of: &str) -> Outcome<
 
 /// The section through the most loaded spot; none without contact.
 pub(crate) fn profile(fields: &Fields, case: &Case) -> Outcome<Option<Charts>> {
-    let read = |name| Stored::read(fields, name);
+    let read = |name| StoredArray::read(fields, name);
     let (lower, upper, pressure) = (read("lower")?, read("upper")?, read("pressure")?);
     let (displacement, plastic) = (read("displacement")?, read("plastic")?);
-    let facing = Facing {
+    let facing = OverlapFields {
         lower: &lower.field,
         upper: &upper.field,
         pressure: &pressure.field,
@@ -98,7 +98,7 @@ pub(crate) fn profile(fields: &Fields, case: &Case) -> Outcome<Option<Charts>> {
 }
 
 /// Both bodies, between heights that are not the rarest.
-fn topographies<'a>(lower: &'a Stored, upper: &'a Stored) -> Maps<'a> {
+fn topographies<'a>(lower: &'a StoredArray, upper: &'a StoredArray) -> Maps<'a> {
     let bodies = [(lower, "lower body"), (upper, "upper body, underside")];
     let mut remarks = Vec::new();
     let maps = bodies.map(|(body, title)| {
@@ -115,7 +115,7 @@ fn topographies<'a>(lower: &'a Stored, upper: &'a Stored) -> Maps<'a> {
 }
 
 /// Open where the bodies are apart, 0 where they touch, negative where they touch and have yielded.
-pub(crate) fn open_gap(mut gap: Stored, plastic: &Field, pressure: &Stored) -> Stored {
+pub(crate) fn open_gap(mut gap: StoredArray, plastic: &Field, pressure: &StoredArray) -> StoredArray {
     ndarray::Zip::from(&mut gap.field).and(&pressure.field).and(plastic).for_each(|gap, p, w| {
         *gap = if *p > 0.0 { -w.max(0.0) } else { (*gap + w).max(0.0) };
     });

@@ -6,7 +6,7 @@ use asperity::io;
 use asperity::study::Results;
 use rayon::prelude::*;
 
-use super::{Curves, Wanted};
+use super::{Curves, FigureOptions};
 use crate::draw::{self, Caption, Colours, Figure, Format, Paper, Scene};
 use crate::report::{Failure, Outcome};
 
@@ -16,7 +16,7 @@ const DELAY: u16 = 12;
 /// The figures drawn so far. They are written in the end, on as many threads as there are.
 pub(super) struct Sheet<'a> {
     folder: PathBuf,
-    wanted: &'a Wanted,
+    wanted: &'a FigureOptions,
     case: String,
     names: Vec<String>,
     drawings: Vec<(PathBuf, Drawing)>,
@@ -35,7 +35,7 @@ enum Drawing {
 impl<'a> Sheet<'a> {
     pub(super) fn new(
         results: &Results,
-        wanted: &'a Wanted,
+        wanted: &'a FigureOptions,
         stop: &'a (dyn Fn() -> bool + Sync),
     ) -> Outcome<Self> {
         let title = results.case()?.title;
@@ -56,7 +56,7 @@ impl<'a> Sheet<'a> {
         figure: impl FnOnce() -> Outcome<F>,
     ) -> Outcome {
         if self.wants(name) {
-            self.go_on()?;
+            self.check_interrupted()?;
             let scene = draw::captioned(&figure()?, &self.caption(title, of), &self.wanted.paper);
             let path = self.folder.join(format!("{name}.{}", self.wanted.paper.format.extension()));
             self.drawings.push((path, Drawing::Still(scene)));
@@ -101,7 +101,7 @@ impl<'a> Sheet<'a> {
         if wanted.is_empty() {
             return Ok(());
         }
-        self.go_on()?;
+        self.check_interrupted()?;
         let paper = Paper { format: Format::Png, dpi: 100.0, ..self.wanted.paper };
         let frames = frames()?.into_iter().map(|(of, figure)| (figure, self.caption(title, &of)));
         let scenes = draw::captioned_alike(&frames.collect::<Vec<_>>(), &paper);
@@ -144,7 +144,7 @@ impl<'a> Sheet<'a> {
         io::sweep(&self.folder);
         let paper = &self.wanted.paper;
         let write = |(path, drawing): &(PathBuf, Drawing)| {
-            self.go_on()?;
+            self.check_interrupted()?;
             match drawing {
                 Drawing::Still(scene) => draw::write_scene(path, scene, paper),
                 Drawing::Moving(frames, colours) => draw::animation(path, frames, *colours, DELAY),
@@ -157,7 +157,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// An error of the kind `Interrupted` once no more figures are wanted.
-    fn go_on(&self) -> draw::Result<()> {
+    fn check_interrupted(&self) -> draw::Result<()> {
         let interrupted = || std::io::ErrorKind::Interrupted.into();
         if (self.stop)() {
             Err(draw::Error { path: self.folder.clone(), source: interrupted() })

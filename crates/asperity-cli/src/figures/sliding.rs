@@ -5,7 +5,7 @@ use asperity::motion::UpdateRecord;
 use asperity::units::CELSIUS;
 
 use super::sheet::Sheet;
-use super::stored::Stored;
+use super::stored::StoredArray;
 use super::{Curves, of_bodies};
 use crate::draw::{Axis, Chart, Charts, Colours, Maps, Mark, Series, Unit};
 use crate::report::Outcome;
@@ -23,7 +23,7 @@ pub(super) fn draw(updates: &[UpdateRecord], fields: &Fields, of: &str, sheet: &
         for body in ["lower", "upper"] {
             let name = format!("{state}_{body}");
             if given(&name) {
-                maps.push((Stored::read(fields, &name)?, format!("{body} body")));
+                maps.push((StoredArray::read(fields, &name)?, format!("{body} body")));
             }
         }
         if !maps.is_empty() {
@@ -35,7 +35,7 @@ pub(super) fn draw(updates: &[UpdateRecord], fields: &Fields, of: &str, sheet: &
         }
     }
     if given("temperature") {
-        let shown = Stored::read(fields, "temperature")?.celsius();
+        let shown = StoredArray::read(fields, "temperature")?.celsius();
         if shown.field.iter().any(|t| t.is_finite()) {
             sheet.add("temperature", "temperature of the contact", of, || {
                 let map = shown.map("", "temperature", Unit::Of("°C"), Colours::Between);

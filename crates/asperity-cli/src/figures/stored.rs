@@ -8,7 +8,7 @@ use crate::draw::{Colours, Map, Quantity, Relief, Unit};
 use crate::report::{Failure, Outcome};
 
 /// A field as stored, with the grid that it lies on.
-pub(crate) struct Stored {
+pub(crate) struct StoredArray {
     pub(crate) field: Field,
     pub(crate) grid: Grid,
     /// The lower body's column in which its corner is, or the nearest.
@@ -17,7 +17,7 @@ pub(crate) struct Stored {
     pub(crate) place: f64,
 }
 
-impl Stored {
+impl StoredArray {
     pub(crate) fn read(fields: &Fields, name: &str) -> Outcome<Self> {
         let stored = fields.read(name)?;
         let pitch = [stored.pitch[0], stored.pitch[1]];
@@ -101,7 +101,7 @@ impl Cap {
     /// The field `cap`, else the attribute `cap` of the file, else the hardness.
     pub(crate) fn read(fields: &Fields) -> Outcome<Self> {
         if fields.names()?.iter().any(|name| name == "cap") {
-            return Ok(Self::Field(Stored::read(fields, "cap")?.field));
+            return Ok(Self::Field(StoredArray::read(fields, "cap")?.field));
         }
         let number = |name| match fields.attributes() {
             Ok(attributes) => match attributes.get(name) {

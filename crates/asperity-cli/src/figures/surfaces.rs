@@ -3,7 +3,7 @@
 use asperity::surface::{SpectralPoint, Spectrum, Topography, Window};
 
 use super::Curves;
-use super::stored::Stored;
+use super::stored::StoredArray;
 use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
 use crate::report::Outcome;
 use crate::surface::RINGS;
@@ -15,8 +15,8 @@ const POINTS: usize = 257;
 pub(super) const NAMES: [&str; 2] = ["material_ratio", "spectrum"];
 
 /// Both bodies with their material below, as they were measured: the underside is turned over.
-pub(crate) fn as_measured([lower, upper]: &[Stored; 2]) -> Outcome<[Topography; 2]> {
-    let of = |stored: &Stored| Topography::new(stored.grid, stored.field.clone());
+pub(crate) fn as_measured([lower, upper]: &[StoredArray; 2]) -> Outcome<[Topography; 2]> {
+    let of = |stored: &StoredArray| Topography::new(stored.grid, stored.field.clone());
     Ok([of(lower)?, of(upper)?.underside()])
 }
 

@@ -14,7 +14,7 @@ use asperity::motion::IncrementRecord;
 use asperity::{Field, Grid};
 
 use super::loading::direction;
-use super::stored::{Cap, Stored};
+use super::stored::{Cap, StoredArray};
 use super::*;
 
 fn under(forces: &[[f64; 2]]) -> Vec<IncrementRecord> {
@@ -59,7 +59,7 @@ fn a_cell_at_its_own_cap_is_plastic_whatever_the_hardness() {
         file.add_field("pressure", "Pa", &grid, [0.0; 2], &row([0.0, 1.6e9, 2e9]));
         file.write().unwrap();
         let fields = Fields::open(&path).unwrap();
-        let contact = Stored::read(&fields, "pressure").unwrap().contact(&Cap::read(&fields).unwrap());
+        let contact = StoredArray::read(&fields, "pressure").unwrap().contact(&Cap::read(&fields).unwrap());
         contact.field.iter().map(|class| *class == 2.0).collect::<Vec<_>>()
     };
     assert_eq!(classes(None, None), [false, false, true]);
@@ -144,12 +144,12 @@ fn bodies_that_run_in_are_drawn_over_the_passes_done_and_the_distance() {
     let folder = tempfile::tempdir().unwrap();
     let case = Case::parse(&text, Path::new("case.toml"), folder.path()).unwrap();
     let directory = folder.path().join("results");
-    study::run(&case, asperity::study::Given::default(), &directory, Existing::Keep, &()).unwrap();
+    study::run(&case, asperity::study::SurfaceInput::default(), &directory, Existing::Keep, &()).unwrap();
     let results = Results::open(&directory).unwrap();
     let passes = results.passes().unwrap();
     assert!(passes.len() < 50, "{} of 200 passes are computed", passes.len());
     let format = crate::draw::Format::Svg;
-    let wanted = Wanted { paper: Paper { format, ..Paper::default() }, ..Wanted::default() };
+    let wanted = FigureOptions { paper: Paper { format, ..Paper::default() }, ..FigureOptions::default() };
     let paths = draw(&results, &wanted, &|| false).unwrap();
     let read = |name: &str| {
         let path = paths.iter().find(|path| path.file_stem().is_some_and(|stem| stem == name)).unwrap();
@@ -188,10 +188,13 @@ fn curves_below_the_surface_are_figures_of_their_own() {
         let folder = tempfile::tempdir().unwrap();
         let case = Case::parse(text, Path::new("case.toml"), folder.path()).unwrap();
         let directory = folder.path().join("results");
-        study::run(&case, asperity::study::Given::default(), &directory, Existing::Keep, &()).unwrap();
+        study::run(&case, asperity::study::SurfaceInput::default(), &directory, Existing::Keep, &()).unwrap();
         let format = crate::draw::Format::Svg;
-        let wanted =
-            Wanted { paper: Paper { format, ..Paper::default() }, only: vec![name.to_owned()], keep: false };
+        let wanted = FigureOptions {
+            paper: Paper { format, ..Paper::default() },
+            only: vec![name.to_owned()],
+            keep: false,
+        };
         let paths = draw(&Results::open(&directory).unwrap(), &wanted, &|| false).unwrap();
         let figure = std::fs::read_to_string(&paths[0]).unwrap();
         for words in words {
@@ -218,10 +221,10 @@ fn has_all_its_figures(text: &str) -> bool {
     let folder = tempfile::tempdir().unwrap();
     let Ok(case) = Case::parse(text, Path::new("case.toml"), folder.path()) else { return false };
     let directory = folder.path().join("results");
-    if study::run(&case, asperity::study::Given::default(), &directory, Existing::Keep, &()).is_err() {
+    if study::run(&case, asperity::study::SurfaceInput::default(), &directory, Existing::Keep, &()).is_err() {
         return false;
     }
-    let paths = draw(&Results::open(&directory).unwrap(), &Wanted::default(), &|| false)
+    let paths = draw(&Results::open(&directory).unwrap(), &FigureOptions::default(), &|| false)
         .unwrap_or_else(|e| panic!("{e:?} of\n{text}"));
     let names: BTreeSet<_> = paths.iter().map(|path| path.file_name().unwrap().to_str().unwrap()).collect();
     for name in ["topographies", "mean_pressure", "load", "contact_area", "roughness", "approach"] {

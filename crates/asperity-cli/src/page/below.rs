@@ -5,16 +5,16 @@ use asperity::units::{Dimension, format};
 use serde_json::Value;
 
 use super::curves;
-use super::found::Found;
+use super::found::PageData;
 use super::html::{escaped, facts};
-use super::packed::Packed;
+use super::packed::QuantisedField;
 use super::plane::{self, Plane, Shades};
 use crate::draw::Unit;
 use crate::figures;
 use crate::report::{Failure, Outcome};
 
 /// The section, and the data that it shows; none where no stress was wanted.
-pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
+pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
     found.case.subsurface.as_ref()?;
     let pass = found.passes.last().map(|pass| pass.pass);
     let there = match found.moves() {
@@ -33,9 +33,9 @@ pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Valu
     Some(html)
 }
 
-type Shown = (Plane, Vec<(String, String)>);
+type CaptionedPlane = (Plane, Vec<(String, String)>);
 
-fn stress(fields: &Fields) -> Outcome<Shown> {
+fn stress(fields: &Fields) -> Outcome<CaptionedPlane> {
     let stored = fields.read("section_von_mises")?;
     let (pitch, x) = ([stored.pitch[0], stored.pitch[1]], stored.origin[0] - 0.5 * stored.pitch[0]);
     let section =
@@ -79,7 +79,7 @@ fn stress(fields: &Fields) -> Outcome<Shown> {
             "Von Mises stress in the {body} body in the section y = {}.",
             format(number("section"), Dimension::Length)
         ),
-        map: Packed::positive(&section, pitch),
+        map: QuantisedField::positive(&section, pitch),
         x,
         down: true,
         quantity: "von Mises stress",

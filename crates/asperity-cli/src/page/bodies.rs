@@ -7,11 +7,11 @@ use asperity::units::{Dimension, format};
 use serde_json::{Value, json};
 
 use super::curves;
-use super::found::Found;
+use super::found::PageData;
 use super::html::{details, escaped, minus};
-use super::packed::{self, Packed};
+use super::packed::{self, QuantisedField};
 use crate::draw::{Unit, range_of_heights};
-use crate::figures::{self, Stored};
+use crate::figures::{self, StoredArray};
 use crate::numbers::in_column;
 use crate::report::Outcome;
 
@@ -21,7 +21,7 @@ const MAX_CELLS: usize = 1 << 18;
 const BODIES: [(&str, &str); 2] = [("lower", "lower body"), ("upper", "upper body, underside")];
 
 /// The section, and the data that it shows.
-pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
+pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
     let [before, after] = if found.moves() { of_motion(found)? } else { [of_rest(found)?, None] };
     let before = before?;
     let mut html = String::new();
@@ -56,26 +56,28 @@ fn is_form(topography: &TopographySpec) -> bool {
     matches!(topography.source, Source::Form { .. }) && topography.plus.is_empty()
 }
 
-type Pair = Option<[Stored; 2]>;
+type Pair = Option<[StoredArray; 2]>;
 
-fn of_motion(found: &mut Found) -> Option<[Pair; 2]> {
+fn of_motion(found: &mut PageData) -> Option<[Pair; 2]> {
     let last = found.passes.len();
     let mut read = |passes: usize| -> Pair {
         let fields = found.fields(found.results.fields_after(passes))?;
-        let both =
-            |fields| -> Outcome<_> { Ok([Stored::read(fields, "lower")?, Stored::read(fields, "upper")?]) };
+        let both = |fields| -> Outcome<_> {
+            Ok([StoredArray::read(fields, "lower")?, StoredArray::read(fields, "upper")?])
+        };
         found.kept(both(&fields))
     };
     let before = read(0);
     before.is_some().then(|| [before, if last > 0 { read(last) } else { None }])
 }
 
-fn of_rest(found: &mut Found) -> Option<Pair> {
+fn of_rest(found: &mut PageData) -> Option<Pair> {
     if !has_rest(found.results) && !found.is_finished() {
         return None;
     }
     let fields = found.fields(found.results.static_fields())?;
-    let both = Stored::read(&fields, "lower").and_then(|lower| Ok([lower, Stored::read(&fields, "upper")?]));
+    let both = StoredArray::read(&fields, "lower")
+        .and_then(|lower| Ok([lower, StoredArray::read(&fields, "upper")?]));
     Some(found.kept(both))
 }
 
@@ -85,7 +87,7 @@ pub(super) fn has_rest(results: &Results) -> bool {
 }
 
 /// One body, its heights before and their change since, and what is to be said of it.
-fn body(key: &str, title: &str, before: &Stored, after: Option<&Stored>) -> (Value, Vec<String>) {
+fn body(key: &str, title: &str, before: &StoredArray, after: Option<&StoredArray>) -> (Value, Vec<String>) {
     let fields: Vec<_> = std::iter::once(before).chain(after).map(|stored| &stored.field).collect();
     let (range, remark) = range_of_heights(fields).unwrap_or(([0.0, 1.0], None));
     let mut remarks: Vec<String> = remark.into_iter().map(str::to_owned).collect();
@@ -98,7 +100,7 @@ fn body(key: &str, title: &str, before: &Stored, after: Option<&Stored>) -> (Val
         remarks.push("No pass has changed this body.".to_owned());
     }
     let change = change.filter(|change| change.iter().any(|height| *height != 0.0));
-    let heights = Packed::even(&before.field, pitch);
+    let heights = QuantisedField::even(&before.field, pitch);
     let block = packed::block(&before.field);
     if block > 1 {
         remarks.push(format!("Shown in blocks of {block} × {block} cells, each at its mean height."));
@@ -118,7 +120,7 @@ fn body(key: &str, title: &str, before: &Stored, after: Option<&Stored>) -> (Val
         "sign": sign,
         "flat": flat,
         "before": heights,
-        "change": change.as_ref().map(|change| Packed::even(change, pitch)),
+        "change": change.as_ref().map(|change| QuantisedField::even(change, pitch)),
         "range": range,
         "unit": curves::unit(Unit::Length, range[0].abs().max(range[1].abs())),
         "change_unit": change.as_ref().map(|change| curves::unit(Unit::Length, size(change))),
@@ -128,7 +130,7 @@ fn body(key: &str, title: &str, before: &Stored, after: Option<&Stored>) -> (Val
 }
 
 /// What a body at rest has been through when its heights are kept.
-fn as_it_is(found: &Found, body: &str) -> Option<String> {
+fn as_it_is(found: &PageData, body: &str) -> Option<String> {
     let of_body = if body == "lower" { &found.case.lower } else { &found.case.upper };
     match (found.moves(), found.updates.last()) {
         (false, Some(last)) => {
@@ -143,7 +145,7 @@ fn as_it_is(found: &Found, body: &str) -> Option<String> {
 }
 
 /// What laws keep of a body at the end: the depth of its wear where the surface before is not there to compare with, its film.
-fn kept(found: &mut Found, body: &str) -> Vec<Value> {
+fn kept(found: &mut PageData, body: &str) -> Vec<Value> {
     let last = found.passes.len();
     let fields = match (found.moves(), last) {
         (true, 0) => return Vec::new(),
@@ -160,8 +162,8 @@ fn kept(found: &mut Found, body: &str) -> Vec<Value> {
         if !names.contains(&name) || (state == "wear" && found.moves()) {
             continue;
         }
-        if let Some(stored) = found.kept(Stored::read(&fields, &name)) {
-            let map = Packed::positive(&stored.field, stored.grid.pitch);
+        if let Some(stored) = found.kept(StoredArray::read(&fields, &name)) {
+            let map = QuantisedField::positive(&stored.field, stored.grid.pitch);
             let unit = curves::unit(Unit::Length, map.high);
             let title = format!("{title} the {body} body.");
             maps.push(

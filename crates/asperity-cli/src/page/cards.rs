@@ -6,7 +6,7 @@ use asperity::motion::{PassRecord, StaticRecord, SweepRecord};
 use asperity::study::{Outcome, column};
 use asperity::units::{CELSIUS, Dimension, format, format_number};
 
-use super::found::Found;
+use super::found::PageData;
 use super::html::{escaped, minus};
 use super::verdict::{differ, shaken_down, share_of_overlap};
 use crate::numbers::change;
@@ -34,7 +34,7 @@ impl Card {
 }
 
 /// The cards of a run; nothing where nothing is finished.
-pub(super) fn html(found: &Found) -> String {
+pub(super) fn html(found: &PageData) -> String {
     let cards = match (&found.passes[..], &found.points[..]) {
         ([first, .., last], _) => of_passes(found, first, last),
         ([only], _) => of_passes(found, only, only),
@@ -60,7 +60,7 @@ pub(super) fn html(found: &Found) -> String {
     html + "</dl>"
 }
 
-fn of_passes(found: &Found, first: &PassRecord, last: &PassRecord) -> Vec<Card> {
+fn of_passes(found: &PageData, first: &PassRecord, last: &PassRecord) -> Vec<Card> {
     let length = |value| format(value, Dimension::Length);
     let of_overlap =
         share_of_overlap(last).map_or(String::new(), |share| format!(", {share} % of the overlap"));
@@ -193,7 +193,7 @@ fn of_points(points: &[SweepRecord]) -> Vec<Card> {
     cards
 }
 
-fn of_rest(found: &Found, record: &StaticRecord) -> Vec<Card> {
+fn of_rest(found: &PageData, record: &StaticRecord) -> Vec<Card> {
     let share = format_number(100.0 * record.contact_area / record.apparent_area);
     let mean = record.load / record.contact_area;
     let mut cards = vec![

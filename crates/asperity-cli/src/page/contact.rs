@@ -10,12 +10,12 @@ use serde_json::{Map, Value, json};
 
 use super::bodies::has_rest;
 use super::curves;
-use super::found::Found;
+use super::found::PageData;
 use super::html::{escaped, minus};
-use super::packed::{self, Packed};
+use super::packed::{self, QuantisedField};
 use super::table::evenly;
 use crate::draw::{Colours, Unit};
-use crate::figures::{self, Cap, Curves, Stored};
+use crate::figures::{self, Cap, Curves, StoredArray};
 use crate::report::Outcome;
 
 /// Bytes that all maps of a page take together, at most.
@@ -70,17 +70,17 @@ struct Frame {
     approach: f64,
     /// Cells in contact at the edge of the lower body's map, where a periodic map is cut.
     seam: usize,
-    fields: Vec<(&'static str, Stored)>,
+    fields: Vec<(&'static str, StoredArray)>,
 }
 
 /// A frame as it goes onto the page.
-struct Shown {
+struct PageFrame {
     about: Value,
-    maps: Vec<(&'static str, Packed)>,
+    maps: Vec<(&'static str, QuantisedField)>,
 }
 
 /// The section, and the data that it shows.
-pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
+pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
     if found.moves() {
         return of_motion(found, data, charts);
     }
@@ -121,7 +121,7 @@ fn blocks(frames: &[Frame]) -> String {
 /// Where the maps are drawn.
 const SCRUBBER: &str = "<div id=\"scrubber\"></div>";
 
-fn of_motion(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
+fn of_motion(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
     let last = found.passes.len();
     if last == 0 {
         return None;
@@ -180,11 +180,11 @@ fn of_motion(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Op
 }
 
 /// The passes, and the positions of each, whose maps have room, evenly chosen; the last pass among them.
-fn affordable(found: &Found, fields: &Fields, kept: &[usize]) -> (Vec<usize>, Vec<usize>) {
+fn affordable(found: &PageData, fields: &Fields, kept: &[usize]) -> (Vec<usize>, Vec<usize>) {
     let samples = evenly(kept.len(), 6);
     let size = |at: &usize| {
-        let stored = Stored::read(fields, &pressure_name(kept[*at])).ok()?;
-        Some(Packed::positive(&stored.field, stored.grid.pitch).size())
+        let stored = StoredArray::read(fields, &pressure_name(kept[*at])).ok()?;
+        Some(QuantisedField::positive(&stored.field, stored.grid.pitch).size())
     };
     let sizes: Vec<usize> = samples.iter().filter_map(size).collect();
     // What is elastic and what is plastic takes some more, and so do words.
@@ -201,7 +201,7 @@ fn affordable(found: &Found, fields: &Fields, kept: &[usize]) -> (Vec<usize>, Ve
 }
 
 fn read_pass(
-    found: &Found,
+    found: &PageData,
     fields: &Fields,
     pass: usize,
     positions: &[usize],
@@ -213,16 +213,16 @@ fn read_pass(
     let of_pass = || found.steps.iter().filter(|step| step.pass == pass);
     let all = of_pass().count();
     let frame = |step: &StepRecord| -> Outcome<Frame> {
-        let pressure = Stored::read(fields, &pressure_name(step.step))?;
+        let pressure = StoredArray::read(fields, &pressure_name(step.step))?;
         let own = match names.contains(&cap_name(step.step)) {
-            true => Some(Cap::Field(Stored::read(fields, &cap_name(step.step))?.field)),
+            true => Some(Cap::Field(StoredArray::read(fields, &cap_name(step.step))?.field)),
             false => None,
         };
         let contact = pressure.contact(own.as_ref().unwrap_or(&cap));
         let seam = cut_by_the_edge(&pressure, columns);
         let mut maps = vec![("pressure", pressure), ("contact", contact)];
         if names.contains(&temperature_name(step.step)) {
-            maps.extend(temperature(Stored::read(fields, &temperature_name(step.step))?));
+            maps.extend(temperature(StoredArray::read(fields, &temperature_name(step.step))?));
         }
         Ok(Frame {
             group,
@@ -242,7 +242,7 @@ fn read_pass(
 }
 
 /// Cells in contact in the first and the last of the lower body's columns.
-fn cut_by_the_edge(pressure: &Stored, columns: usize) -> usize {
+fn cut_by_the_edge(pressure: &StoredArray, columns: usize) -> usize {
     let first = pressure.place.round() as usize % columns;
     let of_column = |lower: usize| {
         let own = (lower + columns - first) % columns;
@@ -253,7 +253,7 @@ fn cut_by_the_edge(pressure: &Stored, columns: usize) -> usize {
 }
 
 /// The map of a temperature; none where nothing touches.
-fn temperature(stored: Stored) -> Option<(&'static str, Stored)> {
+fn temperature(stored: StoredArray) -> Option<(&'static str, StoredArray)> {
     stored.field.iter().any(|kelvin| kelvin.is_finite()).then(|| ("temperature", stored.celsius()))
 }
 
@@ -272,19 +272,19 @@ fn of_step(step: &StepRecord) -> String {
 }
 
 /// Change of height of both bodies before a pass, material upwards; none before the first, and of a counter-body that is new in each.
-fn changes_before(found: &Found, pass: usize) -> asperity::Result<Option<[Packed; 2]>> {
+fn changes_before(found: &PageData, pass: usize) -> asperity::Result<Option<[QuantisedField; 2]>> {
     if pass == 1 || figures::has_new_upper(&found.case, pass) {
         return Ok(None);
     }
     let [before, now] = [found.results.surfaces_after(0)?, found.results.surfaces_after(pass - 1)?];
     let change = |body: usize, sign: f64| {
         let change = sign * (now[body].heights() - before[body].heights());
-        Packed::even(&change, before[body].grid().pitch)
+        QuantisedField::even(&change, before[body].grid().pitch)
     };
     Ok(Some([change(0, 1.0), change(1, -1.0)]))
 }
 
-fn of_sweep(found: &mut Found) -> Vec<Frame> {
+fn of_sweep(found: &mut PageData) -> Vec<Frame> {
     let mut frames = Vec::new();
     let points: Vec<SweepRecord> = found.points.clone();
     let path = |point: usize| found.directory().join(format!("fields/point-{point:04}.h5"));
@@ -312,7 +312,7 @@ fn of_sweep(found: &mut Found) -> Vec<Frame> {
     frames
 }
 
-fn of_rest(found: &mut Found) -> Option<Vec<Frame>> {
+fn of_rest(found: &mut PageData) -> Option<Vec<Frame>> {
     if !has_rest(found.results) {
         return None;
     }
@@ -333,16 +333,16 @@ fn of_rest(found: &mut Found) -> Option<Vec<Frame>> {
 }
 
 /// What there is of a static contact, or of a point of a sweep.
-fn at_rest(fields: &Fields) -> Outcome<Vec<(&'static str, Stored)>> {
+fn at_rest(fields: &Fields) -> Outcome<Vec<(&'static str, StoredArray)>> {
     let names = fields.names()?;
     let has = |name: &str| names.iter().any(|other| other == name);
-    let read = |name: &str| Stored::read(fields, name);
+    let read = |name: &str| StoredArray::read(fields, name);
     let pressure = read("pressure")?;
     let mut maps = Vec::new();
     let cap = Cap::read(fields)?;
     let contact = pressure.contact(&cap);
     if has("traction_x") && has("stick") {
-        let size = |x: &str, y: &str| -> Outcome<Stored> {
+        let size = |x: &str, y: &str| -> Outcome<StoredArray> {
             let (x, y) = (read(x)?, read(y)?);
             let mut size = x.field.clone();
             size.zip_mut_with(&y.field, |x, y| *x = x.hypot(*y));
@@ -372,7 +372,7 @@ impl Frame {
         &self.fields[0].1.field
     }
 
-    fn packed(self) -> Shown {
+    fn packed(self) -> PageFrame {
         let about = json!({
             "group": self.group,
             "label": self.label,
@@ -383,25 +383,28 @@ impl Frame {
             "approach": Some(self.approach).filter(|approach| approach.is_finite()),
             "together": minus(&format(self.approach, Dimension::Length)),
         });
-        let map = |(name, Stored { field, grid: Grid { pitch, .. }, place, .. }): (&'static str, Stored)| {
+        let map = |(name, StoredArray { field, grid: Grid { pitch, .. }, place, .. }): (
+            &'static str,
+            StoredArray,
+        )| {
             let layer = LAYERS.iter().find(|layer| layer.name == name)?;
             let packed = match layer.kind {
-                Kind::Positive => Packed::positive(&field, pitch),
-                Kind::Signed | Kind::Between => Packed::even(&field, pitch),
-                Kind::Classes(_) => Packed::classes(&field, pitch),
+                Kind::Positive => QuantisedField::positive(&field, pitch),
+                Kind::Signed | Kind::Between => QuantisedField::even(&field, pitch),
+                Kind::Classes(_) => QuantisedField::classes(&field, pitch),
             };
             Some((name, packed.at([place, 0.0], pitch)))
         };
-        Shown { about, maps: self.fields.into_iter().filter_map(map).collect() }
+        PageFrame { about, maps: self.fields.into_iter().filter_map(map).collect() }
     }
 }
 
-fn all_packed(frames: Vec<Frame>) -> Vec<Shown> {
+fn all_packed(frames: Vec<Frame>) -> Vec<PageFrame> {
     frames.into_par_iter().map(Frame::packed).collect()
 }
 
 /// The data of the section.
-fn shown(frames: &[Shown], groups: Vec<Value>) -> Value {
+fn shown(frames: &[PageFrame], groups: Vec<Value>) -> Value {
     let mut layers = Vec::new();
     for layer in &LAYERS {
         let of_group = |group: Option<usize>| {
@@ -442,7 +445,7 @@ fn shown(frames: &[Shown], groups: Vec<Value>) -> Value {
             "unit": curves::unit(layer.unit, high.max(-low)),
         }));
     }
-    let frame = |Shown { about, maps }: &Shown| {
+    let frame = |PageFrame { about, maps }: &PageFrame| {
         let mut frame = about.clone();
         let shown = maps.iter().filter(|(name, _)| layers.iter().any(|layer| layer["name"] == *name));
         frame["maps"] =

@@ -4,12 +4,12 @@ use asperity::motion::StepRecord;
 use serde_json::{Value, json};
 
 use super::curves;
-use super::found::Found;
+use super::found::PageData;
 use super::html::details;
 use crate::figures;
 
 /// The section; none of a contact in one step.
-pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
+pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
     let mut html = String::from(
         "<p class=\"remark\">Drag across a plot to zoom along x, double-click to see all of it.</p>",
     );
@@ -71,7 +71,7 @@ fn spread(heights: &asperity::Field) -> f64 {
 }
 
 /// What a chosen pass shows over its positions.
-fn of_passes(found: &Found) -> Value {
+fn of_passes(found: &PageData) -> Value {
     /// Numbers of the page for this, at most.
     const MAX: usize = 40_000;
     let each = found.steps.len() / found.passes.len().max(1);

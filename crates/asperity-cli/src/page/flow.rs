@@ -4,16 +4,16 @@ use asperity::study::Outcome;
 use serde_json::{Map, Value};
 
 use super::curves;
-use super::found::Found;
+use super::found::PageData;
 use super::html::{escaped, number};
-use super::packed::Packed;
+use super::packed::QuantisedField;
 use super::plane::{self, Plane, Shades};
 use super::table::text_of;
 use crate::draw::Unit;
-use crate::figures::{self, Curves, Flowed};
+use crate::figures::{self, Curves, FlowSection};
 
 /// The section, and the data that it shows; none of bodies that do not flow.
-pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
+pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
     found.case.plasticity?;
     let mut html = numbers(found).unwrap_or_default();
     let pass = found.passes.last().map(|pass| pass.pass);
@@ -21,7 +21,7 @@ pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Valu
     let is_due = if found.moves() { pass.is_some() } else { found.is_finished() };
     if is_due || found.directory().join(file).exists() {
         let fields = found.fields(found.results.flow_fields(pass));
-        let bodies = fields.and_then(|fields| found.kept(figures::flowed(&fields)));
+        let bodies = fields.and_then(|fields| found.kept(figures::flow_sections(&fields)));
         for body in bodies.into_iter().flatten() {
             html += &of_body(body, data);
         }
@@ -29,15 +29,15 @@ pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Valu
     let course: Option<Curves> = if found.moves() {
         figures::of_rolling(&found.passes)
     } else {
-        figures::of_flowing(&found.increments)
+        figures::of_flow_increments(&found.increments)
     };
     html += &curves::html(course.into_iter().collect(), charts);
     Some(html).filter(|html| !html.is_empty())
 }
 
 /// The maps of a body.
-fn of_body(flowed: Flowed, data: &mut Value) -> String {
-    let Flowed { body, y, extent, strain, stress, surface } = flowed;
+fn of_body(flow_sections: FlowSection, data: &mut Value) -> String {
+    let FlowSection { body, y, extent, strain, stress, surface } = flow_sections;
     let mut html = format!("<h3>{body} body</h3>");
     if strain.iter().all(|strain| *strain == 0.0) {
         return html + "<p class=\"remark\">No plastic flow in this body.</p>";
@@ -57,12 +57,12 @@ fn of_body(flowed: Flowed, data: &mut Value) -> String {
         mark: None,
     };
     let title = format!("Accumulated plastic strain in the section y = {at}.");
-    let map = Packed::positive(&strain, pitch(&strain));
+    let map = QuantisedField::positive(&strain, pitch(&strain));
     let mut planes =
         vec![section("plastic_strain", title, map, "plastic strain", Unit::Number, Shades::FromZero)];
     if let Some(stress) = stress {
         let title = format!("Residual stress along x in the section y = {at}, positive in tension.");
-        let map = Packed::even(&stress, pitch(&stress));
+        let map = QuantisedField::even(&stress, pitch(&stress));
         planes.push(section(
             "residual_stress",
             title,
@@ -73,7 +73,7 @@ fn of_body(flowed: Flowed, data: &mut Value) -> String {
         ));
     }
     if let Some(surface) = surface {
-        let map = Packed::even(&surface.field, surface.grid.pitch);
+        let map = QuantisedField::even(&surface.field, surface.grid.pitch);
         let title = format!("Change of height of the {body} body by plastic flow.");
         let plane = section("residual_surface", title, map, "change", Unit::Length, Shades::AroundZero);
         planes.push(Plane { down: false, ..plane });
@@ -83,7 +83,7 @@ fn of_body(flowed: Flowed, data: &mut Value) -> String {
 }
 
 /// What the summary says of it, under the load and once that is taken off.
-fn numbers(found: &Found) -> Option<String> {
+fn numbers(found: &PageData) -> Option<String> {
     const NAMES: [&str; 8] = [
         "max_plastic_strain",
         "max_plastic_strain_position",

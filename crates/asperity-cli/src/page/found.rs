@@ -11,7 +11,7 @@ use super::table::Table;
 use crate::report::{self, Outcome};
 
 /// The records of a results directory.
-pub(super) struct Found<'a> {
+pub(super) struct PageData<'a> {
     pub(super) results: &'a Results,
     pub(super) case: Case,
     /// The content of `case.json`.
@@ -29,7 +29,7 @@ pub(super) struct Found<'a> {
     pub(super) missing: Vec<String>,
 }
 
-impl<'a> Found<'a> {
+impl<'a> PageData<'a> {
     /// Reads the records; an error only without a case that can be read.
     pub(super) fn in_results(results: &'a Results) -> asperity::Result<Self> {
         let mut missing = Vec::new();
@@ -53,7 +53,7 @@ impl<'a> Found<'a> {
     }
 
     /// What was read; none where that failed, which is then told.
-    pub(super) fn kept<T>(&mut self, read: impl Into<Kept<T>>) -> Option<T> {
+    pub(super) fn kept<T>(&mut self, read: impl Into<ReadResult<T>>) -> Option<T> {
         kept(read, &mut self.missing)
     }
 
@@ -82,21 +82,21 @@ impl<'a> Found<'a> {
 }
 
 /// A result of reading, with its message where it failed.
-pub(super) struct Kept<T>(Result<T, String>);
+pub(super) struct ReadResult<T>(Result<T, String>);
 
-impl<T> From<asperity::Result<T>> for Kept<T> {
+impl<T> From<asperity::Result<T>> for ReadResult<T> {
     fn from(read: asperity::Result<T>) -> Self {
         Self(read.map_err(|error| report::clipped(&error.to_string())))
     }
 }
 
-impl<T> From<Outcome<T>> for Kept<T> {
+impl<T> From<Outcome<T>> for ReadResult<T> {
     fn from(read: Outcome<T>) -> Self {
         Self(read.map_err(|failure| report::clipped(&report::message(&failure))))
     }
 }
 
-fn kept<T>(read: impl Into<Kept<T>>, missing: &mut Vec<String>) -> Option<T> {
+fn kept<T>(read: impl Into<ReadResult<T>>, missing: &mut Vec<String>) -> Option<T> {
     match read.into().0 {
         Ok(read) => Some(read),
         Err(message) => {

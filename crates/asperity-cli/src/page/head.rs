@@ -1,11 +1,11 @@
 //! The head: what was computed, what came of it, what to be wary of.
 
-use super::found::Found;
+use super::found::PageData;
 use super::html::{escaped, minus, with_code};
 use super::{cards, verdict};
 
 /// The title of the case.
-pub(super) fn title(found: &Found) -> String {
+pub(super) fn title(found: &PageData) -> String {
     match found.case.title.trim() {
         "" => "a contact".to_owned(),
         title => title.to_owned(),
@@ -13,7 +13,7 @@ pub(super) fn title(found: &Found) -> String {
 }
 
 /// Everything above the sections: the result in a sentence, its main numbers, what to be wary of.
-pub(super) fn html(found: &Found) -> String {
+pub(super) fn html(found: &PageData) -> String {
     let mut html = format!(
         "<h1>{}</h1><p class=\"verdict\">{}</p>{}",
         escaped(&title(found)),
@@ -29,7 +29,7 @@ pub(super) fn html(found: &Found) -> String {
 }
 
 /// That the run has not come to its end, where it has not.
-fn unfinished(found: &Found) -> String {
+fn unfinished(found: &PageData) -> String {
     if found.is_finished() {
         return String::new();
     }

@@ -41,7 +41,7 @@ use crate::draw::{Colours, Paper, palette};
 use crate::figures;
 use crate::place;
 use crate::report::{Outcome, note, print};
-use found::Found;
+use found::PageData;
 pub(crate) use live::LivePage;
 pub(crate) use study::write_study;
 
@@ -89,7 +89,7 @@ type Section = (&'static str, &'static str, Option<String>);
 
 /// The page, and what is missing on it.
 fn page(results: &Results) -> asperity::Result<(String, Vec<String>)> {
-    let mut found = Found::in_results(results)?;
+    let mut found = PageData::in_results(results)?;
     let mut data = json!({ "colours": {
         "heights": palette(Colours::Heights),
         "pressure": palette(Colours::Pressure),
@@ -108,7 +108,7 @@ fn page(results: &Results) -> asperity::Result<(String, Vec<String>)> {
     Ok((document(&found, &sections, &data), found.missing))
 }
 
-fn document(found: &Found, sections: &[Section], data: &Value) -> String {
+fn document(found: &PageData, sections: &[Section], data: &Value) -> String {
     let with_pictures = |(id, title, html): &Section| {
         let pictures = if *id == "contact" { pictures(found.results) } else { String::new() };
         (*id, *title, html.as_ref().map(|html| format!("{html}{pictures}")))
@@ -184,7 +184,7 @@ fn pictures(results: &Results) -> String {
     let only = ["topographies", "pressure", "contact"].map(str::to_owned).to_vec();
     // What cannot be read has been told already.
     let pictures =
-        figures::pictures(results, &figures::Wanted { paper, only, keep: false }).unwrap_or_default();
+        figures::pictures(results, &figures::FigureOptions { paper, only, keep: false }).unwrap_or_default();
     let mut html = String::from("<noscript>");
     for (title, picture) in pictures {
         let _ = write!(

@@ -14,7 +14,7 @@ const MAX_SIDE: usize = 1024;
 
 /// A field in levels, `[ix, iy]`, the last index fastest.
 #[derive(Debug, Clone, Serialize)]
-pub(super) struct Packed {
+pub(super) struct QuantisedField {
     code: Code,
     pub(super) shape: [usize; 2],
     /// Size of a cell, m.
@@ -49,7 +49,7 @@ enum Reduction {
     Mean,
 }
 
-impl Packed {
+impl QuantisedField {
     /// Numbers of which those above 0 count, such as pressures.
     pub(super) fn positive(field: &Field, pitch: [f64; 2]) -> Self {
         let (field, pitch) = reduced(field, pitch, Reduction::Largest);
@@ -147,7 +147,7 @@ pub(super) mod tests {
     use super::*;
 
     /// The values again, as a browser comes to them.
-    pub(in crate::page) fn unpacked(packed: &Packed) -> Field {
+    pub(in crate::page) fn unpacked(packed: &QuantisedField) -> Field {
         let deflated = STANDARD.decode(&packed.data).unwrap();
         let mut levels = Vec::new();
         flate2::read::ZlibDecoder::new(&deflated[..]).read_to_end(&mut levels).unwrap();
@@ -186,7 +186,7 @@ pub(super) mod tests {
                 };
             }
             let largest = field.iter().copied().fold(0.0, f64::max);
-            let back = unpacked(&Packed::positive(&field, [1.0; 2]));
+            let back = unpacked(&QuantisedField::positive(&field, [1.0; 2]));
             for (p, q) in field.iter().zip(&back) {
                 assert!((p - q).abs() <= 0.5001 * largest / 254.0, "{p} came back as {q}");
             }
@@ -194,7 +194,7 @@ pub(super) mod tests {
             if u.arbitrary()? {
                 heights[[0, 0]] = f64::NAN;
             }
-            let packed = Packed::even(&heights, [1.0; 2]);
+            let packed = QuantisedField::even(&heights, [1.0; 2]);
             let level = (packed.high - packed.low) / 65534.0;
             for (z, back) in heights.iter().zip(&unpacked(&packed)) {
                 assert!((z - back).abs() <= 0.5001 * level || z.is_nan() && back.is_nan(), "{z} as {back}");
@@ -206,7 +206,7 @@ pub(super) mod tests {
     #[test]
     fn no_contact_is_kept_apart_from_the_least_pressure_and_the_hardness_is_kept() {
         let field = Field::from_shape_vec([1, 4], vec![0.0, 1e-6, 1.0, 4e9]).unwrap();
-        let packed = Packed::positive(&field, [1.0; 2]);
+        let packed = QuantisedField::positive(&field, [1.0; 2]);
         assert_eq!(unpacked(&packed).iter().copied().collect::<Vec<_>>(), [0.0, 0.0, 0.0, 4e9]);
         let deflated = STANDARD.decode(&packed.data).unwrap();
         let mut levels = Vec::new();
@@ -218,7 +218,7 @@ pub(super) mod tests {
     fn a_summit_survives_the_reduction_and_heights_keep_their_mean() {
         let mut field = Field::zeros([4096, 3]);
         field[[4095, 2]] = 7.0;
-        let packed = Packed::positive(&field, [1e-6; 2]);
+        let packed = QuantisedField::positive(&field, [1e-6; 2]);
         assert_eq!((packed.shape, packed.pitch), ([1024, 1], [4e-6; 2]));
         assert_eq!(unpacked(&packed)[[1023, 0]], 7.0);
         let (mean, _) = reduced(&field, [1e-6; 2], Reduction::Mean);

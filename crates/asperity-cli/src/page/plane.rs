@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::curves;
-use super::packed::Packed;
+use super::packed::QuantisedField;
 use crate::draw::Unit;
 
 /// A field in a plane, as it is shown.
@@ -11,7 +11,7 @@ pub(super) struct Plane {
     /// Name of the picture when it is saved.
     pub(super) file: String,
     pub(super) title: String,
-    pub(super) map: Packed,
+    pub(super) map: QuantisedField,
     /// Where its left end is, m.
     pub(super) x: f64,
     /// Whether the second axis is a depth.

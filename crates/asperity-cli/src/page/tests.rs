@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use asperity::study::{self, Case, Existing, Given, Results};
+use asperity::study::{self, Case, Existing, Results, SurfaceInput};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -45,7 +45,7 @@ impl Computed {
         let case = Case::parse(text, Path::new("case.toml"), folder.path())
             .unwrap_or_else(|e| panic!("{e} of\n{text}"));
         let directory = folder.path().join("results");
-        study::run(&case, Given::default(), &directory, Existing::Keep, &())
+        study::run(&case, SurfaceInput::default(), &directory, Existing::Keep, &())
             .unwrap_or_else(|e| panic!("{e} of\n{text}"));
         Self { folder }
     }
@@ -108,7 +108,8 @@ fn the_case_on_a_page_of_an_example_is_that_case() {
     for entry in fs::read_dir(examples).unwrap() {
         let folder = entry.unwrap().path();
         let case = Case::load(&folder.join("case.toml")).unwrap();
-        let resolved = |case: &Case| study::resolved(case, &study::bodies(case, Given::default()).unwrap());
+        let resolved =
+            |case: &Case| study::resolved(case, &study::bodies(case, SurfaceInput::default()).unwrap());
         let before = resolved(&case);
         let toml = toml::to_string(&case::written(&before)).unwrap();
         let again = Case::parse(&toml, Path::new("case.toml"), Path::new(""))

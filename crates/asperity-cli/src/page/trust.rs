@@ -7,12 +7,12 @@ use asperity::study::case::Prescribed;
 use asperity::units::{Dimension, bytes, format, format_time};
 use serde_json::Value;
 
-use super::found::Found;
+use super::found::PageData;
 use super::html::{details, escaped, facts, number};
 use super::{case, numbers};
 
 /// The section.
-pub(super) fn section(found: &Found) -> String {
+pub(super) fn section(found: &PageData) -> String {
     let mut rows = Vec::new();
     let residuals = || {
         let steps = found.steps.iter().map(|step| step.residual);
@@ -60,7 +60,7 @@ pub(super) fn section(found: &Found) -> String {
 }
 
 /// Program, date, time and effort.
-fn cost(found: &Found) -> Vec<(String, String)> {
+fn cost(found: &PageData) -> Vec<(String, String)> {
     let mut rows = Vec::new();
     let mut add = |name: &str, value: String| rows.push((name.to_owned(), value));
     let version = found.summary.as_ref().map_or(env!("CARGO_PKG_VERSION"), |summary| &summary.version);

@@ -4,12 +4,12 @@ use asperity::motion::{FlowRecord, PassRecord, Regime, StaticRecord, SweepRecord
 use asperity::study::Outcome;
 use asperity::units::{Dimension, format, format_number};
 
-use super::found::Found;
+use super::found::PageData;
 use crate::closed_form;
 use crate::numbers::change;
 
 /// The outcome of a run, or what there is of it so far.
-pub(super) fn sentence(found: &Found) -> String {
+pub(super) fn sentence(found: &PageData) -> String {
     if let Some(last) = found.passes.last() {
         return of_passes(found, last);
     }
@@ -26,7 +26,7 @@ pub(super) fn sentence(found: &Found) -> String {
     }
 }
 
-fn of_passes(found: &Found, last: &PassRecord) -> String {
+fn of_passes(found: &PageData, last: &PassRecord) -> String {
     let passes = match found.done[found.passes.len()] {
         1 => "one pass".to_owned(),
         done => format!("{done} passes"),
@@ -51,7 +51,7 @@ fn of_passes(found: &Found, last: &PassRecord) -> String {
 }
 
 /// How the rms heights of the bodies have changed.
-fn of_roughness(found: &Found, last: &PassRecord) -> String {
+fn of_roughness(found: &PageData, last: &PassRecord) -> String {
     let Ok(before) = found.results.surfaces_after(0) else { return String::new() };
     let before = before.map(|body| body.sq());
     let changes = [("lower", before[0], last.sq_lower), ("upper", before[1], last.sq_upper)];
@@ -138,7 +138,7 @@ fn of_points(points: &[SweepRecord]) -> String {
     )
 }
 
-fn of_rest(found: &Found, record: &StaticRecord) -> String {
+fn of_rest(found: &PageData, record: &StaticRecord) -> String {
     if record.contact_area == 0.0 {
         let gap = format(record.mean_gap, Dimension::Length);
         return format!("The bodies do not touch: their mean gap is {gap}.");

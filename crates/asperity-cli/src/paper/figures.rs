@@ -136,9 +136,9 @@ struct Pass {
     pair: Pair,
 }
 
-struct Keep(Vec<Pass>);
+struct PassCollector(Vec<Pass>);
 
-impl Output for Keep {
+impl Output for PassCollector {
     fn step(&mut self, step: &Step<'_>) -> Result<()> {
         let Step::Pass(report) = step else { return Ok(()) };
         self.0.push(Pass { contacts: report.contacts.to_vec(), pair: report.pair.clone() });
@@ -155,7 +155,7 @@ fn passes(pair: Pair, bar: &ProgressBar) -> Result<Vec<Pass>> {
         .with_load_tolerance(1e-4)
         .with_friction(None);
     bar.set_message(format!("figure 10: {PASSES} passes of {} positions", 2 * SIDE - 1));
-    let mut kept = Keep(Vec::new());
+    let mut kept = PassCollector(Vec::new());
     Simulation::new(pair, Boundary::FREE, motion, Params::default())?.run(&(), &mut [&mut kept])?;
     Ok(kept.0)
 }

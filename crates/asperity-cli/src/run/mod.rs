@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
     // Of a contact in one step nothing is there until it is solved: nobody wants to wait for that at Ctrl-C.
     let stop = Stop::at_ctrl_c(case.motion.is_some() || in_steps(&case));
     let display = Display::new(arguments.quiet, &case, &directory, stop.clone());
-    let outcome = study::run(&case, study::Given::default(), &directory, existing, &display);
+    let outcome = study::run(&case, study::SurfaceInput::default(), &directory, existing, &display);
     let printed = display.end();
     if let Err(Error::Interrupted) = &outcome
         && let Ok(results) = Results::open(&directory)
@@ -58,14 +58,14 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
     let printed = printed.and_then(|()| tell(&record::text(&case, &summary)));
     let results = writer.results();
     let page = page::write(results, &page::of(results));
-    figures::draw(results, &figures::Wanted::default(), &|| stop.asked()).map_err(
-        |failure| match failure {
+    figures::draw(results, &figures::FigureOptions::default(), &|| stop.asked()).map_err(|failure| {
+        match failure {
             Failure::Figure(error) if error.source.kind() == ErrorKind::Interrupted => {
                 Failure::FiguresInterrupted { directory: directory.clone() }
             }
             other => other,
-        },
-    )?;
+        }
+    })?;
     page?;
     if !arguments.quiet {
         note(&format!("results, figures and report.html in {}", directory.display()));

@@ -7,7 +7,7 @@ use asperity::surface::{
 use asperity::units::Metre;
 use serde::Serialize;
 
-use super::Read;
+use super::ReadSurface;
 use crate::report::Outcome;
 
 /// All that `asperity surface info` tells beyond the file itself, SI.
@@ -67,7 +67,7 @@ pub(super) struct Profiles {
 }
 
 impl Description {
-    pub(super) fn of(file: &Read, cutoff: Option<Metre>) -> Outcome<Self> {
+    pub(super) fn of(file: &ReadSurface, cutoff: Option<Metre>) -> Outcome<Self> {
         let topography = &file.topography;
         let mut parameters = topography.parameters();
         if file.pitch.is_none() {
@@ -86,7 +86,7 @@ impl Description {
 }
 
 impl Statistics {
-    fn of(file: &Read) -> Self {
+    fn of(file: &ReadSurface) -> Self {
         let spectrum = Spectrum::of(&file.topography, Window::Hann);
         let moments = spectrum.moments();
         Self {

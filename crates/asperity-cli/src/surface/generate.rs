@@ -5,7 +5,7 @@ use asperity::units::{self, Dimension};
 
 use super::output::Output;
 use super::read;
-use crate::args::{Generate, Reading, Recipe};
+use crate::args::{Generate, ReadingArguments, Recipe};
 use crate::machine;
 use crate::report::{Outcome, note};
 
@@ -22,7 +22,7 @@ pub(super) fn generate(arguments: Generate) -> Outcome {
         Recipe::Form(form) => form.on(&grid)?,
     };
     for file in &target.plus {
-        let reading = Reading { channel: None, unit: None, pitch: Some(target.pitch) };
+        let reading = ReadingArguments { channel: None, unit: None, pitch: Some(target.pitch) };
         topography = topography.plus(&read(file, &reading)?.topography)?;
     }
     output.write(&topography, Some(grid.pitch))?;

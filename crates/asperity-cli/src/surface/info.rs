@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::description::{Description, Law, Profiles, Statistics};
 use super::table::Table;
-use super::{Read, line_of, read_prepared, suggest_level, without_pitch};
+use super::{ReadSurface, line_of, read_prepared, suggest_level, without_pitch};
 use crate::args::Info;
 use crate::report::{Outcome, print};
 
@@ -27,7 +27,7 @@ pub(super) fn info(arguments: &Info) -> Outcome {
     }
 }
 
-fn json(file: &Read, description: &Description) -> Value {
+fn json(file: &ReadSurface, description: &Description) -> Value {
     let [low, high] = extremes(file);
     let mut json = json!({
         "format": file.scan.format,
@@ -47,7 +47,7 @@ fn json(file: &Read, description: &Description) -> Value {
     json
 }
 
-fn text(file: &Read, description: &Description) -> String {
+fn text(file: &ReadSurface, description: &Description) -> String {
     let mut table = Table::default();
     about_file(&mut table, file);
     let is_line = line_of(&file.topography).is_some();
@@ -71,7 +71,7 @@ fn text(file: &Read, description: &Description) -> String {
 }
 
 /// The cut-off for a line where none is given: the longest of ISO 21920-3 of which the line has five, else a fifth of the line.
-fn cutoff_of_a_line(file: &Read) -> Option<Metre> {
+fn cutoff_of_a_line(file: &ReadSurface) -> Option<Metre> {
     const CUTOFFS: [Metre; 5] = [8e-3, 2.5e-3, 0.8e-3, 0.25e-3, 0.08e-3];
     file.pitch?;
     let axis = line_of(&file.topography)?;
@@ -87,7 +87,7 @@ fn is_of_one_column(one: &Parameter, other: &Parameter) -> bool {
     one.unit == other.unit && along(one) == along(other)
 }
 
-fn about_file(table: &mut Table, file: &Read) {
+fn about_file(table: &mut Table, file: &ReadSurface) {
     let both = |[x, y]: [f64; 2]| format!("{} × {}", Unit::Length.format(x), Unit::Length.format(y));
     let grid = file.topography.grid();
     let [low, high] = extremes(file);
@@ -175,7 +175,7 @@ fn about_profiles(table: &mut Table, profiles: &Profiles, line: Option<Axis>) {
 }
 
 /// NaN where nothing is defined.
-fn extremes(file: &Read) -> [f64; 2] {
+fn extremes(file: &ReadSurface) -> [f64; 2] {
     let heights = file.topography.heights();
     [f64::min, f64::max].map(|pick| heights.iter().copied().fold(f64::NAN, pick))
 }

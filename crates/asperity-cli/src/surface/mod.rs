@@ -16,7 +16,7 @@ use asperity::grid::Grid;
 use asperity::surface::{Axis, Findings, LengthUnit, Level, ReadOptions, Scan, Topography};
 use asperity::units::{self, Dimension, Metre};
 
-use crate::args::{Input, Reading, Surface};
+use crate::args::{Input, ReadingArguments, Surface};
 use crate::report::{Failure, Outcome, note};
 
 pub(crate) fn surface(arguments: Surface) -> Outcome {
@@ -29,14 +29,14 @@ pub(crate) fn surface(arguments: Surface) -> Outcome {
 }
 
 /// A file's heights, what else it says, and the pitch: its own, or else the one given.
-struct Read {
+struct ReadSurface {
     topography: Topography,
     pitch: Option<[Metre; 2]>,
     scan: Scan,
 }
 
 /// Without any pitch the heights stand on cells of 1 m.
-fn read(path: &Path, reading: &Reading) -> Outcome<Read> {
+fn read(path: &Path, reading: &ReadingArguments) -> Outcome<ReadSurface> {
     let mut options = ReadOptions::default();
     options.channel.clone_from(&reading.channel);
     options.unit = reading.unit;
@@ -47,11 +47,11 @@ fn read(path: &Path, reading: &Reading) -> Outcome<Read> {
     let pitch = scan.pitch.or(reading.pitch.map(|pitch| pitch.0));
     let heights = std::mem::take(&mut scan.heights);
     let grid = Grid::new([heights.nrows(), heights.ncols()], pitch.unwrap_or([1.0; 2]))?;
-    Ok(Read { topography: Topography::new(grid, heights)?, pitch, scan })
+    Ok(ReadSurface { topography: Topography::new(grid, heights)?, pitch, scan })
 }
 
 /// [`read`], then prepared as the arguments say; notes what the steps came upon.
-fn read_prepared(input: &Input) -> Outcome<Read> {
+fn read_prepared(input: &Input) -> Outcome<ReadSurface> {
     let read = read(&input.file, &input.reading)?;
     if let (None, Some(argument)) = (read.pitch, input.preparing.needs_pitch()) {
         let message = format!("{argument} needs a pitch, which `{}` has not", input.file.display());
@@ -59,7 +59,7 @@ fn read_prepared(input: &Input) -> Outcome<Read> {
     }
     let (topography, findings) = input.preparing.preparation().apply(read.topography)?;
     report(&findings, &topography);
-    Ok(Read { pitch: read.pitch.map(|_| topography.grid().pitch), topography, scan: read.scan })
+    Ok(ReadSurface { pitch: read.pitch.map(|_| topography.grid().pitch), topography, scan: read.scan })
 }
 
 /// The axis along which a single line of heights runs; none of a field of several lines.

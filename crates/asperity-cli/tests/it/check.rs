@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use asperity::study::{Case, Demand, Given, demand};
+use asperity::study::{Case, Demand, SurfaceInput, demand};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -32,7 +32,7 @@ fn demand_of(example: &str, edits: &[(&str, &str)], threads: usize) -> Demand {
     });
     let folder = root().join("examples").join(example);
     let case = Case::parse(&text, &folder.join("case.toml"), &folder).unwrap();
-    demand(&case, &Given::default(), threads).unwrap()
+    demand(&case, &SurfaceInput::default(), threads).unwrap()
 }
 
 /// The convolutions of an example that was computed as it stands.
@@ -109,7 +109,7 @@ fn films_heat_and_kept_pressures_count() {
     };
     let case =
         Case::parse(&without_films(text_of("running-in")), Path::new("case.toml"), Path::new("")).unwrap();
-    let bare = demand(&case, &Given::default(), 1).unwrap();
+    let bare = demand(&case, &SurfaceInput::default(), 1).unwrap();
     assert!(bare.effort < 0.6 * whole.effort, "films take most: {} of {}", bare.effort, whole.effort);
 }
 

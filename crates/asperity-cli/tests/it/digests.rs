@@ -269,7 +269,7 @@ fn computed(variant: &Variant, example: &Path) -> SeriesByName {
     }
     let case = Case::parse(&text, &example.join("case.toml"), example).unwrap();
     let folder = tempfile::tempdir().unwrap();
-    study::run(&case, asperity::study::Given::default(), folder.path(), Existing::Keep, &()).unwrap();
+    study::run(&case, asperity::study::SurfaceInput::default(), folder.path(), Existing::Keep, &()).unwrap();
     let mut series = numbers(folder.path());
     series.retain(|name, _| !variant.except.iter().any(|end| name.ends_with(end)));
     series

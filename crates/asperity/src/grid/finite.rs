@@ -4,7 +4,7 @@ use crate::error::{Error, Result};
 
 /// Values that a field may hold besides finite numbers.
 #[derive(Clone, Copy, PartialEq)]
-enum Besides {
+enum NonFinite {
     /// NaN in cells without a value: the contact has no temperature where the surfaces do not touch.
     Missing,
     /// Infinity: in cells that never yield, or that stick under any shear.
@@ -12,11 +12,11 @@ enum Besides {
 }
 
 /// Fields with such values, by name, without the number of a position or the name of a body.
-const FIELDS: [(&str, Besides); 4] = [
-    ("temperature", Besides::Missing),
-    ("hardness", Besides::Infinite),
-    ("cap", Besides::Infinite),
-    ("shear_limit", Besides::Infinite),
+const FIELDS: [(&str, NonFinite); 4] = [
+    ("temperature", NonFinite::Missing),
+    ("hardness", NonFinite::Infinite),
+    ("cap", NonFinite::Infinite),
+    ("shear_limit", NonFinite::Infinite),
 ];
 
 /// Checks the values of a field of shape `shape`.
@@ -31,8 +31,8 @@ pub(crate) fn check_finite<'a>(
     let besides = FIELDS.iter().find(|(name, _)| *name == kind(field)).map(|(_, besides)| *besides);
     let good = |value: f64| match besides {
         None => value.is_finite(),
-        Some(Besides::Missing) => !value.is_infinite(),
-        Some(Besides::Infinite) => !value.is_nan(),
+        Some(NonFinite::Missing) => !value.is_infinite(),
+        Some(NonFinite::Infinite) => !value.is_nan(),
     };
     let Some(wrong) = values.into_iter().position(|value| !good(*value)) else { return Ok(()) };
     let mut cell = vec![0; shape.len()];

@@ -16,7 +16,7 @@ use crate::units::Metre;
 
 /// Location of values on an image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Of {
+enum Location {
     /// Values at the points of an image.
     Points,
     /// Values in the cells of an image.
@@ -30,7 +30,7 @@ struct Image<'a> {
     points: [usize; 3],
     origin: [Metre; 3],
     spacing: [Metre; 3],
-    of: Of,
+    of: Location,
     /// Names and values, x fastest.
     arrays: Vec<(&'a str, Vec<f32>)>,
 }
@@ -45,8 +45,8 @@ impl Image<'_> {
         let extent = list(self.points.map(|n| format!("0 {}", n - 1)));
         let [origin, spacing] = [self.origin, self.spacing].map(|v| list(v.map(|v| format!("{v:e}"))));
         let place = match self.of {
-            Of::Points => "PointData",
-            Of::Cells => "CellData",
+            Location::Points => "PointData",
+            Location::Cells => "CellData",
         };
         writeln!(
             file,
@@ -138,7 +138,7 @@ impl Sheet {
             points: [nx + 1, ny + 1, 1],
             origin: [0.0; 3],
             spacing: [self.pitch[0], self.pitch[1], self.pitch[0]],
-            of: Of::Cells,
+            of: Location::Cells,
             arrays: self.arrays.iter().map(|(name, values)| (name.as_str(), values.clone())).collect(),
         };
         image.write(path)
@@ -171,7 +171,7 @@ pub fn write_volume(
         points: [nx, ny, planes.len()],
         origin: [origin[0], origin[1], -depth],
         spacing: [dx, dy, dz],
-        of: Of::Points,
+        of: Location::Points,
         arrays: vec![(name, values.collect())],
     };
     image.write(path)

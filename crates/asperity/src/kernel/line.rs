@@ -37,7 +37,7 @@ impl Line {
     /// Error below 1e-12 of the displacement of a cell under its own pressure.
     pub fn normal_displacement(&self, x: Metre, y: Metre, pitch: [Metre; 2], modulus: Pascal) -> f64 {
         let [s, t] = self.turned([x, y]);
-        self.seen_from(s, pitch).inverse_distance(t) / (PI * modulus)
+        self.at_distance(s, pitch).inverse_distance(t) / (PI * modulus)
     }
 
     /// Displacement of the pair at `(x, y)` per unit traction on each of the cells of size `pitch`, of which one is centred
@@ -52,7 +52,7 @@ impl Line {
         compliances: &Compliances,
     ) -> Coefficients {
         let [s, t] = self.turned([x, y]);
-        self.seen_from(s, pitch).coefficients(t, compliances)
+        self.at_distance(s, pitch).coefficients(t, compliances)
     }
 
     /// Coefficients of all cells `[i, j]` at offsets `(i Δx, j Δy)`, m/Pa.
@@ -61,7 +61,7 @@ impl Line {
         let mut table = Field::zeros([rows, columns]);
         let values = table.as_slice_mut().expect("standard layout");
         parallel::tasks(values.chunks_exact_mut(columns).enumerate(), |(i, row)| {
-            let seen = self.seen_from(i as f64 * across, pitch);
+            let seen = self.at_distance(i as f64 * across, pitch);
             for (j, value) in row.iter_mut().enumerate() {
                 *value = seen.inverse_distance(j as f64 * along) / (PI * modulus);
             }
@@ -75,16 +75,16 @@ impl Line {
     }
 
     /// The line as it is seen from the distance `s` across it.
-    fn seen_from(&self, s: Metre, pitch: [Metre; 2]) -> Seen {
+    fn at_distance(&self, s: Metre, pitch: [Metre; 2]) -> LineAtDistance {
         let half @ [a, b] = self.turned(pitch).map(|p| 0.5 * p);
         let near = if s.abs() - a > FAR * self.period {
             None
         } else {
             let farthest = (s.abs() + a).hypot(0.5 * self.period + b) / self.period;
             let cells = (farthest / REACH).max(a.max(b) / self.period / SMOOTH).ceil() as usize;
-            Some(Near::new(cells, farthest / (cells + 1) as f64, self))
+            Some(NearField::new(cells, farthest / (cells + 1) as f64, self))
         };
-        Seen { line: *self, s, half, near }
+        LineAtDistance { line: *self, s, half, near }
     }
 }
 
@@ -99,15 +99,15 @@ const SMOOTH: f64 = 1.0 / 32.0;
 const MIN_TERM: f64 = 1e-17;
 
 /// A line of cells from one distance across it.
-struct Seen {
+struct LineAtDistance {
     line: Line,
     s: f64,
     half: [f64; 2],
     /// What is not uniform of it.
-    near: Option<Near>,
+    near: Option<NearField>,
 }
 
-impl Seen {
+impl LineAtDistance {
     /// Σ ∬ 1/r over the cells, at `t` along the line.
     fn inverse_distance(&self, t: f64) -> f64 {
         let Self { line: Line { period, datum, .. }, s, half, .. } = *self;
@@ -177,7 +177,7 @@ impl Seen {
 /// Σ_{|n|>N} 1/r_n − (2/L) ln … = (2/L) [γ − H_N − ln(2L/r₀) + Σ_{l=2,4…} Z_{l+1} R_l]
 /// Σ_{|n|>N} (s − it)/r_n² = (2/L) Σ_{l=1,3…} (−1)^((l−1)/2) Z_{l+1} ζ^l        Z_p = m^{p−1} Σ_{n≥m} n^{−p}
 /// ```
-struct Near {
+struct NearField {
     cells: usize,
     /// mL.
     radius: f64,
@@ -186,7 +186,7 @@ struct Near {
     weights: Vec<f64>,
 }
 
-impl Near {
+impl NearField {
     /// `cells` on either side, from no more than the share `ratio` of m periods away.
     fn new(cells: usize, ratio: f64, line: &Line) -> Self {
         let Line { period, datum, .. } = *line;
@@ -203,7 +203,13 @@ impl Near {
     }
 
     /// ∬ k over the nearest cells, one by one.
-    fn sum(&self, seen: &Seen, t: f64, closed: impl Fn(f64, f64) -> f64, k: impl Fn(f64, f64) -> f64) -> f64 {
+    fn sum(
+        &self,
+        seen: &LineAtDistance,
+        t: f64,
+        closed: impl Fn(f64, f64) -> f64,
+        k: impl Fn(f64, f64) -> f64,
+    ) -> f64 {
         let (t, cells) = (seen.folded(t), self.cells as i64);
         let at = |n: i64| [seen.s, t + n as f64 * seen.line.period];
         // From the far ones to the near ones, the small ones first.

@@ -35,13 +35,13 @@ impl<D, S> Mixed<D, S> {
 }
 
 /// What works in one precision at a time, and is kept for that asked for last: the two take turns.
-pub(super) enum Latest<D, S> {
+pub(super) enum LastUsed<D, S> {
     None,
     Double(D),
     Single(S),
 }
 
-impl<D, S> Latest<D, S> {
+impl<D, S> LastUsed<D, S> {
     /// What works in double precision; `new` makes it, after what worked in single precision is gone.
     pub(super) fn double(&mut self, new: impl FnOnce() -> D) -> &mut D {
         if !matches!(self, Self::Double(_)) {
@@ -68,13 +68,13 @@ pub(crate) struct MixedConvolution {
     /// The kernel, which other convolutions may share.
     pub(crate) kernel: Arc<MixedKernel>,
     shape: [usize; 2],
-    latest: Latest<Convolution<f64>, Convolution<f32>>,
+    latest: LastUsed<Convolution<f64>, Convolution<f32>>,
 }
 
 impl MixedConvolution {
     /// The convolution of fields of `shape` with `kernel`; see [`Convolution::new`].
     pub(crate) fn new(kernel: Arc<MixedKernel>, shape: [usize; 2]) -> Self {
-        Self { kernel, shape, latest: Latest::None }
+        Self { kernel, shape, latest: LastUsed::None }
     }
 
     /// Writes the convolution of `input` into `output`, to 1e-15 of the largest output.
@@ -92,7 +92,7 @@ impl MixedConvolution {
 
     /// Gives back the scratch.
     pub(crate) fn release(&mut self) {
-        self.latest = Latest::None;
+        self.latest = LastUsed::None;
     }
 }
 
@@ -100,13 +100,13 @@ impl MixedConvolution {
 pub(crate) struct MixedTensorConvolution {
     kernel: Arc<MixedTensorKernel>,
     shape: [usize; 2],
-    latest: Latest<TensorConvolution<f64>, TensorConvolution<f32>>,
+    latest: LastUsed<TensorConvolution<f64>, TensorConvolution<f32>>,
 }
 
 impl MixedTensorConvolution {
     /// The convolution of fields of `shape` with `kernel`; see [`TensorConvolution::new`].
     pub(crate) fn new(kernel: Arc<MixedTensorKernel>, shape: [usize; 2]) -> Self {
-        Self { kernel, shape, latest: Latest::None }
+        Self { kernel, shape, latest: LastUsed::None }
     }
 
     /// As [`TensorConvolution::apply`] in double precision.

@@ -35,10 +35,10 @@ pub(crate) fn each<T: Send, S: Send, R: Send>(
 ) -> Vec<R> {
     let has_tasks = rayon_core::current_thread_has_pending_tasks() == Some(true);
     if parts.len() <= at_once || has_tasks || rayon::current_num_threads() == 1 {
-        let mut lent = pool.lend(&new);
+        let mut lent = pool.acquire(&new);
         return parts.map(|part| task(lent.scratch(), part)).collect();
     }
-    shared(parts.collect(), at_once, &|| pool.lend(&new), &|lent, part| task(lent.scratch(), part))
+    shared(parts.collect(), at_once, &|| pool.acquire(&new), &|lent, part| task(lent.scratch(), part))
 }
 
 /// Returns the results of a `task` on each of some parts, in their order. Each part is worth a thread of its own.
@@ -97,15 +97,15 @@ fn share(whole: Range<usize>, at_once: usize, wanted: usize, task: &(dyn Fn(Rang
 pub(crate) struct Pool<S>(Mutex<Vec<S>>);
 
 /// Scratch that goes back to its pool when its holder is done.
-struct Lent<'a, S> {
+struct PoolGuard<'a, S> {
     pool: &'a Pool<S>,
     scratch: Option<S>,
 }
 
 impl<S> Pool<S> {
-    fn lend(&self, new: impl Fn() -> S) -> Lent<'_, S> {
+    fn acquire(&self, new: impl Fn() -> S) -> PoolGuard<'_, S> {
         let kept = self.kept().pop();
-        Lent { pool: self, scratch: Some(kept.unwrap_or_else(new)) }
+        PoolGuard { pool: self, scratch: Some(kept.unwrap_or_else(new)) }
     }
 
     fn kept(&self) -> MutexGuard<'_, Vec<S>> {
@@ -119,13 +119,13 @@ impl<S> Default for Pool<S> {
     }
 }
 
-impl<S> Lent<'_, S> {
+impl<S> PoolGuard<'_, S> {
     fn scratch(&mut self) -> &mut S {
         self.scratch.as_mut().expect("not given back yet")
     }
 }
 
-impl<S> Drop for Lent<'_, S> {
+impl<S> Drop for PoolGuard<'_, S> {
     fn drop(&mut self) {
         self.pool.kept().extend(self.scratch.take());
     }

@@ -9,7 +9,7 @@ use asperity_transforms::num_traits::Zero;
 use ndarray::Array2;
 
 use super::convolution::{Kernel, Parity, Plans, largest, multiply, real};
-use super::mixed::{Latest, MixedKernel};
+use super::mixed::{LastUsed, MixedKernel};
 use super::transposition::Transposition;
 use crate::grid::{Field, SingleField};
 use crate::ranks::{Largest, Number, Parts, Ranks, Slab};
@@ -27,7 +27,7 @@ pub(crate) struct SlabConvolution {
     rows: Parts,
     /// The kernel at the frequencies along y of this rank.
     kernel: Arc<MixedKernel>,
-    latest: Latest<Workspace<f64>, Workspace<f32>>,
+    latest: LastUsed<Workspace<f64>, Workspace<f32>>,
 }
 
 impl SlabConvolution {
@@ -89,7 +89,7 @@ impl SlabConvolution {
             ranks: Arc::clone(slab.ranks()),
             rows: slab.parts().clone(),
             kernel: MixedKernel::new(Kernel::scaled(plans, spectrum, largest)),
-            latest: Latest::None,
+            latest: LastUsed::None,
         }
     }
 
@@ -107,7 +107,7 @@ impl SlabConvolution {
 
     /// Gives back the scratch.
     pub(crate) fn release(&mut self) {
-        self.latest = Latest::None;
+        self.latest = LastUsed::None;
     }
 }
 

@@ -54,7 +54,7 @@ pub(super) struct Limit {
 }
 
 /// The accepted trial of a search.
-pub(super) struct Found<T> {
+pub(super) struct AcceptedTrial<T> {
     /// The outcome of the trial.
     pub(super) outcome: T,
     /// The approach and the slope there, as the initial guess of the next search.
@@ -74,7 +74,7 @@ impl Search {
         first: Guess,
         mut residual: f64,
         mut trial: impl FnMut(Metre, f64) -> Result<(Newton, T)>,
-    ) -> Result<Found<T>> {
+    ) -> Result<AcceptedTrial<T>> {
         let Guess { mut approach, mut slope } = first;
         approach = approach.min(self.limit.approach);
         let (mut was_rough, mut rough_misled) = (false, false);
@@ -101,7 +101,7 @@ impl Search {
             }
             let tells_no_side = excess.abs() <= UNCERTAINTY * residual;
             if !tells_no_side && excess.abs() > self.tolerance {
-                let refuted = bracket.narrow(Bound { approach, residual }, excess < 0.0);
+                let refuted = bracket.narrow(BracketEnd { approach, residual }, excess < 0.0);
                 if refuted {
                     // A rougher solution was on the wrong side of the load, so no further rough solutions are used.
                     (rough_misled, slope, least_excess) = (true, first.slope, f64::INFINITY);
@@ -128,7 +128,7 @@ impl Search {
                 }
                 // The slope of a jump, on which a bracket closes, is useless.
                 let slope = if exhausted { first.slope } else { slope };
-                return Ok(Found { outcome, guess: Guess { approach, slope }, trials });
+                return Ok(AcceptedTrial { outcome, guess: Guess { approach, slope }, trials });
             }
             let logarithm = (load / self.load).ln();
             if let Some((other, value)) = before {
@@ -172,31 +172,31 @@ impl Search {
 
 /// The approaches between which the load is met, according to the trials.
 struct Bracket {
-    touch: Bound,
-    low: Bound,
-    high: Bound,
+    touch: BracketEnd,
+    low: BracketEnd,
+    high: BracketEnd,
 }
 
 /// An end of a bracket.
 #[derive(Clone, Copy)]
-struct Bound {
+struct BracketEnd {
     approach: Metre,
     /// The residual η of the trial that set the bound; 0 if it needed none.
     residual: f64,
 }
 
 impl Bracket {
-    const OPEN: Bound = Bound { approach: f64::INFINITY, residual: 0.0 };
+    const OPEN: BracketEnd = BracketEnd { approach: f64::INFINITY, residual: 0.0 };
 
     /// Creates the bracket of all approaches beyond first touch.
     fn beyond(touch: Metre) -> Self {
-        let touch = Bound { approach: touch, residual: 0.0 };
+        let touch = BracketEnd { approach: touch, residual: 0.0 };
         Self { touch, low: touch, high: Self::OPEN }
     }
 
     /// Uses a trial as a bound, `below` the required load or above it. Returns whether it refutes the bound of a rougher
     /// trial.
-    fn narrow(&mut self, bound: Bound, below: bool) -> bool {
+    fn narrow(&mut self, bound: BracketEnd, below: bool) -> bool {
         let refuted;
         if below {
             refuted = bound.approach >= self.high.approach;
@@ -209,7 +209,7 @@ impl Bracket {
     }
 
     /// Returns the bound at or beyond which an approach lies; the upper one for NaN.
-    fn bound_passed(&self, approach: Metre) -> Option<Bound> {
+    fn bound_passed(&self, approach: Metre) -> Option<BracketEnd> {
         if approach <= self.low.approach {
             Some(self.low)
         } else if approach < self.high.approach {
@@ -226,7 +226,7 @@ impl Bracket {
     }
 
     /// Returns a bound set by a trial at a residual above this.
-    fn bound_rougher_than(&self, residual: f64) -> Option<Bound> {
+    fn bound_rougher_than(&self, residual: f64) -> Option<BracketEnd> {
         [self.low, self.high].into_iter().find(|bound| bound.residual > residual)
     }
 

@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use crate::error::Result;
-use crate::grid::{Field, Seat};
+use crate::grid::{Field, Placement};
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::motion::record::{StaticRecord, StepRecord};
 use crate::motion::rim::Interior;
 use crate::motion::spot::largest_spot;
-use crate::motion::watch::{AtRest, OneOfMany, Watch};
+use crate::motion::watch::{OneOfMany, StaticWatch, Watch};
 use crate::operator::{Boundary, Operators, SlabFft};
 use crate::ranks::{Largest, Slab};
 use crate::solver::{
@@ -185,12 +185,14 @@ impl Contact {
         boundary: Boundary,
         [pass, step]: [usize; 2],
     ) -> StepRecord {
-        let seats = pair.seats(&self.position);
+        let placements = pair.placements(&self.position);
         let inside = |cell: u32| {
-            let within = |(seat, interior): (&Seat, &Interior)| interior.holds(seat.cell(cell as usize));
-            seats.iter().zip(interiors).all(within)
+            let within = |(placement, interior): (&Placement, &Interior)| {
+                interior.holds(placement.cell(cell as usize))
+            };
+            placements.iter().zip(interiors).all(within)
         };
-        let touching = self.pressure.iter().map(|(cell, _)| *cell as usize);
+        let contact_cells = self.pressure.iter().map(|(cell, _)| *cell as usize);
         let shape = pair.grid(self.position.columns).shape;
         let interference = self.plastic.iter().filter(|(cell, _)| inside(*cell)).map(|(_, w)| w);
         StepRecord {
@@ -205,7 +207,7 @@ impl Contact {
             contact_area: pair.cell_area() * self.pressure.len() as f64,
             contact_area_interior: pair.cell_area()
                 * self.pressure.iter().filter(|(cell, _)| inside(*cell)).count() as f64,
-            largest_spot_cells: largest_spot(touching, shape, boundary.wraps()),
+            largest_spot_cells: largest_spot(contact_cells, shape, boundary.wraps()),
             max_pressure: self.max_pressure(),
             plastic_cells: self.plastic.len(),
             plastic_volume: self.plastic_volume(pair),
@@ -247,7 +249,7 @@ pub fn press(
     let (operators, gap) = facing(pair, boundary)?;
     let mut operator = operators.on(pair.lower_grid().shape);
     let bounds = pair.bounds(&position, None);
-    let watch = AtRest::new(watch, 0, 1, control);
+    let watch = StaticWatch::new(watch, 0, 1, control);
     let solution = solve_normal_watched(operator.as_mut(), &gap, &bounds, control, None, params, &watch)?;
     Ok(StaticContact { record: StaticRecord::new(&solution), solution })
 }

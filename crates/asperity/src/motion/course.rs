@@ -107,7 +107,7 @@ pub(super) fn finish<C: Course>(
     step.check()
         .and_then(|()| outputs.iter_mut().try_for_each(|output| output.step(&step)))
         .map_err(|error| error.if_not_finite(|source| step.at(source)))?;
-    step.tell(watch);
+    step.notify(watch);
     course.take(solved);
     Ok(())
 }
@@ -164,7 +164,7 @@ impl<'a> Step<'a> {
     }
 
     /// Notifies the watch that the step is done. The positions of a pass have notified it already.
-    fn tell(&self, watch: &dyn Watch) {
+    fn notify(&self, watch: &dyn Watch) {
         let solved = |load: Newton, positions: usize| {
             let solved = self.number();
             watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load, together: None });

@@ -6,7 +6,7 @@ use crate::choice::choice;
 use crate::error::{Error, Result, check, check_in};
 use crate::grid::{CellValues, Field};
 use crate::motion::body::{Body, State};
-use crate::motion::law::{Law, Touching};
+use crate::motion::law::{ContactCells, Law};
 use crate::motion::pair::Pair;
 use crate::units::{CubicMetre, Dimension, Joule, Kelvin, Metre, MetrePerSecond, Pascal, PerPascal, Range};
 
@@ -185,9 +185,9 @@ impl Film {
 
     /// Adds the rates of growth and removal at a position to their sums on a body, 0 or 1. Arrhenius: ∫G dt in m and ∫R dt.
     /// Mechano-chemical: the exponents of growth and removal. Solid lubricant: nothing, and the depth worn off, m.
-    pub(super) fn add_rates(&self, body: usize, touching: &Touching, sums: &mut [Field]) {
+    pub(super) fn add_rates(&self, body: usize, contact_cells: &ContactCells, sums: &mut [Field]) {
         let [grown, removed] = sums else { unreachable!("two sums") };
-        let temperature = touching.temperature[body];
+        let temperature = contact_cells.temperature[body];
         match self.law {
             FilmLaw::Arrhenius {
                 rate,
@@ -199,29 +199,31 @@ impl Film {
                 removal,
             } => {
                 let stress = match stress {
-                    FilmStress::Pressure => touching.pressure,
-                    FilmStress::Shear => touching.shear,
+                    FilmStress::Pressure => contact_cells.pressure,
+                    FilmStress::Shear => contact_cells.shear,
                 };
-                touching.add(body, grown, |index| {
+                contact_cells.add(body, grown, |index| {
                     let (stress, temperature) = (stress[index], temperature[index]);
                     let energy = activation_energy * (1.0 / temperature - 1.0 / at_temperature);
                     let work = activation_volume * (stress / temperature - at_stress / at_temperature);
                     let exponent = (work - energy) / BOLTZMANN;
                     let growth = rate * if exponent > MAX_EXPONENT { MAX_EXPONENT } else { exponent }.exp();
-                    growth * touching.time
+                    growth * contact_cells.time
                 });
-                touching.add(body, removed, |index| {
-                    removal * touching.pressure[index] * touching.sliding_distance
+                contact_cells.add(body, removed, |index| {
+                    removal * contact_cells.pressure[index] * contact_cells.sliding_distance
                 });
             }
             FilmLaw::MechanoChemical { x, c4, .. } => {
-                touching
-                    .add(body, grown, |index| BOLTZMANN * temperature[index] / PLANCK * x * touching.time);
-                touching.add(body, removed, |_| c4 * touching.time);
+                contact_cells.add(body, grown, |index| {
+                    BOLTZMANN * temperature[index] / PLANCK * x * contact_cells.time
+                });
+                contact_cells.add(body, removed, |_| c4 * contact_cells.time);
             }
             FilmLaw::SolidLubricant { wear } => {
-                touching
-                    .add(body, removed, |index| wear * touching.pressure[index] * touching.sliding_distance);
+                contact_cells.add(body, removed, |index| {
+                    wear * contact_cells.pressure[index] * contact_cells.sliding_distance
+                });
             }
         }
     }
@@ -289,11 +291,11 @@ impl Film {
             body.state.entry((*name).to_owned()).or_insert_with(state);
         }
         self.bare = Some(body.hardness.clone());
-        self.soften(body);
+        self.set_hardness(body);
     }
 
     /// Sets the hardness of a body under its film, H − (H − H_f) min(f/f_max, 1).
-    fn soften(&self, body: &mut Body) {
+    fn set_hardness(&self, body: &mut Body) {
         let (Some(soft), Some(bare)) = (self.hardness, &self.bare) else { return };
         let thickness = &body.state[FILM].values;
         let mut hardness = thickness.clone();
@@ -448,9 +450,9 @@ impl FilmStates<'_> {
 }
 
 /// Sums of growth and removal over a pass, by cell.
-pub(super) struct Growing<'a>([&'a [f64]; 2]);
+pub(super) struct GrowthSums<'a>([&'a [f64]; 2]);
 
-impl<'a> Growing<'a> {
+impl<'a> GrowthSums<'a> {
     /// Number of sums.
     pub(super) const SUMS: usize = 2;
 
@@ -500,13 +502,13 @@ impl Law for Films {
     }
 
     fn sums(&self) -> usize {
-        Growing::SUMS
+        GrowthSums::SUMS
     }
 
-    fn add(&self, _: &Pair, touching: &Touching, sums: &mut [Vec<Field>; 2]) {
+    fn add(&self, _: &Pair, contact_cells: &ContactCells, sums: &mut [Vec<Field>; 2]) {
         for (body, sums) in sums.iter_mut().enumerate() {
             if let Some(film) = &self.films[body] {
-                film.add_rates(body, touching, sums);
+                film.add_rates(body, contact_cells, sums);
             }
         }
     }
@@ -518,7 +520,7 @@ impl Law for Films {
             let body = &mut *bodies[index];
             let mut depth = Field::zeros(body.heights.raw_dim());
             let Some(film) = &self.films[index] else { return depth };
-            let growing = Growing::of(&sums[index]);
+            let growing = GrowthSums::of(&sums[index]);
             let states = film.states(body);
             let after: Vec<[Metre; 2]> =
                 (0..depth.len()).map(|cell| film.after(states.at(cell), growing.at(cell), passes)).collect();
@@ -530,7 +532,7 @@ impl Law for Films {
                     state.values.iter_mut().zip(&after).for_each(|(value, after)| *value = after[which]);
                 }
             }
-            film.soften(body);
+            film.set_hardness(body);
             depth
         })
     }

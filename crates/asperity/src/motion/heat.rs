@@ -41,16 +41,23 @@ impl PassHeat {
             body.state.get(FLASH).map_or(CellValues::Uniform(0.0), |state| state.values.clone().into())
         });
         Box::new(move |cells: [&[u32]; 2], position: &Position, _: &[f64]| {
-            let seats = position.seats(shapes);
+            let placements = position.placements(shapes);
             // Both surfaces have the same temperature in contact.
-            let of_body = |body: usize, cell: u32| bulk[body] + seats[body].value(&rise[body], cell as usize);
+            let of_body =
+                |body: usize, cell: u32| bulk[body] + placements[body].value(&rise[body], cell as usize);
             let both = cells[0].iter().zip(cells[1]);
             Ok(both.map(|(&lower, &upper)| 0.5 * (of_body(0, lower) + of_body(1, upper))).collect())
         })
     }
 
     /// Stores in the bodies the temperatures used by passes without their own computation.
-    pub(super) fn remember(&self, done: usize, pair: &mut Pair, contacts: &[Contact], bulk: [Kelvin; 2]) {
+    pub(super) fn store_in_bodies(
+        &self,
+        done: usize,
+        pair: &mut Pair,
+        contacts: &[Contact],
+        bulk: [Kelvin; 2],
+    ) {
         if self.every == 1 || !self.is_computed(done) {
             return;
         }
@@ -58,10 +65,10 @@ impl PassHeat {
             let shape = [&pair.lower, &pair.upper][body].heights.raw_dim();
             let [mut rise, mut weights] = [(); 2].map(|()| Field::zeros(shape));
             for contact in contacts {
-                let seat = pair.seats(&contact.position)[body];
+                let placement = pair.placements(&contact.position)[body];
                 let temperatures = contact.temperature.iter().flatten();
                 for ((cell, _), temperature) in contact.pressure.iter().zip(temperatures) {
-                    for (cell, weight) in seat.parts(seat.cell(*cell as usize)) {
+                    for (cell, weight) in placement.parts(placement.cell(*cell as usize)) {
                         rise.as_slice_mut().expect("standard layout")[cell] += weight * (temperature - bulk);
                         weights.as_slice_mut().expect("standard layout")[cell] += weight;
                     }

@@ -10,7 +10,7 @@ use crate::motion::LoadControl;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
-use crate::motion::path::{Position, Way};
+use crate::motion::path::{Position, Stroke};
 use crate::motion::watch::OneOfMany;
 use crate::operator::{Boundary, Operator, Operators};
 use crate::solver::{Bounds, Control, Method, Params, Solution, solve_normal_watched};
@@ -39,7 +39,7 @@ impl Solver<'_> {
             (Control::Load(load), _) => Control::Load(load * positions as f64),
             (approach, _) => approach,
         };
-        let sliding = self.motion.sliding(Way::Forth);
+        let sliding = self.motion.sliding(Stroke::Forth);
         if sliding.is_some_and(|sliding| sliding.shear_displaces_normally(pair.couples())) {
             return Err(Error::Unsupported(TOO_MUCH_WEAR));
         }
@@ -79,7 +79,7 @@ impl Solver<'_> {
                     stats,
                     ..solution
                 };
-                let sliding = self.motion.sliding(position.way);
+                let sliding = self.motion.sliding(position.stroke);
                 Contact::new(*position, sliding.as_ref(), &at_position)
                     .with_gap(&at_position, before.gap.is_some())
             };
@@ -122,10 +122,12 @@ impl WornPass<'_> {
             let mut worn = Field::zeros(heights);
             let cells = worn.as_slice_mut().expect("standard layout");
             for (position, rows) in self.rows() {
-                let seat = &self.pair.seats(position)[body];
+                let placement = &self.pair.placements(position)[body];
                 let pressure = pressure.slice(ndarray::s![rows, ..]);
                 for (cell, p) in pressure.iter().enumerate().filter(|(_, p)| **p != 0.0) {
-                    seat.parts(seat.cell(cell)).for_each(|(cell, weight)| cells[cell] += weight * p);
+                    placement
+                        .parts(placement.cell(cell))
+                        .for_each(|(cell, weight)| cells[cell] += weight * p);
                 }
             }
             cells.iter_mut().enumerate().for_each(|(cell, sum)| *sum *= compliance.at(cell));
@@ -159,9 +161,9 @@ impl Operator for WornPass<'_> {
         let mut own = Field::from_elem(self.grid.shape, elastic);
         for (position, rows) in self.rows() {
             let mut own = own.slice_mut(ndarray::s![rows, ..]);
-            for (seat, compliance) in self.pair.seats(position).iter().zip(&self.compliance) {
+            for (placement, compliance) in self.pair.placements(position).iter().zip(&self.compliance) {
                 for (cell, own) in own.iter_mut().enumerate() {
-                    let parts = seat.parts(seat.cell(cell));
+                    let parts = placement.parts(placement.cell(cell));
                     *own += parts.map(|(cell, weight)| weight * weight * compliance.at(cell)).sum::<f64>();
                 }
             }
@@ -182,13 +184,13 @@ impl Operator for WornPass<'_> {
         displacement.assign(&stacked(elastic.into_iter()));
         let worn = self.worn(pressure);
         for (position, rows) in self.rows() {
-            let seats = self.pair.seats(position);
-            for (seat, worn) in seats.iter().zip(&worn) {
+            let placements = self.pair.placements(position);
+            for (placement, worn) in placements.iter().zip(&worn) {
                 let Some(worn) = worn else { continue };
                 for (j, row) in rows.clone().enumerate() {
                     let mut row = displacement.row_mut(row);
                     let row = row.as_slice_mut().expect("standard layout");
-                    seat.for_column(worn, j, row, |u, worn| *u += worn);
+                    placement.for_column(worn, j, row, |u, worn| *u += worn);
                 }
             }
         }

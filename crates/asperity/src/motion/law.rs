@@ -1,7 +1,7 @@
 //! Laws by which a pass changes the bodies.
 
 use crate::error::Result;
-use crate::grid::{CellValues, Field, Seat};
+use crate::grid::{CellValues, Field, Placement};
 use crate::math::gathered;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
@@ -34,7 +34,7 @@ pub trait Law: Send + Sync {
 
     /// Adds the effect of the contact at one position to the sums on the lower and on the upper body, which are zero at the
     /// beginning of the pass.
-    fn add(&self, pair: &Pair, touching: &Touching, sums: &mut [Vec<Field>; 2]);
+    fn add(&self, pair: &Pair, contact_cells: &ContactCells, sums: &mut [Vec<Field>; 2]);
 
     /// Whether the law acts again in each extrapolated pass: wear does, plastic flow does not.
     fn repeats(&self) -> bool {
@@ -64,15 +64,15 @@ pub trait Law: Send + Sync {
 /// The cells in contact at one position.
 ///
 /// Their quantities are slices of equal length. A cell in contact lies on one cell of each body or, in a shift, between two
-/// of its columns. [`Touching::add`] and [`Touching::keep_largest`] transfer its values to the body.
+/// of its columns. [`ContactCells::add`] and [`ContactCells::keep_largest`] transfer its values to the body.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
-pub struct Touching<'a> {
+pub struct ContactCells<'a> {
     /// The relative position of the bodies.
     pub position: &'a Position,
     /// Flat cells of the lower and of the upper body under those in contact; the first one if a cell lies between two.
     cells: [&'a [u32]; 2],
-    seats: [Seat; 2],
+    placements: [Placement; 2],
     /// Pressure on each of the cells in contact, Pa.
     pub pressure: &'a [Pascal],
     /// Plastic interference w of each of these cells, m; 0 if the pressure is below the hardness.
@@ -87,32 +87,32 @@ pub struct Touching<'a> {
     pub time: Second,
 }
 
-impl Touching<'_> {
+impl ContactCells<'_> {
     /// Adds the value of each cell in contact, by its index, to a sum on a body, 0 the lower or 1 the upper one. Between
     /// two columns the value is split by their weights, so that the total added is the sum of the values.
     pub fn add(&self, body: usize, sum: &mut Field, value: impl Fn(usize) -> f64) {
         let sum = sum.as_slice_mut().expect("standard layout");
-        let (seat, cells) = (&self.seats[body], self.cells[body].iter().enumerate());
-        if seat.fraction() == 0.0 {
+        let (placement, cells) = (&self.placements[body], self.cells[body].iter().enumerate());
+        if placement.fraction() == 0.0 {
             cells.for_each(|(index, &cell)| sum[cell as usize] += value(index));
             return;
         }
         for (index, &cell) in cells {
             let value = value(index);
-            seat.parts(cell as usize).for_each(|(cell, weight)| sum[cell] += weight * value);
+            placement.parts(cell as usize).for_each(|(cell, weight)| sum[cell] += weight * value);
         }
     }
 
     /// Updates the largest value of each cell of a body, 0 the lower or 1 the upper one, over all positions. The values at
-    /// this position are given for each cell in contact by its index, and transferred as in [`Touching::add`].
+    /// this position are given for each cell in contact by its index, and transferred as in [`ContactCells::add`].
     pub fn keep_largest(&self, body: usize, largest: &mut Field, value: impl Fn(usize) -> f64) {
         let largest = largest.as_slice_mut().expect("standard layout");
-        let seat = &self.seats[body];
+        let placement = &self.placements[body];
         let parts = self.cells[body].iter().enumerate().flat_map(|(index, &cell)| {
             let value = value(index);
-            seat.parts(cell as usize).map(move |(cell, weight)| (cell as u32, weight * value))
+            placement.parts(cell as usize).map(move |(cell, weight)| (cell as u32, weight * value))
         });
-        let values = if seat.fraction() == 0.0 { parts.collect() } else { gathered(parts) };
+        let values = if placement.fraction() == 0.0 { parts.collect() } else { gathered(parts) };
         for (cell, value) in values {
             let largest = &mut largest[cell as usize];
             *largest = largest.max(value);
@@ -122,13 +122,13 @@ impl Touching<'_> {
     /// Returns the value of a body, 0 the lower or 1 the upper one, at a cell in contact, by its index. Between two columns
     /// it is the weighted mean.
     pub fn value(&self, body: usize, values: &CellValues, index: usize) -> f64 {
-        self.seats[body].value(values, self.cells[body][index] as usize)
+        self.placements[body].value(values, self.cells[body][index] as usize)
     }
 }
 
 /// Data of a position for laws, besides the contact.
 #[derive(Clone, Copy)]
-pub(super) struct Passage {
+pub(super) struct PositionData {
     /// Sliding on the forward stroke, if there is friction.
     pub(super) sliding: Option<Sliding>,
     /// Sliding distance from one position to the next.
@@ -148,7 +148,7 @@ pub(super) type Heat<'a> =
     dyn FnMut([&[u32]; 2], &Position, &[WattPerSquareMetre]) -> Result<Vec<Kelvin>> + 'a;
 
 /// The heat of friction at a position.
-pub(super) struct Warmth {
+pub(super) struct FrictionHeat {
     pub(super) record: HeatRecord,
     /// Surface temperature of each cell in contact.
     pub(super) temperature: Vec<Kelvin>,
@@ -166,48 +166,48 @@ pub(super) fn sums(
     laws: &[Box<dyn Law>],
     pair: &Pair,
     contacts: &[Contact],
-    passage: &Passage,
+    position_data: &PositionData,
     mut heat: Option<&mut Heat<'_>>,
-) -> Result<(Vec<Sums>, Vec<Warmth>)> {
+) -> Result<(Vec<Sums>, Vec<FrictionHeat>)> {
     let mut sums = nothing(laws, pair);
     let mut warm = Vec::new();
     for contact in contacts {
-        let seats = pair.seats(&contact.position);
-        let [lower, upper] = seats.map(|seat| -> Vec<u32> {
-            contact.pressure.iter().map(|(cell, _)| seat.cell(*cell as usize) as u32).collect()
+        let placements = pair.placements(&contact.position);
+        let [lower, upper] = placements.map(|placement| -> Vec<u32> {
+            contact.pressure.iter().map(|(cell, _)| placement.cell(*cell as usize) as u32).collect()
         });
         let pressure: Vec<Pascal> = contact.pressure.iter().map(|(_, p)| *p).collect();
         let magnitude = |&p: &Pascal| {
-            passage
+            position_data
                 .sliding
                 .map_or(0.0, |sliding| sliding.shear(p).iter().fold(0.0, |q: f64, part| q.hypot(*part)))
         };
         let shear: Vec<Pascal> = pressure.iter().map(magnitude).collect();
-        let mut temperature = passage.bulk.map(|temperature| vec![temperature; pressure.len()]);
+        let mut temperature = position_data.bulk.map(|temperature| vec![temperature; pressure.len()]);
         if let Some(heat) = &mut heat {
-            let speed = passage.distance / passage.time;
+            let speed = position_data.distance / position_data.time;
             let flux: Vec<f64> = shear.iter().map(|q| q * speed).collect();
             let of_cells = heat([&lower, &upper], &contact.position, &flux)?;
             let warmest = of_cells.iter().copied().reduce(f64::max);
             let record = HeatRecord {
                 friction_power: contact.tangential_force.abs() * speed,
-                max_flash_temperature: warmest.unwrap_or(passage.bulk[0].max(passage.bulk[1])),
+                max_flash_temperature: warmest.unwrap_or(position_data.bulk[0].max(position_data.bulk[1])),
             };
             temperature = [of_cells.clone(), of_cells.clone()];
-            warm.push(Warmth { record, temperature: of_cells });
+            warm.push(FrictionHeat { record, temperature: of_cells });
         }
-        let touching = Touching {
+        let contact_cells = ContactCells {
             position: &contact.position,
             cells: [&lower, &upper],
-            seats,
+            placements,
             pressure: &pressure,
             interference: &contact.interference(),
             shear: &shear,
             temperature: [&temperature[0], &temperature[1]],
-            sliding_distance: passage.distance,
-            time: passage.time,
+            sliding_distance: position_data.distance,
+            time: position_data.time,
         };
-        laws.iter().zip(&mut sums).for_each(|(law, sums)| law.add(pair, &touching, sums));
+        laws.iter().zip(&mut sums).for_each(|(law, sums)| law.add(pair, &contact_cells, sums));
     }
     Ok((sums, warm))
 }

@@ -7,7 +7,7 @@ use crate::motion::course::{self, Course, Output, Step};
 use crate::motion::pair::Pair;
 use crate::motion::record::{IncrementRecord, ShearRecord, StaticRecord};
 use crate::motion::state::{Flattening, LoadedContact, LoadingState, Origin};
-use crate::motion::watch::{AtRest, Watch};
+use crate::motion::watch::{StaticWatch, Watch};
 use crate::operator::{Boundary, CoupledOperator, Operator};
 use crate::solver::{
     self, Bounds, Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Rolling,
@@ -54,21 +54,21 @@ pub fn load_in_stages(
     outputs: &mut [&mut dyn Output],
 ) -> Result<LoadedContact> {
     let bodies = Bodies::new(pair, boundary, friction, params)?;
-    let mut loading = InStages { bodies, stages, state: under_way };
+    let mut loading = StagedLoading { bodies, stages, state: under_way };
     course::run(&mut loading, watch, outputs)?;
     let state = loading.state.ok_or(Error::Unsupported("a loading needs at least one increment"))?;
     Ok(loading.bodies.finish(state))
 }
 
 /// A loading in stages.
-struct InStages<'a> {
+struct StagedLoading<'a> {
     bodies: Bodies<'a>,
     stages: &'a [Stage],
     /// State after the last increment; `None` before the first.
     state: Option<LoadingState>,
 }
 
-impl Course for InStages<'_> {
+impl Course for StagedLoading<'_> {
     type Solved = LoadingState;
 
     fn next(&mut self, watch: &dyn Watch) -> Result<Option<LoadingState>> {
@@ -88,7 +88,7 @@ impl Course for InStages<'_> {
         };
         let Stage { loading, increments } = self.stages[stage];
         let loading = origin.towards(loading, step as f64 / increments as f64);
-        let watch = AtRest::new(watch, done, Stage::increments(self.stages), loading.normal);
+        let watch = StaticWatch::new(watch, done, Stage::increments(self.stages), loading.normal);
         self.bodies.load(stage + 1, loading, origin, state, &watch).map(Some)
     }
 
@@ -139,7 +139,7 @@ pub fn roll(
     let (operators, gap) = facing(pair, boundary)?;
     pair.check_shear()?;
     let mut operator = operators.coupled_on(pair.lower_grid().shape);
-    let watch = AtRest::new(watch, 0, 1, control);
+    let watch = StaticWatch::new(watch, 0, 1, control);
     LoadedContact::rolling(pair, operator.as_mut(), &gap, friction, control, rolling, params, &watch)
 }
 

@@ -5,11 +5,11 @@ mod body;
 mod contact;
 mod course;
 mod film;
-mod flowed;
-mod flowing;
+mod plastic_volume;
+mod elasto_plastic;
 mod heat;
 mod implicit;
-mod jump;
+mod extrapolation;
 mod law;
 mod loading;
 mod observed;
@@ -35,24 +35,24 @@ mod wear;
 pub use body::{Body, State};
 pub use contact::{Contact, StaticContact, press, press_slab};
 pub use course::{Output, Step};
+pub use elasto_plastic::{ElastoPlasticContact, FlowPath, FlowResult, press_elasto_plastic};
+pub use extrapolation::{Acceleration, LastExtrapolation};
 #[cfg(feature = "study")]
 pub(crate) use film::{
     ACTIVATION_ENERGIES, ACTIVATION_VOLUMES, GROWTH_FACTORS, GROWTH_TEMPERATURES, REMOVAL_RATES,
 };
 pub use film::{FILM, Film, FilmLaw, FilmStress, Films};
-pub use flowed::FlowedVolume;
-pub use flowing::{FlowPath, Flowed, FlowedContact, press_flowing};
 pub use heat::FLASH;
-pub use jump::{Acceleration, Jump};
-pub use law::{Law, Sums, Touching};
+pub use law::{ContactCells, Law, Sums};
 pub use loading::{Stage, load_in_stages, roll};
 pub use observed::ObservedContact;
 pub use pair::Pair;
 #[cfg(feature = "study")]
-pub(crate) use pair::{facing_values, initial_gap};
+pub(crate) use pair::{initial_gap, opposing_values};
 use path::shift_positions_after;
-pub use path::{OffsetY, Path, Position, Way, overlap_positions, shift_positions};
+pub use path::{OffsetY, Path, Position, Stroke, overlap_positions, shift_positions};
 pub use plastic::PlasticFlow;
+pub use plastic_volume::PlasticVolume;
 pub(crate) use record::columns::{Part, columns};
 #[cfg(feature = "study")]
 pub(crate) use record::lost_volumes::{ENDINGS, is_volume_of_law};
@@ -64,14 +64,14 @@ pub use record::{
 pub use report::PassReport;
 pub use rim::Interior;
 pub use simulation::{Simulation, SolvedPass};
-pub use sliding::{InPlace, Slide, WornContact};
+pub use sliding::{Slide, WearInPlace, WornContact};
 #[cfg(feature = "study")]
 pub(crate) use spot::largest_spot;
 pub use state::{Flattening, LoadedContact, LoadingState, Origin, SlidingState};
 pub use sweep::{Point, sweep};
 #[cfg(feature = "study")]
 pub(crate) use together::memory_together;
-pub use warm_start::{Bearing, Guess, WarmStart};
+pub use warm_start::{Guess, LoadedCells, WarmStart};
 pub use watch::{Progress, Watch};
 pub use wear::{WEAR, Wear, WearCoefficient, WearDriver};
 
@@ -104,12 +104,12 @@ pub enum Strategy {
 }
 
 impl LoadControl {
-    /// Returns the plastic limit of the load from the limits `bearable` of all positions: their mean under pass control,
+    /// Returns the plastic limit of the load from the limits `max_load` of all positions: their mean under pass control,
     /// their smallest under step control.
-    pub fn plastic_limit(self, bearable: &[Newton]) -> Newton {
+    pub fn plastic_limit(self, max_load: &[Newton]) -> Newton {
         match self {
-            Self::Pass => bearable.iter().sum::<f64>() / bearable.len() as f64,
-            Self::Step => bearable.iter().copied().fold(f64::INFINITY, f64::min),
+            Self::Pass => max_load.iter().sum::<f64>() / max_load.len() as f64,
+            Self::Step => max_load.iter().copied().fold(f64::INFINITY, f64::min),
         }
     }
 }
@@ -314,7 +314,7 @@ impl Motion {
     pub(crate) fn distinct(&self, positions: usize, yields: bool, couples: bool) -> usize {
         let stays = self.plastic_update == PlasticUpdate::Pass || !yields;
         let pushed =
-            self.sliding(Way::Forth).is_some_and(|sliding| sliding.shear_displaces_normally(couples));
+            self.sliding(Stroke::Forth).is_some_and(|sliding| sliding.shear_displaces_normally(couples));
         if self.path == Path::Reciprocating && stays && !pushed { positions / 2 } else { positions }
     }
 
@@ -328,9 +328,9 @@ impl Motion {
     }
 
     /// Returns the data of a position that laws need besides the contact, for a pitch along x.
-    fn passage(&self, pitch: Metre) -> law::Passage {
-        law::Passage {
-            sliding: self.sliding(Way::Forth),
+    fn position_data(&self, pitch: Metre) -> law::PositionData {
+        law::PositionData {
+            sliding: self.sliding(Stroke::Forth),
             distance: self.sliding_distance(pitch),
             time: self.step_time(pitch),
             bulk: self.bulk.unwrap_or([f64::NAN; 2]),
@@ -338,8 +338,8 @@ impl Motion {
     }
 
     /// Direction of sliding and friction on a stroke, if there is friction: the upper body slides towards its motion.
-    pub fn sliding(&self, way: Way) -> Option<Sliding> {
-        let direction = [way.sign() * self.strategy.direction(), 0.0];
+    pub fn sliding(&self, stroke: Stroke) -> Option<Sliding> {
+        let direction = [stroke.sign() * self.strategy.direction(), 0.0];
         self.friction.map(|friction| Sliding { friction, direction })
     }
 

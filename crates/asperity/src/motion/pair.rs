@@ -1,7 +1,7 @@
 //! A pair of contacting bodies.
 
 use crate::error::{Error, Result};
-use crate::grid::{CellValues, Field, Grid, Seat, check_finite};
+use crate::grid::{CellValues, Field, Grid, Placement, check_finite};
 use crate::kernel::{SharedResponse, response};
 use crate::material::{Compliances, Material, plastic_share};
 use crate::motion::body::{Body, State};
@@ -180,7 +180,7 @@ impl Pair {
         friction: Option<&Friction>,
     ) -> Bounds {
         let shapes = [self.lower_grid().shape, self.upper_grid().shape];
-        let bounds = Bounds::up_to(facing_values(hardness, shapes, position, f64::min));
+        let bounds = Bounds::up_to(opposing_values(hardness, shapes, position, f64::min));
         friction.map_or_else(|| bounds.clone(), |friction| friction.sliding_bounds(&bounds))
     }
 
@@ -229,19 +229,19 @@ impl Pair {
     }
 
     /// Placement of the contact at `position` on the lower and on the upper body.
-    pub(crate) fn seats(&self, position: &Position) -> [Seat; 2] {
-        position.seats([self.lower_grid().shape, self.upper_grid().shape])
+    pub(crate) fn placements(&self, position: &Position) -> [Placement; 2] {
+        position.placements([self.lower_grid().shape, self.upper_grid().shape])
     }
 
     /// Returns the flat cells of the lower and of the upper body under a flat cell of the contact at `position`. If it lies
     /// between two columns, this is the first one, whose weight is 1 − [`Position::fraction`].
     pub fn cells_of_bodies(&self, position: &Position, cell: usize) -> [usize; 2] {
-        self.seats(position).map(|seat| seat.cell(cell))
+        self.placements(position).map(|placement| placement.cell(cell))
     }
 }
 
 /// Combines by `of` the values of two bodies of these shapes at opposing cells.
-pub(crate) fn facing_values(
+pub(crate) fn opposing_values(
     values: [&CellValues; 2],
     shapes: [[usize; 2]; 2],
     position: &Position,
@@ -251,7 +251,7 @@ pub(crate) fn facing_values(
         return CellValues::Uniform(of(*lower, *upper));
     }
     let shape = [position.columns, shapes[0][1]];
-    let [lower, upper] = position.seats(shapes);
+    let [lower, upper] = position.placements(shapes);
     let mut facing = Field::zeros(shape);
     let mut above = vec![0.0; shape[1]];
     for (j, mut row) in facing.outer_iter_mut().enumerate() {
@@ -265,7 +265,7 @@ pub(crate) fn facing_values(
 
 /// Undeformed gap h = z₂ − z₁ between opposing cells of the lower and of the upper surface.
 pub(crate) fn initial_gap(surfaces: [&Field; 2], position: &Position) -> Field {
-    let [lower, upper] = position.seats(surfaces.map(|surface| [surface.nrows(), surface.ncols()]));
+    let [lower, upper] = position.placements(surfaces.map(|surface| [surface.nrows(), surface.ncols()]));
     let mut gap = Field::zeros([position.columns, surfaces[0].ncols()]);
     for (j, mut row) in gap.outer_iter_mut().enumerate() {
         let row = row.as_slice_mut().expect("standard layout");

@@ -7,10 +7,10 @@ use rayon::prelude::*;
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::Contact;
-use crate::motion::flowed::FlowedPass;
 use crate::motion::law::{self, Law};
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
+use crate::motion::plastic_volume::ElastoPlasticPass;
 use crate::motion::record::LostVolume;
 use crate::motion::rim::Interior;
 use crate::motion::watch::{Progress, Watch};
@@ -31,7 +31,7 @@ pub(super) struct Pass {
     /// Volumes removed from the bodies by each law.
     pub(super) lost: Vec<LostVolume>,
     /// Results for elasto-plastic bodies; `None` for others.
-    pub(super) flowed: Option<FlowedPass>,
+    pub(super) plastic_pass: Option<ElastoPlasticPass>,
 }
 
 impl Pass {
@@ -93,7 +93,7 @@ impl Solver<'_> {
                 return Err(Error::Interrupted);
             }
             let position = self.positions[index];
-            let sliding = self.motion.sliding(position.way);
+            let sliding = self.motion.sliding(position.stroke);
             let start = first_guess(earlier, index, control, pair.lower.width());
             let contact = Contact::solve(
                 pair,
@@ -124,22 +124,23 @@ impl Solver<'_> {
         };
         let mut after = pair.clone();
         let mut lost: Vec<LostVolume> = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
-        let passage = self.motion.passage(pair.pitch()[0]);
+        let position_data = self.motion.position_data(pair.pitch()[0]);
         if pair.yields() && self.motion.plastic_update == PlasticUpdate::Step {
             let mut contacts = Vec::with_capacity(self.positions.len());
             for index in 0..self.positions.len() {
                 let contact = solve(&after, index)?;
-                let (sums, _) = law::sums(self.laws, &after, std::slice::from_ref(&contact), &passage, None)?;
+                let (sums, _) =
+                    law::sums(self.laws, &after, std::slice::from_ref(&contact), &position_data, None)?;
                 law::advance(self.laws, &mut after, &sums, 1.0, self.interiors, &mut lost);
                 contacts.push(contact);
             }
-            return Ok(Pass { contacts, pair: after, lost, has_changed: true, flowed: None });
+            return Ok(Pass { contacts, pair: after, lost, has_changed: true, plastic_pass: None });
         }
         let contacts: Vec<Contact> = (0..self.positions.len())
             .into_par_iter()
             .map(|index| solve(pair, index))
             .collect::<Result<_>>()?;
-        Ok(Pass { contacts, pair: after, lost, has_changed: false, flowed: None })
+        Ok(Pass { contacts, pair: after, lost, has_changed: false, plastic_pass: None })
     }
 }
 

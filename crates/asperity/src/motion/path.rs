@@ -4,7 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::choice::choice;
-use crate::grid::Seat;
+use crate::grid::Placement;
 use crate::units::MetrePerSecond;
 
 /// Strokes of a pass.
@@ -20,14 +20,14 @@ choice!(Path: "one-way" => OneWay, "reciprocating" => Reciprocating);
 
 /// Stroke of a pass to which a position belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Way {
+pub enum Stroke {
     /// The forward stroke, in the direction of the strategy.
     Forth,
     /// The return stroke.
     Back,
 }
 
-impl Way {
+impl Stroke {
     /// 1 on the forward stroke, −1 on the return stroke.
     pub fn sign(self) -> f64 {
         match self {
@@ -87,26 +87,34 @@ pub struct Position {
     /// Cells along y by which the upper body is displaced, counted cyclically.
     pub across: usize,
     /// The stroke of the position.
-    pub way: Way,
+    pub stroke: Stroke,
 }
 
 impl Position {
     /// Creates the position of full overlap of two bodies with `columns` columns.
     pub fn flush(columns: usize) -> Self {
-        Self { offset: 0.0, lower: 0, upper: 0, fraction: [0.0; 2], columns, across: 0, way: Way::Forth }
+        Self {
+            offset: 0.0,
+            lower: 0,
+            upper: 0,
+            fraction: [0.0; 2],
+            columns,
+            across: 0,
+            stroke: Stroke::Forth,
+        }
     }
 
     /// Returns the same position on the return stroke.
     pub(super) fn back(self) -> Self {
-        Self { way: Way::Back, ..self }
+        Self { stroke: Stroke::Back, ..self }
     }
 
     /// Placement of the contact on bodies of these shapes, lower one first.
-    pub(crate) fn seats(&self, shapes: [[usize; 2]; 2]) -> [Seat; 2] {
+    pub(crate) fn placements(&self, shapes: [[usize; 2]; 2]) -> [Placement; 2] {
         let row = (shapes[1][1] - self.across) % shapes[1][1];
         [
-            Seat::new(shapes[0], [self.lower, 0], self.fraction[0]),
-            Seat::new(shapes[1], [self.upper, row], self.fraction[1]),
+            Placement::new(shapes[0], [self.lower, 0], self.fraction[0]),
+            Placement::new(shapes[1], [self.upper, row], self.fraction[1]),
         ]
     }
 

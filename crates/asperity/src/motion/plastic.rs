@@ -1,7 +1,7 @@
 //! Truncation of the surfaces at the hardness.
 
 use crate::grid::Field;
-use crate::motion::law::{Law, Touching};
+use crate::motion::law::{ContactCells, Law};
 use crate::motion::pair::Pair;
 
 /// Truncation of the surfaces by perfectly plastic deformation. Each cell of both bodies is lowered by its share of the
@@ -15,16 +15,16 @@ impl Law for PlasticFlow {
         "plastic"
     }
 
-    fn add(&self, pair: &Pair, touching: &Touching, sums: &mut [Vec<Field>; 2]) {
-        if touching.interference.iter().all(|w| *w == 0.0) {
+    fn add(&self, pair: &Pair, contact_cells: &ContactCells, sums: &mut [Vec<Field>; 2]) {
+        if contact_cells.interference.iter().all(|w| *w == 0.0) {
             return;
         }
         let shares = |index: usize| {
             let hardness = [&pair.lower, &pair.upper].map(|body| &body.hardness);
-            pair.plastic_shares([0, 1].map(|body| touching.value(body, hardness[body], index)))
+            pair.plastic_shares([0, 1].map(|body| contact_cells.value(body, hardness[body], index)))
         };
         for (body, sums) in sums.iter_mut().enumerate() {
-            touching.keep_largest(body, &mut sums[0], |index| match touching.interference[index] {
+            contact_cells.keep_largest(body, &mut sums[0], |index| match contact_cells.interference[index] {
                 0.0 => 0.0,
                 w => shares(index)[body] * w,
             });

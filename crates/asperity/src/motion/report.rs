@@ -3,8 +3,8 @@
 use crate::grid::{CellValues, Field};
 use crate::motion::Motion;
 use crate::motion::contact::Contact;
-use crate::motion::flowed::FlowedVolume;
 use crate::motion::pair::Pair;
+use crate::motion::plastic_volume::PlasticVolume;
 use crate::motion::record::{PassRecord, StepRecord};
 use crate::motion::warm_start::WarmStart;
 use crate::plasticity::PlasticState;
@@ -32,10 +32,10 @@ pub struct PassReport<'a> {
     /// bits.
     pub warm: &'a WarmStart,
     /// The plastic state below the surfaces after unloading; empty for other than elasto-plastic bodies.
-    pub flowed: &'a [FlowedVolume],
+    pub plastic_volumes: &'a [PlasticVolume],
     /// The plastic state under the load at the [selected position](crate::motion::Simulation::looking_at); empty if none is
     /// selected.
-    pub looked_at: &'a [PlasticState],
+    pub states_under_load: &'a [PlasticState],
 }
 
 impl PassReport<'_> {
@@ -53,10 +53,10 @@ impl PassReport<'_> {
     pub fn mean_pressure(&self) -> [Field; 2] {
         let mut mean = [&self.pair.lower, &self.pair.upper].map(|body| Field::zeros(body.heights.raw_dim()));
         for contact in self.contacts {
-            for (mean, seat) in mean.iter_mut().zip(self.pair.seats(&contact.position)) {
+            for (mean, placement) in mean.iter_mut().zip(self.pair.placements(&contact.position)) {
                 let mean = mean.as_slice_mut().expect("standard layout");
                 for &(cell, p) in &contact.pressure {
-                    let parts = seat.parts(seat.cell(cell as usize));
+                    let parts = placement.parts(placement.cell(cell as usize));
                     parts.for_each(|(cell, weight)| mean[cell] += weight * p);
                 }
             }

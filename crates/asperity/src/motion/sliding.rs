@@ -6,15 +6,15 @@ use crate::motion::check_limit;
 use crate::motion::contact::{Contact, facing};
 use crate::motion::course::{self, Course, Output, Step};
 use crate::motion::film::FILM;
-use crate::motion::law::{self, Heat, Law, Passage, Sums};
-use crate::motion::pair::{Pair, facing_values};
+use crate::motion::law::{self, Heat, Law, PositionData, Sums};
+use crate::motion::pair::{Pair, opposing_values};
 use crate::motion::path::Position;
 use crate::motion::plastic::PlasticFlow;
 use crate::motion::record::{LostVolume, StaticRecord, UpdateRecord};
 use crate::motion::rim::Interior;
 use crate::motion::spot::largest_spot;
 use crate::motion::state::SlidingState;
-use crate::motion::watch::{AtRest, Watch};
+use crate::motion::watch::{StaticWatch, Watch};
 use crate::motion::wear::WEAR;
 use crate::motion::{Body, Strategy};
 use crate::operator::{Boundary, Compliant, Operator};
@@ -77,10 +77,10 @@ impl Slide {
     }
 
     /// Returns the data of an update that laws need besides the contact; `update` is the index of the distance at its end.
-    fn passage(&self, update: usize) -> Passage {
+    fn position_data(&self, update: usize) -> PositionData {
         let before = if update == 0 { 0.0 } else { self.ends[update - 1] };
         let distance = self.ends[update] - before;
-        Passage {
+        PositionData {
             sliding: self.sliding(),
             distance,
             time: self.time(distance),
@@ -122,7 +122,7 @@ impl Slide {
 
 impl SlidingState {
     /// Creates the state of a `contact` with these bodies after these `updates`; the last one ended with this `pressure`.
-    pub fn resumed(contact: &InPlace, updates: Vec<UpdateRecord>, pressure: Field) -> Self {
+    pub fn resumed(contact: &WearInPlace, updates: Vec<UpdateRecord>, pressure: Field) -> Self {
         Self { pair: contact.pair.clone(), updates, pressure }
     }
 }
@@ -148,7 +148,7 @@ pub struct WornContact {
 /// smooth for any length of an update, and the worn volume is k W |Δs| to round-off. The coefficient of a cell under a film
 /// is evaluated at the mean film thickness of the update, found together with the contact. Film growth and plastic
 /// deformation use the bodies at the beginning of the update.
-pub struct InPlace {
+pub struct WearInPlace {
     slide: Slide,
     boundary: Boundary,
     params: Params,
@@ -165,7 +165,7 @@ const COEFFICIENT_ACCURACY: f64 = 1e-4;
 /// Number of solutions of an update after which its coefficients are accepted. They then change by less than the film does.
 const MAX_SOLUTIONS: usize = 12;
 
-impl InPlace {
+impl WearInPlace {
     /// Creates a contact of a `pair` at full overlap.
     ///
     /// # Errors
@@ -275,9 +275,9 @@ impl InPlace {
 
     /// Solves the update that ends at the distance of this `index`.
     fn advance(&mut self, mut state: SlidingState, index: usize, watch: &dyn Watch) -> Result<Updated> {
-        let passage = self.slide.passage(index);
+        let position_data = self.slide.position_data(index);
         let mut compliance =
-            self.compliance(&state.pair, &law::nothing(&self.laws, &state.pair), passage.distance);
+            self.compliance(&state.pair, &law::nothing(&self.laws, &state.pair), position_data.distance);
         let (mut stats, mut solutions) = (Stats::default(), 0);
         let (solution, contact, flash, sums) = loop {
             let (solution, contact) =
@@ -286,8 +286,8 @@ impl InPlace {
             stats = stats.and(&solution.stats);
             solutions += 1;
             let flash = self.flash(&contact)?;
-            let sums = self.sums(&state.pair, &contact, &passage, flash.as_ref())?;
-            let next = self.compliance(&state.pair, &sums, passage.distance);
+            let sums = self.sums(&state.pair, &contact, &position_data, flash.as_ref())?;
+            let next = self.compliance(&state.pair, &sums, position_data.distance);
             let change =
                 |(cell, _): &(u32, f64)| (next.at(*cell as usize) - compliance.at(*cell as usize)).abs();
             let most = contact.pressure.iter().map(change).fold(0.0, f64::max);
@@ -298,7 +298,7 @@ impl InPlace {
         };
         let before = state.updates.last().expect("the contact before it slides");
         let mut lost = before.lost.clone();
-        let work = before.friction_work + contact.tangential_force.abs() * passage.distance;
+        let work = before.friction_work + contact.tangential_force.abs() * position_data.distance;
         law::advance(&self.laws, &mut state.pair, &sums, 1.0, &self.interiors, &mut lost);
         let distance = self.slide.ends[index];
         state.updates.push(UpdateRecord {
@@ -329,7 +329,7 @@ impl InPlace {
         let position = pair.at_rest();
         let bounds = pair.bounds(&position, friction.as_ref());
         let mut operator = Compliant::new(self.operator.as_mut(), compliance)?;
-        let watch = AtRest::new(watch, done, self.slide.ends.len(), control);
+        let watch = StaticWatch::new(watch, done, self.slide.ends.len(), control);
         let gap = pair.initial_gap(&position);
         let solution =
             solve_normal_watched(&mut operator, &gap, &bounds, control, start, &self.params, &watch)?;
@@ -343,7 +343,7 @@ impl InPlace {
         let friction = self.slide.friction.map_or(0.0, |friction| friction.coefficient);
         let [lower, upper] = law::compliance(&self.laws, pair, sums, friction, distance);
         let shape = pair.lower_grid().shape;
-        facing_values([&lower, &upper], [shape; 2], &pair.at_rest(), |lower, upper| lower + upper)
+        opposing_values([&lower, &upper], [shape; 2], &pair.at_rest(), |lower, upper| lower + upper)
     }
 
     /// Returns the sums of the laws over an update.
@@ -351,13 +351,13 @@ impl InPlace {
         &self,
         pair: &Pair,
         contact: &Contact,
-        passage: &Passage,
+        position_data: &PositionData,
         flash: Option<&FlashStep>,
     ) -> Result<Vec<Sums>> {
         let mut known =
             flash.map(|flash| |_: [&[u32]; 2], _: &Position, _: &[f64]| Ok(flash.temperature.clone()));
         let heat = known.as_mut().map(|known| known as &mut Heat);
-        Ok(law::sums(&self.laws, pair, std::slice::from_ref(contact), passage, heat)?.0)
+        Ok(law::sums(&self.laws, pair, std::slice::from_ref(contact), position_data, heat)?.0)
     }
 
     /// Returns the temperature of the cells in contact; `None` if it is not requested or nothing touches.
@@ -425,7 +425,7 @@ struct Updated {
 
 /// The updates of a contact that wears in place.
 struct Updates {
-    contact: InPlace,
+    contact: WearInPlace,
     /// State after the last update; `None` before the contact is pressed.
     state: Option<SlidingState>,
 }

@@ -8,7 +8,7 @@ use crate::motion::pair::Pair;
 use crate::motion::record::{ShearRecord, StaticRecord, SweepRecord};
 use crate::motion::spot::largest_spot;
 use crate::motion::state::LoadedContact;
-use crate::motion::watch::{AtRest, Watch};
+use crate::motion::watch::{StaticWatch, Watch};
 use crate::operator::{Boundary, CoupledOperator, Operator};
 use crate::solver::{Control, Friction, Params, Rolling, Solution, normal_stiffness};
 
@@ -89,7 +89,7 @@ struct Sweep<'a> {
 }
 
 impl Sweep<'_> {
-    fn contact(&mut self, point: &Point, watch: &AtRest<'_>) -> Result<LoadedContact> {
+    fn contact(&mut self, point: &Point, watch: &StaticWatch<'_>) -> Result<LoadedContact> {
         let Self { pair, params, gap, .. } = self;
         let Some((rolling, operator)) = point.rolling.zip(self.coupled.as_mut()) else {
             return LoadedContact::pressed(pair, self.normal.as_mut(), gap, point.control, params, watch);
@@ -110,7 +110,7 @@ impl Course for Sweep<'_> {
         }
         let points = self.points.len();
         let solved =
-            self.contact(point, &AtRest::new(watch, done, points, point.control)).and_then(|contact| {
+            self.contact(point, &StaticWatch::new(watch, done, points, point.control)).and_then(|contact| {
                 let record = record(self.boundary, self.normal.as_mut(), done + 1, &contact, self.params)?;
                 Ok((record, contact))
             });
@@ -142,7 +142,7 @@ fn record(
     let StaticRecord { load, approach, contact_area, apparent_area, .. } = contact.record;
     let Solution { grid, pressure, bounds, .. } = contact.solution.normal();
     let cells = pressure.iter().enumerate();
-    let touching = cells.filter(|(cell, p)| bounds.touches(*cell, **p)).map(|(cell, _)| cell);
+    let contact_cells = cells.filter(|(cell, p)| bounds.touches(*cell, **p)).map(|(cell, _)| cell);
     let shear = contact.record.shear.as_ref();
     let of_shear = |value: fn(&ShearRecord) -> f64| shear.map_or(0.0, value);
     Ok(SweepRecord {
@@ -153,7 +153,7 @@ fn record(
         mean_gap: contact.record.mean_gap,
         contact_area,
         contact_fraction: contact_area / apparent_area,
-        largest_spot_cells: largest_spot(touching, grid.shape, boundary.wraps()),
+        largest_spot_cells: largest_spot(contact_cells, grid.shape, boundary.wraps()),
         max_pressure: contact.record.max_pressure,
         plastic_area: grid.cell_area() * contact.record.plastic_cells as f64,
         plastic_volume: contact.record.plastic_volume,

@@ -64,9 +64,13 @@ impl Solver<'_> {
         earlier: Option<&Vec<Contact>>,
     ) -> Result<Vec<Contact>> {
         let friction = self.motion.friction;
-        let facing =
-            |position: &Position| Facing { pair, operators: self.operators, friction, position: *position };
-        let facing: Vec<Facing> = self.positions.iter().map(facing).collect();
+        let facing = |position: &Position| RelativePosition {
+            pair,
+            operators: self.operators,
+            friction,
+            position: *position,
+        };
+        let facing: Vec<RelativePosition> = self.positions.iter().map(facing).collect();
         let sites: Vec<&dyn Site> = facing.iter().map(|site| site as &dyn Site).collect();
         let width = pair.lower.width();
         let start = earlier.map(|contacts| contacts.iter().map(|c| c.pressure_field(width)).collect());
@@ -91,14 +95,14 @@ impl Solver<'_> {
 }
 
 /// The contact at one position.
-struct Facing<'a> {
+struct RelativePosition<'a> {
     pair: &'a Pair,
     operators: &'a Operators,
     friction: Option<Friction>,
     position: Position,
 }
 
-impl Site for Facing<'_> {
+impl Site for RelativePosition<'_> {
     fn grid(&self) -> Grid {
         self.pair.grid(self.position.columns)
     }

@@ -5,15 +5,15 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::Contact;
-use crate::motion::flowed::{FlowedPass, FlowedVolume, displace};
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Position;
+use crate::motion::plastic_volume::{ElastoPlasticPass, PlasticVolume, displace};
 use crate::motion::record::{FlowStepRecord, LostVolume, PassFlowRecord};
 use crate::motion::watch::{OneOfMany, Progress};
 use crate::operator::{Boundary, Operators};
 use crate::plasticity::{
-    Facing, FlowParams, Increment, Interface, PlasticBody, PlasticContact, PlasticState,
+    FlowParams, Increment, Interface, PlasticBody, PlasticContact, PlasticState, RelativePosition,
 };
 use crate::solver::{Control, Loading, Params, Tangential};
 use crate::units::Joule;
@@ -31,7 +31,7 @@ pub(super) struct Volumes {
     states: Vec<PlasticState>,
     boundary: Boundary,
     /// The position whose plastic state is reported.
-    looked_at: Option<usize>,
+    states_under_load: Option<usize>,
 }
 
 impl Volumes {
@@ -45,14 +45,14 @@ impl Volumes {
         (flow, params): (FlowParams, Params),
     ) -> Self {
         let shape = [position.columns, pair.lower.width()];
-        let facing = Facing {
+        let facing = RelativePosition {
             interface: Interface::Frictionless(operators.on(shape)),
             initial_gap: pair.initial_gap(position),
-            seats: pair.seats(position),
+            placements: pair.placements(position),
         };
         let mut contact = PlasticContact::new(facing, bodies, flow, params);
         let states = states(&mut contact);
-        Self { contact: Mutex::new(contact), states, boundary, looked_at: None }
+        Self { contact: Mutex::new(contact), states, boundary, states_under_load: None }
     }
 
     /// The plastic state after the finished passes.
@@ -61,8 +61,8 @@ impl Volumes {
     }
 
     /// Selects a position whose plastic state is reported.
-    pub(super) fn looked_at(self, position: usize) -> Self {
-        Self { looked_at: Some(position), ..self }
+    pub(super) fn states_under_load(self, position: usize) -> Self {
+        Self { states_under_load: Some(position), ..self }
     }
 
     /// Sets the plastic state.
@@ -71,13 +71,13 @@ impl Volumes {
     }
 
     /// Continues from a finished pass.
-    pub(super) fn take(&mut self, volumes: Vec<FlowedVolume>) {
+    pub(super) fn take(&mut self, volumes: Vec<PlasticVolume>) {
         self.states = volumes.into_iter().map(|volume| volume.state).collect();
     }
 
     /// Returns the volumes after the finished passes.
-    pub(super) fn volumes(&self) -> Vec<FlowedVolume> {
-        FlowedVolume::unloaded(&mut self.begin())
+    pub(super) fn volumes(&self) -> Vec<PlasticVolume> {
+        PlasticVolume::unloaded(&mut self.begin())
     }
 
     /// Returns the contact before a pass.
@@ -90,7 +90,12 @@ impl Volumes {
 
 impl Solver<'_> {
     /// Solves the positions of a pass of the elasto-plastic bodies of a `pair`, one after another, and removes the load.
-    pub(super) fn solve_flowing(&self, volumes: &Volumes, pair: &Pair, control: Control) -> Result<Pass> {
+    pub(super) fn solve_elasto_plastic(
+        &self,
+        volumes: &Volumes,
+        pair: &Pair,
+        control: Control,
+    ) -> Result<Pass> {
         let mut contact = volumes.begin();
         // The bodies without their plastic displacement, which the contact adds.
         let mut undeformed = pair.clone();
@@ -98,7 +103,7 @@ impl Solver<'_> {
             displace(&mut undeformed, side, contact.bodies()[index].displacement(), -1.0);
         }
         let mut course = Course { work: [0.0; 2], at_rim: 0.0, steps: Vec::new(), contacts: Vec::new() };
-        let mut looked_at = Vec::new();
+        let mut states_under_load = Vec::new();
         let mut carrier = Carrier { body: 1, last: None };
         for (index, position) in self.positions.iter().enumerate() {
             let shifts = carrier.shifts(position, pair, volumes.boundary);
@@ -106,10 +111,10 @@ impl Solver<'_> {
             let step = self.step(&mut contact, control, index);
             let increments = step.map_err(|source| self.at_position(index, source))?;
             carrier.arrive(position, contact.pressure());
-            if volumes.looked_at == Some(index) {
-                looked_at = states(&mut contact);
+            if volumes.states_under_load == Some(index) {
+                states_under_load = states(&mut contact);
             }
-            let sliding = self.motion.sliding(position.way);
+            let sliding = self.motion.sliding(position.stroke);
             let solution = contact.solution().expect("a contact at the position");
             let here = Contact::new(*position, sliding.as_ref(), solution).with_gap(solution, self.gaps[index]);
             let (solved, load) = (index + 1, here.load);
@@ -122,28 +127,32 @@ impl Solver<'_> {
         course.work_of(&apart, contact.sides());
         let left = states(&mut contact);
         contact.restore(&left);
-        let after = FlowedVolume::unloaded(&mut contact);
+        let after = PlasticVolume::unloaded(&mut contact);
         drop(contact);
         let mut bodies = undeformed;
         after.iter().for_each(|volume| displace(&mut bodies, volume.body, &volume.displacement, 1.0));
         let Course { work, at_rim, steps, contacts } = course;
         let record = PassFlowRecord::of(&after, volumes.states(), work, at_rim);
         let lost = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
-        let flowed = Some(FlowedPass { volumes: after, steps, record, looked_at });
-        Ok(Pass { contacts, pair: bodies, lost, has_changed: true, flowed })
+        let plastic_pass = Some(ElastoPlasticPass { volumes: after, steps, record, states_under_load });
+        Ok(Pass { contacts, pair: bodies, lost, has_changed: true, plastic_pass })
     }
 
     /// Returns how the bodies of a `pair` are placed at a position.
-    fn facing(&self, pair: &Pair, position: &Position) -> Facing {
+    fn facing(&self, pair: &Pair, position: &Position) -> RelativePosition {
         let shape = [position.columns, pair.lower.width()];
-        let interface = match self.motion.sliding(position.way) {
+        let interface = match self.motion.sliding(position.stroke) {
             None => Interface::Frictionless(self.operators.on(shape)),
             Some(sliding) if sliding.shear_displaces_normally(pair.couples()) => {
                 Interface::SlidingCoupled(self.operators.coupled_on(shape), sliding)
             }
             Some(sliding) => Interface::Sliding(self.operators.on(shape), sliding),
         };
-        Facing { interface, initial_gap: pair.initial_gap(position), seats: pair.seats(position) }
+        RelativePosition {
+            interface,
+            initial_gap: pair.initial_gap(position),
+            placements: pair.placements(position),
+        }
     }
 
     /// Loads the bodies at a position; the first position of the pass is loaded in steps.
@@ -207,11 +216,11 @@ impl Course {
             if boundary.repeats(0) {
                 continue;
             }
-            let seats = pair.seats(position);
+            let placements = pair.placements(position);
             let ends = (0..position.columns).filter(|j| *j < RIM || *j + RIM >= position.columns);
             for (flow, side) in increment.bodies.iter().zip(contact.sides()) {
                 let width = pair.lower.width();
-                let column = |j: usize| seats[*side].cell(j * width) / width;
+                let column = |j: usize| placements[*side].cell(j * width) / width;
                 self.at_rim += ends.clone().map(|j| flow.work_of_columns[column(j)]).sum::<f64>();
             }
         }

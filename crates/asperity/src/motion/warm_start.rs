@@ -4,7 +4,7 @@
 //! pressures: the change of the last pass, scaled by how well that pass repeated the change before it.
 
 use crate::motion::contact::Contact;
-use crate::motion::jump::Jump;
+use crate::motion::extrapolation::LastExtrapolation;
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::solver::Stats;
@@ -20,9 +20,9 @@ pub struct WarmStart {
     pub guess: Option<Guess>,
     /// The loaded cells at each solved position of the last pass; empty before the first pass, or if the next pass has
     /// other positions.
-    pub positions: Vec<Bearing>,
+    pub positions: Vec<LoadedCells>,
     /// The last extrapolation; `None` before the first pass, or if nothing wears.
-    pub jump: Option<Jump>,
+    pub extrapolation: Option<LastExtrapolation>,
     /// Finished passes of the motion.
     pub represented: usize,
 }
@@ -41,7 +41,7 @@ pub struct Guess {
 /// The loaded cells at one position.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub struct Bearing {
+pub struct LoadedCells {
     /// The approach δ.
     pub approach: Metre,
     /// Flat cells with p > 0, ascending, and their pressure, Pa.
@@ -59,27 +59,32 @@ impl WarmStart {
     pub(super) fn new(
         guess: Option<Guess>,
         contacts: &[Contact],
-        jump: Option<Jump>,
+        extrapolation: Option<LastExtrapolation>,
         represented: usize,
         before: &Self,
     ) -> Self {
-        let passes = before.jump_passes();
-        let bearing = |(number, c): (usize, &Contact)| {
-            Bearing::new(c.approach, c.pressure.clone(), before.positions.get(number), passes)
+        let passes = before.extrapolated_passes();
+        let loaded_cells = |(number, c): (usize, &Contact)| {
+            LoadedCells::new(c.approach, c.pressure.clone(), before.positions.get(number), passes)
         };
-        Self { guess, positions: contacts.iter().enumerate().map(bearing).collect(), jump, represented }
+        Self {
+            guess,
+            positions: contacts.iter().enumerate().map(loaded_cells).collect(),
+            extrapolation,
+            represented,
+        }
     }
 
     /// Number of passes over which the last computed one was extrapolated.
-    fn jump_passes(&self) -> f64 {
-        self.jump.as_ref().map_or(1.0, |jump| jump.passes as f64)
+    fn extrapolated_passes(&self) -> f64 {
+        self.extrapolation.as_ref().map_or(1.0, |last| last.passes as f64)
     }
 
     /// Returns the initial contacts of the positions, at no cost so far; `None` before the first pass.
     pub(super) fn contacts(&self, pair: &Pair, positions: &[Position]) -> Option<Vec<Contact>> {
-        let contact = |(bearing, position): (&Bearing, &Position)| {
-            let pressure = bearing.foreseen(self.jump_passes());
-            Contact::from_pressure(pair, *position, bearing.approach, pressure, Stats::default())
+        let contact = |(loaded_cells, position): (&LoadedCells, &Position)| {
+            let pressure = loaded_cells.predicted(self.extrapolated_passes());
+            Contact::from_pressure(pair, *position, loaded_cells.approach, pressure, Stats::default())
         };
         let begun = !self.positions.is_empty();
         begun.then(|| self.positions.iter().zip(positions).map(contact).collect())
@@ -91,7 +96,7 @@ const LEAST: f64 = 0.01;
 /// and at most this multiple of it.
 const MOST: f64 = 2.0;
 
-impl Bearing {
+impl LoadedCells {
     /// Creates the record of the loaded cells, `passes` passes of the motion after those `before`.
     fn new(approach: Metre, pressure: Vec<(u32, Pascal)>, before: Option<&Self>, passes: f64) -> Self {
         let Some(before) = before else {
@@ -111,7 +116,7 @@ impl Bearing {
     }
 
     /// Returns the extrapolated pressures `passes` passes of the motion later.
-    fn foreseen(&self, passes: f64) -> Vec<(u32, Pascal)> {
+    fn predicted(&self, passes: f64) -> Vec<(u32, Pascal)> {
         let cells = self.pressure.iter().zip(&self.change);
         let share = self.persistence * passes;
         cells.map(|((cell, p), change)| (*cell, (p + share * change).clamp(LEAST * p, MOST * p))).collect()
@@ -124,12 +129,12 @@ mod tests {
 
     /// Extrapolates after passes with these pressures, each this many passes of the motion after the one before; the last
     /// number is that of the passes to come.
-    fn foreseen(states: &[(&[(u32, f64)], f64)], to_come: f64) -> Vec<(u32, f64)> {
+    fn predicted(states: &[(&[(u32, f64)], f64)], to_come: f64) -> Vec<(u32, f64)> {
         let mut last = None;
         for (pressure, passes) in states {
-            last = Some(Bearing::new(0.0, pressure.to_vec(), last.as_ref(), *passes));
+            last = Some(LoadedCells::new(0.0, pressure.to_vec(), last.as_ref(), *passes));
         }
-        last.unwrap().foreseen(to_come)
+        last.unwrap().predicted(to_come)
     }
 
     #[test]
@@ -139,18 +144,18 @@ mod tests {
             (&[(1, 11.0), (4, 18.0)], 1.0),
             (&[(1, 13.0), (4, 14.0), (7, 3.0)], 2.0),
         ];
-        assert_eq!(foreseen(&states[..1], 1.0), states[0].0);
-        assert_eq!(foreseen(&states[..2], 1.0), states[1].0);
-        assert_eq!(foreseen(&states, 3.0), [(1, 16.0), (4, 8.0), (7, 3.0)]);
+        assert_eq!(predicted(&states[..1], 1.0), states[0].0);
+        assert_eq!(predicted(&states[..2], 1.0), states[1].0);
+        assert_eq!(predicted(&states, 3.0), [(1, 16.0), (4, 8.0), (7, 3.0)]);
         // Never to tension, and never far.
-        assert_eq!(foreseen(&states, 30.0), [(1, 26.0), (4, 0.14), (7, 3.0)]);
+        assert_eq!(predicted(&states, 30.0), [(1, 26.0), (4, 0.14), (7, 3.0)]);
     }
 
     #[test]
     fn a_change_that_fades_is_foreseen_to_fade_and_one_that_turns_not_at_all() {
         let after = |pressures: [f64; 3]| {
             let states = pressures.map(|p| [(2, p)]);
-            foreseen(&[(&states[0], 1.0), (&states[1], 1.0), (&states[2], 1.0)], 1.0)
+            predicted(&[(&states[0], 1.0), (&states[1], 1.0), (&states[2], 1.0)], 1.0)
         };
         assert_eq!(after([8.0, 12.0, 14.0]), [(2, 15.0)]);
         assert_eq!(after([8.0, 12.0, 10.0]), [(2, 10.0)]);

@@ -70,14 +70,14 @@ impl solver::Watch for OneOfMany<'_> {
 }
 
 /// Observes a static contact after the finished increments or points.
-pub(super) struct AtRest<'a> {
+pub(super) struct StaticWatch<'a> {
     watch: &'a dyn Watch,
     progress: Progress,
     /// The initial residual.
     first: OnceLock<f64>,
 }
 
-impl<'a> AtRest<'a> {
+impl<'a> StaticWatch<'a> {
     pub(super) fn new(watch: &'a dyn Watch, solved: usize, positions: usize, control: Control) -> Self {
         let load = match control {
             Control::Load(load) => load,
@@ -88,7 +88,7 @@ impl<'a> AtRest<'a> {
     }
 }
 
-impl solver::Watch for AtRest<'_> {
+impl solver::Watch for StaticWatch<'_> {
     fn iteration(&self, residual: f64, tolerance: f64) {
         let first = self.first.get_or_init(|| residual);
         let way = (first / residual).ln() / (first / tolerance).ln();

@@ -3,8 +3,8 @@
 use crate::error::{Error, Result, check_in};
 use crate::grid::{CellValues, Field};
 use crate::motion::body::State;
-use crate::motion::film::{Film, Growing};
-use crate::motion::law::{Law, Touching};
+use crate::motion::film::{Film, GrowthSums};
+use crate::motion::law::{ContactCells, Law};
 use crate::motion::pair::Pair;
 use crate::units::{Dimension, PerPascal};
 
@@ -114,7 +114,7 @@ impl Wear {
             };
             let states = film.states([&pair.lower, &pair.upper][body]);
             let mut depths = work.clone();
-            let growing = Growing::of(&sums[body][1..]);
+            let growing = GrowthSums::of(&sums[body][1..]);
             for (cell, value) in depths.iter_mut().enumerate() {
                 let thickness = film.mean_thickness(states.at(cell), growing.at(cell), passes);
                 *value = depth(coefficient.under(thickness / film.max_thickness()), *value);
@@ -140,19 +140,19 @@ impl Law for Wear {
 
     fn sums(&self) -> usize {
         // The sums of films are needed only if films reduce the wear.
-        if self.films.iter().any(Option::is_some) { 1 + Growing::SUMS } else { 1 }
+        if self.films.iter().any(Option::is_some) { 1 + GrowthSums::SUMS } else { 1 }
     }
 
-    fn add(&self, _: &Pair, touching: &Touching, sums: &mut [Vec<Field>; 2]) {
+    fn add(&self, _: &Pair, contact_cells: &ContactCells, sums: &mut [Vec<Field>; 2]) {
         for (body, sums) in sums.iter_mut().enumerate() {
             if let Some(coefficient) = self.coefficients[body] {
                 let driver = match coefficient.driver {
-                    WearDriver::Pressure => touching.pressure,
-                    WearDriver::Shear => touching.shear,
+                    WearDriver::Pressure => contact_cells.pressure,
+                    WearDriver::Shear => contact_cells.shear,
                 };
-                touching.add(body, &mut sums[0], |index| driver[index] * touching.sliding_distance);
+                contact_cells.add(body, &mut sums[0], |index| driver[index] * contact_cells.sliding_distance);
                 if let Some(film) = &self.films[body] {
-                    film.add_rates(body, touching, &mut sums[1..]);
+                    film.add_rates(body, contact_cells, &mut sums[1..]);
                 }
             }
         }
@@ -171,7 +171,7 @@ impl Law for Wear {
         [0, 1].map(|body| match (&self.coefficients[body], &self.films[body]) {
             (Some(coefficient), Some(film)) => {
                 let states = film.states([&pair.lower, &pair.upper][body]);
-                let growing = Growing::of(&sums[body][1..]);
+                let growing = GrowthSums::of(&sums[body][1..]);
                 let mut cells = Field::zeros(sums[body][0].raw_dim());
                 for (cell, value) in cells.iter_mut().enumerate() {
                     let thickness = film.mean_thickness(states.at(cell), growing.at(cell), 1.0);

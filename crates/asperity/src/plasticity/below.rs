@@ -2,7 +2,7 @@
 
 use super::{Layers, MAX_LAYERS, TensorField, Volume};
 use crate::error::Result;
-use crate::grid::{Grid, Seat};
+use crate::grid::{Grid, Placement};
 use crate::material::Material;
 use crate::operator::Boundary;
 use crate::stress::Component;
@@ -25,7 +25,7 @@ pub fn residual_below(
     boundary: Boundary,
     material: &Material,
     strain: &TensorField,
-    seat: &Seat,
+    placement: &Placement,
     columns: usize,
     to: Metre,
 ) -> Result<LayeredStress> {
@@ -44,7 +44,7 @@ pub fn residual_below(
     let stress = volume.residual(&deep);
     let under = |layer: usize, component: Component| {
         let field = stress.slice(ndarray::s![layer, component as usize, .., ..]).to_owned();
-        seat.under(&field, columns)
+        placement.under(&field, columns)
     };
     let planes =
         (0..stress.shape()[0]).map(|layer| Component::ALL.map(|component| under(layer, component))).collect();

@@ -227,13 +227,13 @@ impl PlasticBody {
     pub(super) fn predict_elastic(&mut self, action: &Action) -> bool {
         let product = match (self.action.as_ref(), action) {
             (None, Action::Tractions(now)) if self.increment.is_empty() && self.is_virgin() => {
-                self.volume.forget();
+                self.volume.reset();
                 self.volume.stress(Some(now), &mut self.trial.stress);
                 false
             }
             (Some(Action::Tractions(before)), Action::Tractions(now)) => {
                 let change = difference(now, before);
-                self.volume.forget();
+                self.volume.reset();
                 self.volume.stress(Some(&change), &mut self.trial.stress);
                 self.trial.stress += &self.stress;
                 false
@@ -260,7 +260,7 @@ impl PlasticBody {
     }
 
     /// Whether the body flowed in the last increment.
-    pub(super) fn remembers(&self) -> bool {
+    pub(super) fn has_yielded(&self) -> bool {
         !self.increment.is_empty()
     }
 
@@ -330,7 +330,7 @@ impl PlasticBody {
         let layers =
             layers_mut(trial).zip(flows.as_slice_mut().expect("standard layout").chunks_exact_mut(cells));
         let moved = parallel::tasks(layers.enumerate(), |(layer, (trial, flows))| {
-            let before = Before::new(layer, state);
+            let before = PreviousStates::new(layer, state);
             let y = layer_of(predictor, layer);
             let mut moved = 0.0f64;
             for (cell, flows) in flows.iter_mut().enumerate() {
@@ -341,7 +341,7 @@ impl PlasticBody {
                 let next = next.map_or(state.strain, |next| next.strain);
                 for c in 0..COMPONENTS {
                     let from = match start {
-                        Start::Before => state.strain[c],
+                        Start::PreviousStates => state.strain[c],
                         Start::Trial => trial[c * cells + cell],
                     };
                     moved = moved.max((next[c] - from).abs());
@@ -378,7 +378,7 @@ impl PlasticBody {
         let (cells, stiffness) = (self.cells(), self.stiffness());
         let least = MAY_FLOW * self.law.yield_stress();
         let per_layer = parallel::tasks(0..self.volume.layers().count(), |layer| {
-            let before = Before::new(layer, &self.state);
+            let before = PreviousStates::new(layer, &self.state);
             let y = layer_of(&self.trial.predictor, layer);
             let may = |cell: usize| {
                 let (y, state) = (tensor(y, cell, cells), before.at(cell));
@@ -435,7 +435,7 @@ impl PlasticBody {
                 if !self.trial.flows.as_slice().expect("standard layout")[layer * cells + cell] {
                     continue;
                 }
-                let state = Before::new(layer, &self.state).at(cell);
+                let state = PreviousStates::new(layer, &self.state).at(cell);
                 let y = tensor(layer_of(&self.trial.predictor, layer), cell, cells);
                 let Some(next) = self.law.flow(&y, stiffness, &state) else { continue };
                 let change = std::array::from_fn(|c| next.strain[c] - state.strain[c]);
@@ -493,19 +493,19 @@ impl PlasticBody {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Start {
     /// The strain before the increment.
-    Before,
+    PreviousStates,
     /// The trial strain.
     Trial,
 }
 
 /// States of the cells of a layer before an increment.
-struct Before<'a> {
+struct PreviousStates<'a> {
     strain: &'a [f64],
     accumulated: &'a [f64],
     back: Option<&'a [f64]>,
 }
 
-impl<'a> Before<'a> {
+impl<'a> PreviousStates<'a> {
     fn new(layer: usize, state: &'a PlasticState) -> Self {
         let PlasticState { strain, accumulated, back_stress } = state;
         let cells = accumulated.shape()[1] * accumulated.shape()[2];

@@ -3,7 +3,7 @@
 use super::body::{Action, PlasticBody, PlasticState, SurfaceDisplacement};
 use super::increment::{self, FlowParams, Increment, advance};
 use crate::error::{Error, Result};
-use crate::grid::{Field, Grid, Seat};
+use crate::grid::{Field, Grid, Placement};
 use crate::operator::{CoupledOperator, Operator};
 use crate::solver::{
     Bounds, Control, Equilibrium, Friction, FrictionalSolution, History, Loading, Params, Sliding, Solution,
@@ -18,7 +18,7 @@ use crate::units::{Joule, Metre, Newton};
 /// The gap is that of the undeformed bodies. Plastic strain opens it by r, g = h − δ + C p + r₁ + r₂, and displaces the
 /// surfaces tangentially. A contact covers a part of each body, or all of it. Plastic strain stays with the material.
 pub struct PlasticContact {
-    facing: Facing,
+    facing: RelativePosition,
     bodies: Vec<PlasticBody>,
     /// Side of each of the bodies: 0 the lower, 1 the upper one.
     sides: Vec<usize>,
@@ -35,13 +35,13 @@ pub struct PlasticContact {
 }
 
 /// Relative position of two bodies.
-pub struct Facing {
+pub struct RelativePosition {
     /// The interface on the cells of the contact.
     pub interface: Interface,
     /// Gap h of the undeformed bodies, m.
     pub initial_gap: Field,
     /// Placement of the contact on the lower and on the upper body.
-    pub seats: [Seat; 2],
+    pub placements: [Placement; 2],
 }
 
 /// Interface law between two bodies.
@@ -72,7 +72,12 @@ impl PlasticContact {
     /// # Panics
     /// If neither body is elasto-plastic, if the grid of the gap differs from that of the interface, or if the contact
     /// reaches beyond a body.
-    pub fn new(facing: Facing, bodies: [Option<PlasticBody>; 2], flow: FlowParams, contact: Params) -> Self {
+    pub fn new(
+        facing: RelativePosition,
+        bodies: [Option<PlasticBody>; 2],
+        flow: FlowParams,
+        contact: Params,
+    ) -> Self {
         let follows = matches!(facing.interface, Interface::Frictional(..));
         let follow = |body: PlasticBody| if follows { body.followed_along() } else { body };
         let given = bodies.into_iter().enumerate();
@@ -101,17 +106,17 @@ impl PlasticContact {
     ///
     /// # Panics
     /// If the grid of the gap differs from that of the interface, or if the contact reaches beyond a body.
-    pub fn move_to(&mut self, facing: Facing, shifts: [[isize; 2]; 2]) {
+    pub fn move_to(&mut self, facing: RelativePosition, shifts: [[isize; 2]; 2]) {
         // The pressure moves with the load over the first of the bodies.
         let side = self.sides[0];
-        let before = self.facing.seats[side].onto(&self.pressure);
-        let ([nx, ny], [dx, dy]) = (facing.seats[side].shape(), shifts[side]);
+        let before = self.facing.placements[side].onto(&self.pressure);
+        let ([nx, ny], [dx, dy]) = (facing.placements[side].shape(), shifts[side]);
         let moved = Field::from_shape_fn([nx, ny], |(i, j)| {
             let back =
                 |index: usize, by: isize, n: usize| (index as isize - by).rem_euclid(n as isize) as usize;
             before[[back(i, dx, nx), back(j, dy, ny)]]
         });
-        self.pressure = facing.seats[side].under(&moved, facing.interface.grid().shape[0]);
+        self.pressure = facing.placements[side].under(&moved, facing.interface.grid().shape[0]);
         self.facing = facing;
         self.shifts = shifts;
         self.equilibrium = None;
@@ -124,10 +129,10 @@ impl PlasticContact {
         assert_eq!(self.facing.initial_gap.shape(), grid.shape, "shape of the initial gap");
         for (body, side) in self.bodies.iter_mut().zip(&self.sides) {
             let volume = body.volume();
-            let (seat, of_body) = (&self.facing.seats[*side], volume.grid());
-            assert_eq!(seat.shape(), of_body.shape, "grid of the bodies");
+            let (placement, of_body) = (&self.facing.placements[*side], volume.grid());
+            assert_eq!(placement.shape(), of_body.shape, "grid of the bodies");
             assert_eq!(of_body.pitch, grid.pitch, "grid of the bodies");
-            let fits = seat.cell(0) / of_body.shape[1] + grid.shape[0] <= of_body.shape[0];
+            let fits = placement.cell(0) / of_body.shape[1] + grid.shape[0] <= of_body.shape[0];
             assert!(fits || volume.boundary().leaves_mean_free(), "a contact on the body");
         }
     }
@@ -160,7 +165,7 @@ impl PlasticContact {
     /// The errors of [`PlasticContact::go_to`] and of [`crate::solver::solve_frictional`]; [`Error::Interrupted`].
     pub fn load(&mut self, loading: Loading, watch: &dyn Watch) -> Result<Increment> {
         self.increments += 1;
-        let mut pressing = Pressing {
+        let mut pressing = ElasticStep {
             facing: &mut self.facing,
             sides: &self.sides,
             loading,
@@ -179,7 +184,7 @@ impl PlasticContact {
             source => Error::AtIncrement { increment: self.increments, source: Box::new(source) },
         };
         let increment = advance(&mut flowing, &mut pressing, Some(&shifts), &self.flow).map_err(at)?;
-        let Pressing { pressure, equilibrium, along, .. } = pressing;
+        let ElasticStep { pressure, equilibrium, along, .. } = pressing;
         (self.pressure, self.equilibrium, self.along) = (pressure, equilibrium, along);
         self.shifts = [[0; 2]; 2];
         Ok(increment)
@@ -253,7 +258,7 @@ impl PlasticContact {
         let columns = self.grid().shape[0];
         let bodies = self.bodies.iter().zip(&self.sides);
         bodies.fold(field, |sum, (body, side)| {
-            sum + self.facing.seats[*side].under(body.displacement(), columns)
+            sum + self.facing.placements[*side].under(body.displacement(), columns)
         })
     }
 
@@ -264,8 +269,8 @@ impl PlasticContact {
 }
 
 /// The elastic part of an increment: presses the bodies together under the prescribed loading.
-struct Pressing<'a> {
-    facing: &'a mut Facing,
+struct ElasticStep<'a> {
+    facing: &'a mut RelativePosition,
     sides: &'a [usize],
     loading: Loading,
     params: &'a Params,
@@ -279,20 +284,20 @@ struct Pressing<'a> {
     along: Option<[Field; 2]>,
 }
 
-impl increment::Loading for Pressing<'_> {
+impl increment::Loading for ElasticStep<'_> {
     fn act(&mut self, residual: &[SurfaceDisplacement]) -> Result<Vec<Action>> {
         if self.watch.stop() {
             return Err(Error::Interrupted);
         }
-        let Facing { initial_gap, seats, .. } = &*self.facing;
+        let RelativePosition { initial_gap, placements, .. } = &*self.facing;
         let columns = initial_gap.nrows();
-        let on_bodies = || residual.iter().zip(self.sides.iter().map(|side| (*side, &seats[*side])));
-        let gap =
-            on_bodies().fold(initial_gap.clone(), |gap, (r, (_, seat))| gap + seat.under(&r.inward, columns));
+        let on_bodies = || residual.iter().zip(self.sides.iter().map(|side| (*side, &placements[*side])));
+        let gap = on_bodies()
+            .fold(initial_gap.clone(), |gap, (r, (_, placement))| gap + placement.under(&r.inward, columns));
         // Lower minus upper body, like the tangential displacement by tractions.
-        let along = on_bodies().fold(None, |sum: Option<[Field; 2]>, (r, (side, seat))| {
+        let along = on_bodies().fold(None, |sum: Option<[Field; 2]>, (r, (side, placement))| {
             let sign = [1.0, -1.0][side];
-            let of_body = r.along.as_ref()?.each_ref().map(|along| sign * seat.under(along, columns));
+            let of_body = r.along.as_ref()?.each_ref().map(|along| sign * placement.under(along, columns));
             Some(match sum {
                 None => of_body,
                 Some([x, y]) => {
@@ -307,21 +312,21 @@ impl increment::Loading for Pressing<'_> {
         }
         let shear = self.press(&gap, along.as_ref())?;
         self.along = along;
-        let seats = &self.facing.seats;
+        let placements = &self.facing.placements;
         let actions = self.sides.iter().map(|side| {
-            let seat = &seats[*side];
+            let placement = &placements[*side];
             let shear = match &shear {
                 None => [None, None],
-                Some(shear) => shear.each_ref().map(|shear| Some(seat.onto(shear))),
+                Some(shear) => shear.each_ref().map(|shear| Some(placement.onto(shear))),
             };
-            let tractions = Tractions { pressure: seat.onto(&self.pressure), shear };
+            let tractions = Tractions { pressure: placement.onto(&self.pressure), shear };
             Action::Tractions(if *side == 0 { tractions } else { tractions.on_upper() })
         });
         Ok(actions.collect())
     }
 }
 
-impl Pressing<'_> {
+impl ElasticStep<'_> {
     /// Presses together surfaces with a `gap` and a relative tangential displacement `along` by plastic strain. Returns the
     /// shear on the lower one.
     fn press(&mut self, gap: &Field, along: Option<&[Field; 2]>) -> Result<Option<[Field; 2]>> {

@@ -96,17 +96,17 @@ pub fn advance(
     check("tolerance", params.tolerance, params.tolerance > 0.0, "a mismatch above 0")?;
     let mut trial = Trial { bodies, products: 0, actions: Vec::new(), residual: Vec::new() };
     trial.begin_elastic(loading)?;
-    let start = trial.flow(Start::Before);
+    let start = trial.flow(Start::PreviousStates);
     if start == 0.0 {
         return Ok(trial.end(0.0));
     }
     if let Some(shifts) = shifts
-        && trial.remembers()
+        && trial.has_yielded()
     {
         let nearer = trial.guess(shifts, loading)? && trial.flow(Start::Trial) < start;
         if !nearer {
             trial.begin_elastic(loading)?;
-            trial.flow(Start::Before);
+            trial.flow(Start::PreviousStates);
         }
     }
     let mismatch = iterate(&mut trial, loading, params)?;
@@ -152,7 +152,7 @@ fn iterate(trial: &mut Trial, loading: &mut dyn Loading, params: &FlowParams) ->
             }
         };
         trial.predict(&places, &next);
-        trial.flow(Start::Before);
+        trial.flow(Start::PreviousStates);
     }
 }
 
@@ -189,8 +189,8 @@ impl Trial<'_, '_> {
     }
 
     /// Whether a body flowed in the last increment.
-    fn remembers(&self) -> bool {
-        self.bodies.iter().any(|body| body.remembers())
+    fn has_yielded(&self) -> bool {
+        self.bodies.iter().any(|body| body.has_yielded())
     }
 
     /// Computes the predictor of a strain that grows once more as in the last increment. Returns whether there was any.

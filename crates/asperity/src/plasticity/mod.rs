@@ -51,7 +51,7 @@ mod waves;
 
 pub use below::residual_below;
 pub use body::{Action, BodyFlow, PlasticBody, PlasticState, SurfaceDisplacement};
-pub use contact::{Facing, Interface, PlasticContact};
+pub use contact::{Interface, PlasticContact, RelativePosition};
 pub use flow::{CellState, FlowLaw, Tensor};
 pub use hardening::Hardening;
 pub use increment::{FlowParams, Increment, Loading, advance};

@@ -179,7 +179,7 @@ impl Volume {
     }
 
     /// Resets the stored strain to zero: the body is elastic.
-    pub(super) fn forget(&mut self) {
+    pub(super) fn reset(&mut self) {
         self.strained = false;
     }
 

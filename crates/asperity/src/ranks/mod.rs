@@ -44,9 +44,9 @@ pub trait Ranks: Send + Sync {
 }
 
 /// A single process.
-struct Alone;
+struct SingleProcess;
 
-impl Ranks for Alone {
+impl Ranks for SingleProcess {
     fn rank(&self) -> usize {
         0
     }

@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::{Alone, Merged, Parts, Ranks};
+use super::{Merged, Parts, Ranks, SingleProcess};
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 
@@ -42,7 +42,7 @@ impl Slab {
 
     /// Creates the slab of a single process with the whole grid.
     pub fn whole(grid: Grid) -> Self {
-        Self { ranks: Arc::new(Alone), whole: grid, rows: Parts::even(grid.shape[0], 1) }
+        Self { ranks: Arc::new(SingleProcess), whole: grid, rows: Parts::even(grid.shape[0], 1) }
     }
 
     /// The ranks.

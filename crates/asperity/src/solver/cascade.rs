@@ -5,8 +5,8 @@ use crate::grid::Field;
 use crate::ranks::{Largest, Slab};
 use crate::solver::active_set::{self, Answer};
 use crate::solver::site::Site;
-use crate::solver::watch::Within;
-use crate::solver::{Residual, Terms, attraction};
+use crate::solver::watch::InnerWatch;
+use crate::solver::{Residual, Settings, attraction};
 
 /// Tolerance of the coarse grids: of std(u), or of the displacement of a cell by itself at the largest upper bound where that
 /// is less, for φ never exceeds it.
@@ -26,7 +26,7 @@ const COMPLIANCE_FACTOR: f64 = 2.0;
 /// which a state is accepted.
 pub(super) fn solve(
     sites: &[&dyn Site],
-    terms: &Terms,
+    terms: &Settings,
     start: Option<Vec<Field>>,
     tolerance: &dyn Fn(&Residual) -> f64,
     max_convolutions: usize,
@@ -44,7 +44,7 @@ pub(super) fn solve(
 /// are small, or the coarse ones cannot bear the load.
 fn first_guess(
     sites: &[&dyn Site],
-    terms: &Terms,
+    terms: &Settings,
     tolerance: &dyn Fn(&Residual) -> f64,
 ) -> Result<(Option<Vec<Field>>, f64)> {
     let large = |site: &&dyn Site| site.slab().whole_grid().shape.iter().all(|n| *n >= MIN_CELLS);
@@ -57,8 +57,8 @@ fn first_guess(
         |sites: &[&dyn Site]| sites.iter().map(|site| site.slab().whole_grid().cells()).sum::<usize>() as f64;
     let slab = coarse[0].slab();
     let share = cells(&coarse) / cells(sites);
-    let within = Within(terms.watch);
-    let mut coarse_terms = Terms { cell_area: coarse[0].grid().cell_area(), watch: &within, ..*terms };
+    let within = InnerWatch(terms.watch);
+    let mut coarse_terms = Settings { cell_area: coarse[0].grid().cell_area(), watch: &within, ..*terms };
     coarse[0].with_operator(&mut |operator| coarse_terms.self_influence = operator.influence(0, 0));
     let [bearable, attraction] = slab.merged(coarse.iter().fold([0.0; 2], |[bearable, attracted], site| {
         let (bounds, cells) = (site.bounds(), site.grid().cells());

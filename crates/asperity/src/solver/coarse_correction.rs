@@ -146,17 +146,17 @@ struct Bilinear {
     /// The rows of this rank among them, which alone are restricted.
     own: Range<usize>,
     /// The rows of nodes that the cells of each rank have a share in.
-    reached: Vec<Reached>,
+    reached: Vec<NodeRows>,
 }
 
 /// Consecutive rows of nodes, cyclic.
 #[derive(Clone, Copy)]
-struct Reached {
+struct NodeRows {
     first: usize,
     count: usize,
 }
 
-impl Reached {
+impl NodeRows {
     /// The nodes around some rows `along` which they stand, of a grid of so many rows and `all` rows of nodes.
     fn new(along: &[(usize, f32)], rows: usize, all: usize) -> Self {
         // Between the nodes before the first row and after the last one; where these go round, all.
@@ -171,7 +171,7 @@ impl Bilinear {
         let fine = slab.whole_grid().shape;
         let mut along = [0, 1].map(|axis| nodes(fine[axis], coarse[axis]));
         let reached =
-            slab.parts().all().map(|rows| Reached::new(&along[0][rows], fine[0], coarse[0])).collect();
+            slab.parts().all().map(|rows| NodeRows::new(&along[0][rows], fine[0], coarse[0])).collect();
         let own = halo.own_rows();
         let first = slab.rows().start - own.start;
         along[0] = along[0][first..first + halo.shape()[0]].to_vec();
@@ -234,7 +234,7 @@ impl Bilinear {
             return;
         }
         let (all, columns) = nodes.dim();
-        let rows = |Reached { first, count }: Reached| (first..first + count).map(move |row| row % all);
+        let rows = |NodeRows { first, count }: NodeRows| (first..first + count).map(move |row| row % all);
         let ranks = self.slab.ranks();
         let own = rows(self.reached[ranks.rank()]).flat_map(|row| nodes.row(row).to_vec());
         let own: Vec<f64> = own.map(f64::from).collect();
@@ -257,8 +257,8 @@ impl Bilinear {
         shape: [usize; 2],
     ) -> (usize, SingleField) {
         let [all, columns] = shape;
-        let Reached { first, count } =
-            Reached::new(&self.along[0][rows.clone()], self.slab.whole_grid().shape[0], all);
+        let NodeRows { first, count } =
+            NodeRows::new(&self.along[0][rows.clone()], self.slab.whole_grid().shape[0], all);
         let mut part = SingleField::zeros([count, columns]);
         let mut line = vec![0.0; columns + 1];
         for row in rows {

@@ -9,7 +9,7 @@ use crate::operator::Operator;
 use crate::solver::feasible::{Bounded, make_feasible};
 use crate::solver::sets::Set;
 use crate::solver::watch::go_on;
-use crate::solver::{Answer, Control, Params, Problem, Stats, Terms};
+use crate::solver::{Answer, Control, Params, Problem, Settings, Stats};
 use crate::units::Metre;
 
 /// Cells between the bounds above which the dense matrix would be out of proportion (3 GB).
@@ -61,7 +61,7 @@ pub(super) fn solve(
 impl Problem<'_> {
     /// The residual η at a known approach, also under load control.
     fn residual_at(&self, pressure: &Field, displacement: &Field, approach: Metre) -> f64 {
-        let terms = Terms { control: Control::Approach(approach), ..self.terms };
+        let terms = Settings { control: Control::Approach(approach), ..self.terms };
         let problem = Problem { terms, ..*self };
         problem.residual(pressure, displacement).eta
     }
@@ -90,7 +90,7 @@ impl Problem<'_> {
 }
 
 /// The exact answer at one approach.
-struct AtApproach {
+struct SolutionAtApproach {
     pressure: Field,
     displacement: Field,
     sets: Array2<Set>,
@@ -122,7 +122,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         Self { operator, problem, influence, self_influence, stiffening, factorisations: 0, convolutions: 0 }
     }
 
-    fn solve(&mut self, approach: Metre, mut sets: Array2<Set>) -> Result<AtApproach> {
+    fn solve(&mut self, approach: Metre, mut sets: Array2<Set>) -> Result<SolutionAtApproach> {
         let (mut best, mut stalled) = (usize::MAX, 0);
         let mut displacement = Field::zeros(sets.raw_dim());
         let mut pivots = 0;
@@ -164,7 +164,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
                     if given_up {
                         self.convolve(&pressure, &mut displacement);
                     }
-                    return Ok(AtApproach { pressure, displacement, sets, slope });
+                    return Ok(SolutionAtApproach { pressure, displacement, sets, slope });
                 }
             };
             if wrong.len() < best {
@@ -263,8 +263,12 @@ impl<'a, 'b> Pivoting<'a, 'b> {
     }
 
     /// The answer under a load, and its approach, by a bracketed Newton iteration on the approach.
-    fn solve_load(&mut self, wanted: f64, mut sets: Option<Array2<Set>>) -> Result<(AtApproach, Metre)> {
-        let Terms { self_influence, .. } = self.problem.terms;
+    fn solve_load(
+        &mut self,
+        wanted: f64,
+        mut sets: Option<Array2<Set>>,
+    ) -> Result<(SolutionAtApproach, Metre)> {
+        let Settings { self_influence, .. } = self.problem.terms;
         let scale = self.problem.terms.sum_scale(wanted);
         let lowest = self.first_touch();
         // A cell that bears the whole load alone is an upper start; the slope then leads back.

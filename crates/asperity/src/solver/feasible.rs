@@ -3,7 +3,7 @@
 use crate::grid::{CellValues, Field};
 use crate::math::sum::sums;
 use crate::ranks::Merged;
-use crate::solver::Terms;
+use crate::solver::Settings;
 use crate::solver::bounds::{Bounds, Interval, with_bounds};
 use crate::units::Pascal;
 
@@ -82,7 +82,7 @@ pub(super) fn extremes<T: Copy + Into<f64>>(values: &[T]) -> [f64; 2] {
     })
 }
 
-impl Terms<'_> {
+impl Settings<'_> {
     /// Whether pressures of this sum bear the load, if one is prescribed.
     pub(super) fn bears_the_load(&self, sum: f64) -> bool {
         self.pressure_sum()
@@ -102,7 +102,7 @@ impl Terms<'_> {
 
 /// Brings pressures into their bounds and, under load control, to the load: first by scaling what the cells below their
 /// upper bound bear above their lower one, and where these cannot bear it, by an offset that is the same for all.
-pub(super) fn make_feasible(cells: &mut impl Cells, terms: &Terms) {
+pub(super) fn make_feasible(cells: &mut impl Cells, terms: &Settings) {
     cells.map(|p, bounds| bounds.clamp(p));
     let Some(wanted) = terms.pressure_sum() else { return };
     let accuracy = terms.sum_accuracy(wanted);
@@ -243,8 +243,8 @@ mod tests {
     use super::*;
     use crate::solver::Control;
 
-    fn terms(sum: f64, attraction: f64) -> Terms<'static> {
-        Terms { control: Control::Load(sum), self_influence: 1.0, cell_area: 1.0, attraction, watch: &() }
+    fn terms(sum: f64, attraction: f64) -> Settings<'static> {
+        Settings { control: Control::Load(sum), self_influence: 1.0, cell_area: 1.0, attraction, watch: &() }
     }
 
     #[test]

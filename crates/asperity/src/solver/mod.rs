@@ -235,7 +235,7 @@ struct Problem<'a> {
     /// The bounds of the pressure.
     bounds: &'a Bounds,
     /// Control and constants.
-    terms: Terms<'a>,
+    terms: Settings<'a>,
     /// The rows of the grid that this rank holds.
     slab: &'a Slab,
 }
@@ -251,7 +251,7 @@ struct Answer {
 
 /// The control of a contact, or of several together, the constants that the methods need, and who looks on.
 #[derive(Clone, Copy)]
-struct Terms<'a> {
+struct Settings<'a> {
     control: Control,
     /// Displacement of a cell per unit pressure on itself.
     self_influence: f64,
@@ -261,7 +261,7 @@ struct Terms<'a> {
     watch: &'a dyn Watch,
 }
 
-impl Terms<'_> {
+impl Settings<'_> {
     /// The pressure sum Σ p under load control.
     fn pressure_sum(&self) -> Option<f64> {
         match self.control {
@@ -340,7 +340,7 @@ pub(crate) fn solve_normal_watched(
     validate(operator, &slab, initial_gap, bounds, control, params)?;
     let self_influence = self_influence(operator);
     let [attraction] = slab.merged([attraction(bounds, grid.cells())]);
-    let terms = Terms { control, self_influence, cell_area: grid.cell_area(), attraction, watch };
+    let terms = Settings { control, self_influence, cell_area: grid.cell_area(), attraction, watch };
     let problem = Problem { initial_gap, bounds, terms, slab: &slab };
     let answer = match far_datum(&problem) {
         None => solve_as_given(operator, &problem, start, params)?,
@@ -350,7 +350,7 @@ pub(crate) fn solve_normal_watched(
                 Control::Approach(approach) => Control::Approach(approach - datum),
                 load => load,
             };
-            let terms = Terms { control: nearer, ..terms };
+            let terms = Settings { control: nearer, ..terms };
             let near = Problem { initial_gap: &near, bounds, terms, slab: &slab };
             let answer = solve_as_given(operator, &near, start, params)?;
             Answer { approach: control.approach().unwrap_or(answer.approach + datum), ..answer }

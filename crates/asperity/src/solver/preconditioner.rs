@@ -28,7 +28,7 @@ pub(super) struct Preconditioner {
     /// The rows on either side of the slab that S reaches.
     halo: Halo,
     /// What is kept on all these rows; none where the grid is not divided among ranks.
-    around: Option<Around>,
+    around: Option<SlabWithNeighbours>,
     sparse: SparseInverse,
     coarse: CoarseCorrection,
     /// For each free cell of each band the pattern of its neighbours.
@@ -42,13 +42,13 @@ pub(super) struct Preconditioner {
 
 /// Sets, residual and preconditioned residual of a slab and the rows on either side: there the cells of this rank get the same
 /// as from one process.
-struct Around {
+struct SlabWithNeighbours {
     sets: Sets,
     residual: Vec<f32>,
     preconditioned: Vec<f32>,
 }
 
-impl Around {
+impl SlabWithNeighbours {
     fn new(shape: [usize; 2]) -> Self {
         let zeros = || vec![0.0; shape[0] * shape[1]];
         Self { sets: Sets::new(shape), residual: zeros(), preconditioned: zeros() }
@@ -62,7 +62,7 @@ impl Preconditioner {
         let bands = Bands::of(halo.shape());
         let count = bands.rows().len();
         Self {
-            around: (!slab.is_whole()).then(|| Around::new(halo.shape())),
+            around: (!slab.is_whole()).then(|| SlabWithNeighbours::new(halo.shape())),
             sparse: sparse_inverse(operator, halo.shape()),
             coarse: CoarseCorrection::new(operator, &halo),
             slab,
@@ -83,7 +83,7 @@ impl Preconditioner {
         let [free] = slab.merged([sets.free_cells() as f64]);
         let sets = match around {
             None => sets,
-            Some(Around { sets: all, residual: is_free, .. }) => {
+            Some(SlabWithNeighbours { sets: all, residual: is_free, .. }) => {
                 let own = is_free[halo.own()].iter_mut().enumerate();
                 own.for_each(|(cell, value)| *value = f32::from(u8::from(sets.is_free(cell))));
                 halo.fill(is_free);
@@ -120,7 +120,7 @@ impl Preconditioner {
     /// As [`Self::apply`] where cells do not differ.
     fn apply_alike(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) -> [f64; 3] {
         let Some(mut around) = self.around.take() else { return self.apply_on_rows(sets, r, z) };
-        let Around { sets: all, residual, preconditioned } = &mut around;
+        let SlabWithNeighbours { sets: all, residual, preconditioned } = &mut around;
         residual[self.halo.own()].copy_from_slice(r);
         self.halo.fill(residual);
         self.apply_on_rows(all, residual, preconditioned);

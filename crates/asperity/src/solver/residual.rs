@@ -3,7 +3,7 @@
 use crate::grid::Field;
 use crate::ranks::Merged;
 use crate::solver::bounds::{Bounds, Interval, with_bounds};
-use crate::solver::{Problem, Terms};
+use crate::solver::{Problem, Settings};
 use crate::units::{Metre, Pascal};
 
 /// How far a pressure is from equilibrium.
@@ -79,7 +79,7 @@ pub(super) struct Cell {
 impl Problem<'_> {
     /// The [`residual`] of a pressure and its displacement in this problem.
     pub(super) fn residual(&self, pressure: &Field, displacement: &Field) -> Residual {
-        let Terms { self_influence, control, .. } = self.terms;
+        let Settings { self_influence, control, .. } = self.terms;
         residual(pressure, displacement, self.initial_gap, self.bounds, self_influence, control.approach())
     }
 }

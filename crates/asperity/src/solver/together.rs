@@ -4,11 +4,11 @@ use crate::error::Result;
 use crate::grid::Field;
 use crate::solver::bounds::Bounds;
 use crate::solver::site::Site;
-use crate::solver::{Control, Residual, Stats, Terms, Watch, attraction, cascade};
+use crate::solver::{Control, Residual, Settings, Stats, Watch, attraction, cascade};
 use crate::units::{Metre, Newton, Pascal};
 
 /// Contacts in equilibrium under one approach.
-pub(crate) struct Together {
+pub(crate) struct JointSolution {
     /// The common approach δ.
     pub(crate) approach: Metre,
     /// The flat cells in contact and their pressure, for each contact.
@@ -33,8 +33,8 @@ pub(crate) fn solve_together(
     tolerance: &dyn Fn(&Residual) -> f64,
     max_convolutions: usize,
     watch: &dyn Watch,
-) -> Result<Together> {
-    let mut terms = Terms {
+) -> Result<JointSolution> {
+    let mut terms = Settings {
         control: Control::Load(load),
         self_influence: 0.0,
         cell_area: sites[0].grid().cell_area(),
@@ -45,7 +45,7 @@ pub(crate) fn solve_together(
     let found = cascade::solve(sites, &terms, start, tolerance, max_convolutions)?;
     let contacts = found.fields.into_iter().zip(sites);
     let pressures = contacts.map(|((pressure, _), site)| bearing(&pressure, &site.bounds())).collect();
-    Ok(Together { approach: found.residual.approach, pressures, stats: found.stats })
+    Ok(JointSolution { approach: found.residual.approach, pressures, stats: found.stats })
 }
 
 /// The flat cells in contact, and their pressure.

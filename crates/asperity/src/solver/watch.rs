@@ -21,9 +21,9 @@ impl Watch for () {
 }
 
 /// Stops as another watch does, and reports nothing: for the solutions that an iteration is made of.
-pub(super) struct Within<'a>(pub(super) &'a dyn Watch);
+pub(super) struct InnerWatch<'a>(pub(super) &'a dyn Watch);
 
-impl Watch for Within<'_> {
+impl Watch for InnerWatch<'_> {
     fn iteration(&self, _: f64, _: f64) {}
 
     fn stop(&self) -> bool {

@@ -9,12 +9,12 @@ pub use demand::{Demand, demand};
 
 use super::case::{Body, Case, Layer, LoadingPath, Source, TopographySpec};
 use super::closed_form::ClosedForm;
-use super::prepare::{Bodies, Prepared};
+use super::prepare::{Bodies, MountedSurface};
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid};
 use crate::material::{Compliances, plastic_share};
 use crate::motion::{
-    LoadControl, Motion, Position, Stage, Strategy, check_limit, facing_values, initial_gap,
+    LoadControl, Motion, Position, Stage, Strategy, check_limit, initial_gap, opposing_values,
 };
 use crate::reference::HertzSphere;
 use crate::solver::{Control, Coupling, Creep, Friction, Rolling, Tangential};
@@ -62,7 +62,7 @@ pub struct Estimate {
     /// Warnings for the user.
     pub warnings: Vec<String>,
     /// Warnings from Hertz' estimate, which a result shows by itself.
-    pub foreseen: Vec<String>,
+    pub predicted: Vec<String>,
 }
 
 /// Estimates `case` on its `bodies`.
@@ -89,7 +89,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     // Hardness of opposing cells at a position: that of the softer one.
     let facing_hardness = |position: &Position| {
         let shapes = [lower_grid.shape, upper_grid.shape];
-        facing_values([lower_hardness, upper_hardness], shapes, position, f64::min)
+        opposing_values([lower_hardness, upper_hardness], shapes, position, f64::min)
     };
     let mean_hardness = |position: &Position| {
         let cells = position.columns * lower_grid.shape[1];
@@ -140,12 +140,12 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
             .filter(|form| form.max_pressure.is_none_or(|pressure| pressure <= hardness)),
         subsurface: Plan::new(case, [&lower_grid, &upper_grid], &positions)?,
         warnings: Vec::new(),
-        foreseen: Vec::new(),
+        predicted: Vec::new(),
     };
     estimate.warnings = warnings(case, bodies, &estimate);
     contacts(case, bodies, &positions, &mut estimate);
     let yields = rolls_plastically(case, bodies, &estimate);
-    estimate.foreseen.extend(yields);
+    estimate.predicted.extend(yields);
     Ok(estimate)
 }
 
@@ -401,12 +401,12 @@ fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], estimate: &mut
         // Hertz' theory does not cover layers.
         return;
     }
-    let foreseen = contact::foreseen(&gap, pitch, estimate.modulus, case.contact.boundary, control);
+    let prediction = contact::predict(&gap, pitch, estimate.modulus, case.contact.boundary, control);
     // A motion and a load sweep leave only tables, which do not show where in a contact the pressure is.
     let tabled = case.motion.is_some() || case.is_swept();
-    let warnings = if tabled { &mut estimate.warnings } else { &mut estimate.foreseen };
-    warnings.extend(foreseen.rim);
-    estimate.foreseen.extend(foreseen.coarse);
+    let warnings = if tabled { &mut estimate.warnings } else { &mut estimate.predicted };
+    warnings.extend(prediction.rim);
+    estimate.predicted.extend(prediction.coarse);
 }
 
 /// Warns if friction is modelled more simply than the user may expect.
@@ -519,7 +519,7 @@ fn roll_alike(case: &Case, bodies: &Bodies) -> bool {
 }
 
 /// Whether the heights of a body are those of a ball or a cylinder within a fiftieth. A surface from a file may be one.
-fn is_smooth(body: &Prepared) -> bool {
+fn is_smooth(body: &MountedSurface) -> bool {
     /// Rms height of the roughness relative to the rms height about a plane.
     const ROUGH: f64 = 0.02;
     let rms = |level| body.topography.clone().level(level).map(|left| left.heights().std(0.0));
@@ -570,7 +570,7 @@ fn loads_at_once(stages: &[Stage]) -> bool {
 /// Warns of a grid on which the waves that determine the slope have too few cells.
 ///
 /// The slope of a wave of n cells by differences over one cell is larger by 1/cos(π/n) than over two.
-fn coarse(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
+fn coarse(name: &str, body: &MountedSurface, warnings: &mut Vec<String>) {
     /// Cells per wave below which the pitch is too coarse.
     const CELLS_PER_WAVE: f64 = 8.0;
     for axis in 0..2 {
@@ -603,7 +603,7 @@ fn difference(heights: &Field, axis: usize, cells: usize) -> f64 {
 }
 
 /// Warns of a tilted measured surface.
-fn tilted(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
+fn tilted(name: &str, body: &MountedSurface, warnings: &mut Vec<String>) {
     let without_plane = body.topography.clone().level(Level::Plane).expect("a plane has an order");
     let (as_is, levelled) = (body.topography.sq(), without_plane.sq());
     if as_is > 1.5 * levelled {
@@ -616,7 +616,7 @@ fn tilted(name: &str, body: &Prepared, warnings: &mut Vec<String>) {
 }
 
 /// Warns of a surface that is discontinuous across its edges along an axis on which it `wraps`.
-fn torn(name: &str, body: &Prepared, wraps: [bool; 2], warnings: &mut Vec<String>) {
+fn torn(name: &str, body: &MountedSurface, wraps: [bool; 2], warnings: &mut Vec<String>) {
     let heights = body.topography.heights();
     for axis in (0..2).filter(|axis| wraps[*axis]) {
         let n = heights.len_of(ndarray::Axis(axis));
@@ -669,7 +669,7 @@ mod tests {
     fn the_mean_load_of_a_pass_is_bounded_by_the_mean_overlap_and_a_steady_one_by_the_least() {
         let estimate = |control: &str, load: &str| {
             let case = case(&format!("[motion]\ncontrol = \"{control}\""), load);
-            super::estimate(&case, &bodies(&case, crate::study::Given::default()).unwrap())
+            super::estimate(&case, &bodies(&case, crate::study::SurfaceInput::default()).unwrap())
         };
         // A column of 4 mm² carries 4 kN; seven positions share 15 columns.
         let limit = estimate("pass-load", "load = 1").unwrap().plastic_limit;

@@ -11,25 +11,25 @@ use crate::surface::Topography;
 /// of `file`. Each is used once.
 #[derive(Debug, Clone, Default)]
 #[non_exhaustive]
-pub struct Given {
+pub struct SurfaceInput {
     /// Heights, m, NaN where undefined, by name.
     pub topographies: BTreeMap<String, Topography>,
     /// Hardness of the cells of a body after its preparation, Pa, by name.
     pub hardness: BTreeMap<String, Field>,
     /// Required content of the files of the case; `None` if any content is accepted.
-    pub(super) pinned: Option<Pinned>,
+    pub(super) pinned: Option<ExpectedContent>,
 }
 
 /// Content that files must have to match the results of an earlier run.
 #[derive(Debug, Clone)]
-pub(super) struct Pinned {
+pub(super) struct ExpectedContent {
     /// The directory of the results.
     pub(super) directory: PathBuf,
     /// Path and hexadecimal digest of each file, by the dotted key that names it.
     pub(super) digests: BTreeMap<String, (PathBuf, String)>,
 }
 
-impl Given {
+impl SurfaceInput {
     /// Returns an error unless the file named at a dotted key may have this digest.
     pub(super) fn admit(&self, key: &str, sha256: &str) -> Result<()> {
         let Some(pinned) = &self.pinned else { return Ok(()) };

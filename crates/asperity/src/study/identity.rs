@@ -19,7 +19,7 @@ pub(super) const FILES: [&str; 4] =
 pub fn resolved(case: &Case, bodies: &Bodies) -> Value {
     resolved_of(
         case,
-        [&bodies.lower, &bodies.upper].map(|body| Known {
+        [&bodies.lower, &bodies.upper].map(|body| BodyData {
             grid: *body.topography.grid(),
             origin: body.origin.as_ref(),
             hardness_sha256: body.hardness_sha256.as_ref(),
@@ -28,14 +28,14 @@ pub fn resolved(case: &Case, bodies: &Bodies) -> Value {
 }
 
 /// Data of a body that its case does not contain.
-pub(super) struct Known<'a> {
+pub(super) struct BodyData<'a> {
     pub(super) grid: Grid,
     pub(super) origin: Option<&'a Origin>,
     pub(super) hardness_sha256: Option<&'a String>,
 }
 
 /// [`resolved`] for bodies given only by these data.
-pub(super) fn resolved_of(case: &Case, bodies: [Known<'_>; 2]) -> Value {
+pub(super) fn resolved_of(case: &Case, bodies: [BodyData<'_>; 2]) -> Value {
     let mut resolved = serde_json::to_value(case).expect("a case can be written as JSON");
     let specs = [&case.lower.topography, &case.upper.topography];
     let grids = [&bodies[0], &bodies[1]].map(|body| body.grid);

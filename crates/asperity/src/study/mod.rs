@@ -38,14 +38,14 @@ pub use columns::{
 };
 pub use estimate::{Demand, Estimate, demand, estimate};
 pub use fields::{NamedField, RestFields};
-pub use given::Given;
+pub use given::SurfaceInput;
 pub use identity::resolved;
 pub use passes::Passes;
 pub use prepare::{
-    Bodies, Made, Origin, Prepared, bodies, bodies_until, exact_pitch, grids, topography, topography_spec,
-    topography_until,
+    Bodies, MountedSurface, Origin, PreparedTopography, bodies, bodies_until, exact_pitch, grids, topography,
+    topography_spec, topography_until,
 };
-pub use rest::{Rest, rest};
+pub use rest::{StaticResult, rest};
 pub use results::{
     Existing, Results, StepWriter, Writer, cap_name, pressure_name, temperature_name, traction_name,
 };

@@ -12,7 +12,7 @@ use crate::study::case::{Case, CounterBody};
 use crate::study::estimate::{Estimate, estimate};
 use crate::study::finish::{Computed, conclude, pair, params};
 use crate::study::flow;
-use crate::study::given::Given;
+use crate::study::given::SurfaceInput;
 use crate::study::identity;
 use crate::study::prepare::{bodies_until, fresh_heights};
 use crate::study::results::{Existing, StepWriter, Writer};
@@ -42,7 +42,7 @@ impl Passes {
     ///
     /// # Errors
     /// Every error of a case, its surfaces or the directory; [`Error::Unsupported`] for a static contact.
-    pub fn enter(case: &Case, given: Given, directory: &Path, existing: Existing) -> Result<Self> {
+    pub fn enter(case: &Case, given: SurfaceInput, directory: &Path, existing: Existing) -> Result<Self> {
         Self::enter_until(case, given, directory, existing, NEVER)
     }
 
@@ -52,7 +52,7 @@ impl Passes {
     /// The errors of [`enter`](Self::enter); [`Error::Interrupted`].
     pub fn enter_until(
         case: &Case,
-        given: Given,
+        given: SurfaceInput,
         directory: &Path,
         existing: Existing,
         stop: Stop<'_>,
@@ -63,7 +63,7 @@ impl Passes {
     /// [`enter_until`](Self::enter_until) with a lock of the directory that may be held already.
     pub(super) fn enter_with(
         case: &Case,
-        given: Given,
+        given: SurfaceInput,
         directory: &Path,
         (existing, lock): (Existing, Option<Lock>),
         stop: Stop<'_>,
@@ -96,7 +96,7 @@ impl Passes {
                 let virgin = &simulation.pair().upper;
                 let resumed = self::simulation(case, pair, motion, Some(virgin), look)?;
                 let resumed = match case.plasticity {
-                    Some(_) => resumed.with_flowed(writer.results().flowed_after(done)?),
+                    Some(_) => resumed.with_plastic_states(writer.results().plastic_states_after(done)?),
                     None => resumed,
                 };
                 match represented >= motion.passes {
@@ -158,7 +158,7 @@ impl Passes {
         let shapes = [pair.lower_grid(), pair.upper_grid()].map(|grid| grid.shape);
         let passes = self.done()?;
         self.warnings.extend(review::motion(&self.case, shapes, &passes));
-        let left = self.simulation.flowed();
+        let left = self.simulation.plastic_volumes();
         let flow = (!left.is_empty()).then(|| -> Result<FlowRecord> {
             let steps = self.writer.results().steps()?;
             let pitch = pair.pitch()[0];
@@ -196,7 +196,7 @@ fn simulation(
             let flowing = simulation.with_flow(bodies, spec.params())?;
             match look {
                 None => flowing,
-                Some(position) => flowing.looking_at(position),
+                Some(position) => flowing.with_state_under_load(position),
             }
         }
     };

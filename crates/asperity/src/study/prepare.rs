@@ -10,7 +10,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::case::document::Document;
 use super::case::{Body, Case, GridMatch, Hardness, Mount, Source, TopographySpec, topography_alone};
-use super::given::Given;
+use super::given::SurfaceInput;
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid};
 use crate::io::{sha256, sha256_of};
@@ -29,15 +29,15 @@ const SAME_PITCH: f64 = 1e-9;
 #[non_exhaustive]
 pub struct Bodies {
     /// The lower body, with the heights of its surface.
-    pub lower: Prepared,
+    pub lower: MountedSurface,
     /// The upper body, with the heights of its underside.
-    pub upper: Prepared,
+    pub upper: MountedSurface,
 }
 
 /// A surface as used in the contact, with every height defined.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct Prepared {
+pub struct MountedSurface {
     /// The heights. An approach is relative to these heights.
     pub topography: Topography,
     /// The file that the heights were read from; `None` if they were generated.
@@ -70,7 +70,7 @@ pub struct Origin {
 
 impl Origin {
     /// Creates the origin of heights that the caller supplies under a name.
-    fn of_given(name: &str, topography: &Topography) -> Self {
+    fn supplied(name: &str, topography: &Topography) -> Self {
         let Grid { shape, pitch } = *topography.grid();
         let numbers = pitch.into_iter().chain(topography.heights().iter().copied());
         let sha256 = sha256_of(numbers);
@@ -81,7 +81,7 @@ impl Origin {
 /// A single prepared topography. Missing heights that no step fills are undefined.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct Made {
+pub struct PreparedTopography {
     /// The heights.
     pub topography: Topography,
     /// The file they were read from; `None` if they were generated.
@@ -95,7 +95,7 @@ pub struct Made {
 ///
 /// # Errors
 /// [`Error::Case`] at the key with the mistake, as for [`bodies`].
-pub fn topography(text: &str, folder: &Path, given: Given) -> Result<Made> {
+pub fn topography(text: &str, folder: &Path, given: SurfaceInput) -> Result<PreparedTopography> {
     topography_until(text, folder, given, NEVER)
 }
 
@@ -103,13 +103,23 @@ pub fn topography(text: &str, folder: &Path, given: Given) -> Result<Made> {
 ///
 /// # Errors
 /// The errors of [`topography()`]; [`Error::Interrupted`].
-pub fn topography_until(text: &str, folder: &Path, mut given: Given, stop: Stop<'_>) -> Result<Made> {
+pub fn topography_until(
+    text: &str,
+    folder: &Path,
+    mut given: SurfaceInput,
+    stop: Stop<'_>,
+) -> Result<PreparedTopography> {
     let (spec, document) = topography_alone(text, folder)?;
     if let Some(key) = spec.lacks().next() {
         let message = format!("missing key '{key}': what is made alone has no other body to take it from");
         return Err(document.error_at(&format!("topography.{key}"), message, None));
     }
-    made(Place { document: &document, table: "topography", spec: &spec, pitch: None }, None, &mut given, stop)
+    prepare_topography(
+        Place { document: &document, table: "topography", spec: &spec, pitch: None },
+        None,
+        &mut given,
+        stop,
+    )
 }
 
 /// Reads the table `[topography]` in `text`, and checks it as far as possible without its files.
@@ -127,7 +137,7 @@ pub fn topography_spec(text: &str, folder: &Path) -> Result<TopographySpec> {
 /// [`Error::Case`] at the key with the mistake. Mistakes are unreadable files, parameters that are invalid on this grid,
 /// missing heights that no step fills, and surfaces that do not fit together. Both surfaces need the same pitch and the
 /// same number of cells along y. Without motion, or if both are shifted, they also need the same number along x.
-pub fn bodies(case: &Case, given: Given) -> Result<Bodies> {
+pub fn bodies(case: &Case, given: SurfaceInput) -> Result<Bodies> {
     bodies_until(case, given, NEVER)
 }
 
@@ -135,8 +145,8 @@ pub fn bodies(case: &Case, given: Given) -> Result<Bodies> {
 ///
 /// # Errors
 /// The errors of [`bodies`]; [`Error::Interrupted`].
-pub fn bodies_until(case: &Case, mut given: Given, stop: Stop<'_>) -> Result<Bodies> {
-    let grid_of = |body: &Prepared| *body.topography.grid();
+pub fn bodies_until(case: &Case, mut given: SurfaceInput, stop: Stop<'_>) -> Result<Bodies> {
+    let grid_of = |body: &MountedSurface| *body.topography.grid();
     let pitch = common_pitch(case, &given)?;
     let make = |name: &str, body: &Body, other| prepared(case, name, body, other, pitch, &mut given, stop);
     let [mut lower, mut upper] = in_turn(case, grid_of, make)?;
@@ -162,7 +172,7 @@ fn shared_axes(case: &Case) -> &'static [usize] {
 
 /// Returns the coarser pitch of both prepared surfaces along each axis, to which they are resampled; `None` if they must fit
 /// by themselves.
-fn common_pitch(case: &Case, given: &Given) -> Result<Option<[Metre; 2]>> {
+fn common_pitch(case: &Case, given: &SurfaceInput) -> Result<Option<[Metre; 2]>> {
     if case.contact.grid == GridMatch::AsPrepared {
         return Ok(None);
     }
@@ -176,7 +186,7 @@ fn common_shape(axes: &[usize], shapes: [[usize; 2]; 2]) -> [[usize; 2]; 2] {
     shapes.map(|shape| [0, 1].map(|axis| if axes.contains(&axis) { least[axis] } else { shape[axis] }))
 }
 
-impl Prepared {
+impl MountedSurface {
     /// Returns the body with the cells about its centre that this shape leaves.
     fn cropped(self, shape: [usize; 2]) -> Result<Self> {
         let whole = self.topography.grid().shape;
@@ -203,7 +213,7 @@ pub(super) fn fresh_heights(case: &Case, lower: Grid, pass: usize) -> Result<Fie
     if let Source::Generate { seed, .. } = &mut body.topography.source {
         *seed = seed_of_pass(*seed, pass);
     }
-    let given = &mut Given::default();
+    let given = &mut SurfaceInput::default();
     let pitch = (case.contact.grid == GridMatch::Common).then_some(lower.pitch);
     let topography = turned(case, "upper", &body, Some(lower), pitch, given, NEVER)?.0.topography;
     Ok(topography.into_heights())
@@ -220,7 +230,7 @@ fn seed_of_pass(seed: u64, pass: usize) -> u64 {
 ///
 /// # Errors
 /// [`Error::Case`] as for [`bodies`], for files and for preparation steps that are invalid on their grid.
-pub fn grids(case: &Case, given: &Given) -> Result<[Grid; 2]> {
+pub fn grids(case: &Case, given: &SurfaceInput) -> Result<[Grid; 2]> {
     let Some(pitch) = common_pitch(case, given)? else { return grids_as_prepared(case, given, None) };
     let both = grids_as_prepared(case, given, Some(pitch))?;
     let [lower, upper] = common_shape(shared_axes(case), both.map(|grid| grid.shape));
@@ -228,7 +238,7 @@ pub fn grids(case: &Case, given: &Given) -> Result<[Grid; 2]> {
 }
 
 /// Returns the grids of both prepared surfaces, resampled to a `pitch` if one is given.
-fn grids_as_prepared(case: &Case, given: &Given, pitch: Option<[Metre; 2]>) -> Result<[Grid; 2]> {
+fn grids_as_prepared(case: &Case, given: &SurfaceInput, pitch: Option<[Metre; 2]>) -> Result<[Grid; 2]> {
     in_turn(case, |grid| *grid, |name, body, other| grid(case, name, body, other, pitch, given))
 }
 
@@ -255,7 +265,7 @@ fn grid(
     body: &Body,
     other: Option<Grid>,
     pitch: Option<[Metre; 2]>,
-    given: &Given,
+    given: &SurfaceInput,
 ) -> Result<Grid> {
     let table = topography_of(name);
     let spec = &body.topography;
@@ -267,7 +277,7 @@ fn grid(
             (*topography.grid(), preparation)
         }
         Source::Given { name } => {
-            let topography = given.topography(name).map_err(|error| at.giving(error))?;
+            let topography = given.topography(name).map_err(|error| at.not_supplied(error))?;
             (*topography.grid(), with_pitch(at, topography.grid().pitch)?)
         }
         Source::Generate { .. } | Source::Form { .. } => {
@@ -288,12 +298,13 @@ fn prepared(
     body: &Body,
     other: Option<Grid>,
     pitch: Option<[Metre; 2]>,
-    given: &mut Given,
+    given: &mut SurfaceInput,
     stop: Stop<'_>,
-) -> Result<Prepared> {
-    let (Made { topography, origin, findings }, mount) = turned(case, name, body, other, pitch, given, stop)?;
+) -> Result<MountedSurface> {
+    let (PreparedTopography { topography, origin, findings }, mount) =
+        turned(case, name, body, other, pitch, given, stop)?;
     let (hardness, hardness_sha256) = hardness(case, name, body, topography.grid(), mount, given)?;
-    Ok(Prepared { topography, hardness, hardness_sha256, origin, mount, findings })
+    Ok(MountedSurface { topography, hardness, hardness_sha256, origin, mount, findings })
 }
 
 /// Returns the surface of a body, mounted and with every height defined.
@@ -303,12 +314,12 @@ fn turned(
     body: &Body,
     other: Option<Grid>,
     pitch: Option<[Metre; 2]>,
-    given: &mut Given,
+    given: &mut SurfaceInput,
     stop: Stop<'_>,
-) -> Result<(Made, Mount)> {
+) -> Result<(PreparedTopography, Mount)> {
     let table = topography_of(name);
     let at = Place { document: case.document(), table: &table, spec: &body.topography, pitch };
-    let Made { topography, origin, findings } = made(at, other, given, stop)?;
+    let PreparedTopography { topography, origin, findings } = prepare_topography(at, other, given, stop)?;
     if topography.undefined() > 0 {
         let shape = origin.as_ref().map_or(topography.grid().shape, |origin| origin.shape);
         return Err(at.missing(&findings, shape));
@@ -323,11 +334,16 @@ fn turned(
         Mount::TurnedOver => topography.underside(),
         Mount::AsIs => topography,
     };
-    Ok((Made { topography, origin, findings }, mount))
+    Ok((PreparedTopography { topography, origin, findings }, mount))
 }
 
 /// Makes the topography described at a place, with all its steps, and completes it from the `other` body.
-fn made(at: Place<'_>, other: Option<Grid>, given: &mut Given, stop: Stop<'_>) -> Result<Made> {
+fn prepare_topography(
+    at: Place<'_>,
+    other: Option<Grid>,
+    given: &mut SurfaceInput,
+    stop: Stop<'_>,
+) -> Result<PreparedTopography> {
     let spec = at.spec;
     let grid = || spec.made_on(other);
     let (topography, origin, preparation) = match &spec.source {
@@ -338,9 +354,9 @@ fn made(at: Place<'_>, other: Option<Grid>, given: &mut Given, stop: Stop<'_>) -
             (Ok(topography), Some(origin), preparation)
         }
         Source::Given { name } => {
-            let topography = given.take_topography(name).map_err(|error| at.giving(error))?;
+            let topography = given.take_topography(name).map_err(|error| at.not_supplied(error))?;
             let preparation = with_pitch(at, topography.grid().pitch)?;
-            let origin = Origin::of_given(name, &topography);
+            let origin = Origin::supplied(name, &topography);
             (Ok(topography), Some(origin), preparation)
         }
         Source::Generate { generate, seed, .. } => {
@@ -356,7 +372,7 @@ fn made(at: Place<'_>, other: Option<Grid>, given: &mut Given, stop: Stop<'_>) -
             layer.on(topography.grid()).map_err(|error| at.parameter_of(&format!("plus.{n}."), error))?;
         topography = topography.plus(&added)?;
     }
-    Ok(Made { topography, origin, findings })
+    Ok(PreparedTopography { topography, origin, findings })
 }
 
 /// Returns the hardness of a body on `grid`, and the digest of its file.
@@ -366,7 +382,7 @@ fn hardness(
     body: &Body,
     grid: &Grid,
     mount: Mount,
-    given: &mut Given,
+    given: &mut SurfaceInput,
 ) -> Result<(CellValues, Option<String>)> {
     let error = |key: &str, message: String, hint: Option<String>| {
         case.error_at(&format!("{name}.hardness.{key}"), message, hint)
@@ -498,7 +514,7 @@ impl Place<'_> {
     }
 
     /// Error for a name under which nothing is supplied.
-    fn giving(&self, error: Error) -> Error {
+    fn not_supplied(&self, error: Error) -> Error {
         self.error("given", error.to_string(), error.hint())
     }
 
@@ -732,7 +748,7 @@ mod tests {
             [upper]\nyoung = \"210 GPa\"\npoisson = 0.3\n[upper.topography]\ngenerate = \"self-affine\"\nseed = 6\nsq = \"0.1 um\"\n\
             hurst = 0.8\nlevel = \"plane\"\n[contact]\nload = \"1 mN\"\n[motion]\ncounter = \"fresh\"\npasses = 3\n";
         let case = |text: &str| Case::parse(text, Path::new("case.toml"), Path::new("")).unwrap();
-        let made = |text: &str| bodies(&case(text), Given::default()).unwrap().upper.topography;
+        let made = |text: &str| bodies(&case(text), SurfaceInput::default()).unwrap().upper.topography;
         let first = made(text);
         let lower = Grid::new([24, 16], [1e-6; 2]).unwrap();
         let of = |pass| fresh_heights(&case(text), lower, pass).unwrap();
@@ -773,7 +789,7 @@ mod tests {
             let text =
                 body("lower", "", "lower") + &body("upper", mount, channel) + "[contact]\nload = \"1 mN\"\n";
             std::fs::write(&path, text).unwrap();
-            bodies(&Case::load(&path).unwrap(), Given::default()).unwrap()
+            bodies(&Case::load(&path).unwrap(), SurfaceInput::default()).unwrap()
         };
         let by_default = mounted("upper", "");
         assert_eq!(by_default.lower.topography.heights(), &lower);

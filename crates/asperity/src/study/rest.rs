@@ -4,9 +4,9 @@
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, check_finite};
 use crate::motion::{
-    FILM, Flowed, FlowedContact, FlowedVolume, InPlace, IncrementRecord, LoadedContact, Output, Pair, Point,
-    Slide, SlidingState, Stage, State, StaticContact, StaticRecord, UpdateRecord, WEAR, Watch, WornContact,
-    load_in_stages, press, press_flowing, roll, sweep,
+    ElastoPlasticContact, FILM, FlowResult, IncrementRecord, LoadedContact, Output, Pair, PlasticVolume,
+    Point, Slide, SlidingState, Stage, State, StaticContact, StaticRecord, UpdateRecord, WEAR, Watch,
+    WearInPlace, WornContact, load_in_stages, press, press_elasto_plastic, roll, sweep,
 };
 use crate::operator::Boundary;
 use crate::solver::{Control, Equilibrium, Friction, Params, Rolling, Solution};
@@ -16,7 +16,7 @@ use crate::study::estimate::estimate;
 use crate::study::fields::{NamedField, RestFields};
 use crate::study::finish::{closed_form, pair, params};
 use crate::study::flow;
-use crate::study::given::Given;
+use crate::study::given::SurfaceInput;
 use crate::study::prepare::bodies_until;
 use crate::study::results::{StepWriter, Writer};
 use crate::study::review;
@@ -27,7 +27,7 @@ use crate::units::SquareMetre;
 /// Result of a static contact.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct Rest {
+pub struct StaticResult {
     /// The record of the contact, or the points of a sweep.
     pub outcome: Outcome,
     /// The increments of a loading in stages; empty for other contacts.
@@ -39,7 +39,7 @@ pub struct Rest {
     /// The closed form of the contact, if both bodies are smooth forms; `None` for others.
     pub closed_form: Option<ClosedFormRecord>,
     /// The plastic state below the surfaces; `None` for other than elasto-plastic bodies.
-    pub flowed: Option<Flowed>,
+    pub flow_result: Option<FlowResult>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
 }
@@ -50,7 +50,7 @@ pub struct Rest {
 /// # Errors
 /// Every error of a case, its surfaces or the contact; [`Error::Unsupported`] for a motion. Stress under the surface is not
 /// computed, because it is written to a file.
-pub fn rest(case: &Case, given: Given, watch: &dyn Watch) -> Result<Rest> {
+pub fn rest(case: &Case, given: SurfaceInput, watch: &dyn Watch) -> Result<StaticResult> {
     if case.motion.is_some() {
         return Err(Error::Unsupported("a motion is not a static contact"));
     }
@@ -62,7 +62,7 @@ pub fn rest(case: &Case, given: Given, watch: &dyn Watch) -> Result<Rest> {
     rest.checked()
 }
 
-impl Rest {
+impl StaticResult {
     /// Creates an outcome with its fields, and nothing else.
     fn of(outcome: impl Into<Outcome>, fields: RestFields) -> Self {
         let outcome = outcome.into();
@@ -72,7 +72,7 @@ impl Rest {
             updates: Vec::new(),
             fields,
             closed_form: None,
-            flowed: None,
+            flow_result: None,
             warnings: Vec::new(),
         }
     }
@@ -85,8 +85,13 @@ impl Rest {
         for NamedField { name, values, .. } in &self.fields.fields {
             check_finite(name, values.shape(), values)?;
         }
-        for volume in self.flowed.iter().flat_map(|flowed| [&flowed.volumes, &flowed.residual]).flatten() {
-            let FlowedVolume { state, residual_stress, displacement, .. } = volume;
+        for volume in self
+            .flow_result
+            .iter()
+            .flat_map(|flow_result| [&flow_result.volumes, &flow_result.residual])
+            .flatten()
+        {
+            let PlasticVolume { state, residual_stress, displacement, .. } = volume;
             check_finite("strain", state.strain.shape(), &state.strain)?;
             check_finite("accumulated", state.accumulated.shape(), &state.accumulated)?;
             check_finite("residual_stress", residual_stress.shape(), residual_stress)?;
@@ -104,11 +109,11 @@ pub(super) fn solve(
     apparent_area: SquareMetre,
     writer: Option<&Writer>,
     watch: &dyn Watch,
-) -> Result<Rest> {
+) -> Result<StaticResult> {
     let law = case.friction.as_ref().map(|friction| &friction.law);
     let control = case.contact.prescribed.control(apparent_area);
     let extent = pair.lower_grid().extent();
-    let contact = AtRest { case, pair, law, control, params: params(case), writer, watch };
+    let contact = StaticProblem { case, pair, law, control, params: params(case), writer, watch };
     if let Some(slide) = case.slide(apparent_area) {
         return contact.slide(slide);
     }
@@ -121,11 +126,11 @@ pub(super) fn solve(
         }
         _ => contact.press(),
     }?;
-    Ok(Rest { closed_form: closed_form(case, extent, &rest.outcome), ..rest })
+    Ok(StaticResult { closed_form: closed_form(case, extent, &rest.outcome), ..rest })
 }
 
 /// A static contact to be solved.
-struct AtRest<'a> {
+struct StaticProblem<'a> {
     case: &'a Case,
     pair: Pair,
     law: Option<&'a Friction>,
@@ -135,18 +140,18 @@ struct AtRest<'a> {
     watch: &'a dyn Watch,
 }
 
-impl AtRest<'_> {
+impl StaticProblem<'_> {
     /// Solves in one step without friction.
-    fn press(self) -> Result<Rest> {
+    fn press(self) -> Result<StaticResult> {
         let StaticContact { record, solution } =
             press(&self.pair, self.boundary(), self.control, &self.params, self.watch)?;
         self.begin()?;
         let warnings = self.review(&solution);
-        Ok(Rest { warnings, ..Rest::of(record, pressed(self.pair, solution)) })
+        Ok(StaticResult { warnings, ..StaticResult::of(record, pressed(self.pair, solution)) })
     }
 
     /// Solves steady rolling.
-    fn roll(self, friction: &Friction, rolling: Rolling) -> Result<Rest> {
+    fn roll(self, friction: &Friction, rolling: Rolling) -> Result<StaticResult> {
         let (boundary, control) = (self.boundary(), self.control);
         let contact = roll(&self.pair, boundary, friction, control, rolling, &self.params, self.watch)?;
         self.begin()?;
@@ -154,7 +159,7 @@ impl AtRest<'_> {
     }
 
     /// Solves stage after stage.
-    fn load_in_stages(self, stages: &[Stage]) -> Result<Rest> {
+    fn load_in_stages(self, stages: &[Stage]) -> Result<StaticResult> {
         self.begin()?;
         let increments = stages.iter().map(|stage| stage.increments).sum();
         let under_way = |writer: &Writer| writer.results().loading_under_way(&self.pair, increments);
@@ -168,7 +173,7 @@ impl AtRest<'_> {
     }
 
     /// Solves one load, or one creepage, after another.
-    fn sweep(self, points: &[Point]) -> Result<Rest> {
+    fn sweep(self, points: &[Point]) -> Result<StaticResult> {
         self.begin()?;
         let mut done = self.writer.map(|writer| writer.results().sweep()).transpose()?.unwrap_or_default();
         done.truncate(points.len().saturating_sub(1));
@@ -180,11 +185,11 @@ impl AtRest<'_> {
         let warnings = review::sweep(&points, &contact);
         let LoadedContact { solution, plastic, slip, .. } = contact;
         let fields = fields(self.pair, solution, plastic, slip);
-        Ok(Rest { warnings, ..Rest::of(Outcome::Sweep(points), fields) })
+        Ok(StaticResult { warnings, ..StaticResult::of(Outcome::Sweep(points), fields) })
     }
 
     /// Solves wear in place.
-    fn slide(self, slide: Slide) -> Result<Rest> {
+    fn slide(self, slide: Slide) -> Result<StaticResult> {
         let friction = slide.friction;
         self.begin()?;
         let under_way = |writer: &Writer| writer.results().sliding_under_way(&self.pair);
@@ -192,37 +197,42 @@ impl AtRest<'_> {
         let done = left.as_ref().map_or(&[][..], |left| &left.updates);
         let mut kept = self.writer.map(|writer| writer.updates(done)).transpose()?;
         let from = left.as_ref().map_or(&self.pair, |left| &left.pair).clone();
-        let contact = self.case.wearing(InPlace::new(from, self.boundary(), slide, self.params)?)?;
+        let contact = self.case.wearing(WearInPlace::new(from, self.boundary(), slide, self.params)?)?;
         let state = left.map(|left| SlidingState::resumed(&contact, left.updates, left.pressure));
         let worn = contact.run(state, self.watch, &mut outputs(&mut kept))?;
         let (record, updates) = (worn.record.clone(), worn.state.updates.clone());
         let warnings = review::worn(&worn.state.pair, self.boundary(), &worn.solution.pressure, &updates);
-        Ok(Rest { updates, warnings, ..Rest::of(record, worn_fields(worn, friction)) })
+        Ok(StaticResult { updates, warnings, ..StaticResult::of(record, worn_fields(worn, friction)) })
     }
 
     /// Solves the stages of elasto-plastic bodies.
-    fn flow(self, spec: &PlasticitySpec, stages: Vec<Stage>) -> Result<Rest> {
+    fn flow(self, spec: &PlasticitySpec, stages: Vec<Stage>) -> Result<StaticResult> {
         let (bodies, path) = (flow::bodies(self.case, spec, &self.pair)?, flow::path(spec, stages));
         self.begin()?;
         let mut kept = self.writer.map(|writer| writer.increments(&[])).transpose()?;
         let (pair, boundary, outputs) = (&self.pair, self.boundary(), &mut outputs(&mut kept));
         let contact =
-            press_flowing(pair, boundary, self.law, bodies, &path, &self.params, self.watch, outputs)?;
+            press_elasto_plastic(pair, boundary, self.law, bodies, &path, &self.params, self.watch, outputs)?;
         let of_answer = self.review(contact.solution.normal());
-        let warnings = [review::flowed(self.case, &self.pair, &contact), of_answer].concat();
-        let FlowedContact { record, solution, slip, flowed, .. } = contact;
+        let warnings = [review::elasto_plastic(self.case, &self.pair, &contact), of_answer].concat();
+        let ElastoPlasticContact { record, solution, slip, flow_result, .. } = contact;
         let nothing = self.pair.lower_grid().zeros();
-        let fields = fields(flowed.displaced(self.pair), solution, nothing, slip);
-        let increments = flowed.increments.clone();
-        Ok(Rest { increments, flowed: Some(flowed), warnings, ..Rest::of(record, fields) })
+        let fields = fields(flow_result.displaced(self.pair), solution, nothing, slip);
+        let increments = flow_result.increments.clone();
+        Ok(StaticResult {
+            increments,
+            flow_result: Some(flow_result),
+            warnings,
+            ..StaticResult::of(record, fields)
+        })
     }
 
     /// Creates the result from the end of a loading, or of rolling.
-    fn loaded(self, contact: LoadedContact) -> Rest {
+    fn loaded(self, contact: LoadedContact) -> StaticResult {
         let warnings = [review::loaded(&contact), self.review(contact.solution.normal())].concat();
         let LoadedContact { record, increments, solution, plastic, slip, .. } = contact;
         let fields = fields(self.pair, solution, plastic, slip);
-        Rest { increments, warnings, ..Rest::of(record, fields) }
+        StaticResult { increments, warnings, ..StaticResult::of(record, fields) }
     }
 
     fn boundary(&self) -> Boundary {

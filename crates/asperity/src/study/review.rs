@@ -6,8 +6,8 @@ use super::case::Case;
 use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, cut_off, spot, too_few_cells};
 use crate::grid::Field;
 use crate::motion::{
-    FlowedContact, FlowedVolume, Interior, LoadedContact, Pair, PassFlowRecord, PassRecord, ShearRecord,
-    StaticRecord, StepRecord, SweepRecord, UpdateRecord,
+    ElastoPlasticContact, Interior, LoadedContact, Pair, PassFlowRecord, PassRecord, PlasticVolume,
+    ShearRecord, StaticRecord, StepRecord, SweepRecord, UpdateRecord,
 };
 use crate::operator::Boundary;
 use crate::units::{self, Dimension, Joule, Metre, SquareMetre};
@@ -68,16 +68,16 @@ fn inaccurate(error: Joule, shear: &ShearRecord) -> Option<String> {
 }
 
 /// Returns the warnings of a static contact of elasto-plastic bodies.
-pub(super) fn flowed(case: &Case, pair: &Pair, contact: &FlowedContact) -> Vec<String> {
+pub(super) fn elasto_plastic(case: &Case, pair: &Pair, contact: &ElastoPlasticContact) -> Vec<String> {
     /// Step of the load, relative to the load reached, above which the loading path is resolved only roughly.
     const STEP: f64 = 0.15;
-    let FlowedContact { record, flowed, .. } = contact;
-    let mut warnings = volumes(case.contact.boundary, &flowed.volumes);
+    let ElastoPlasticContact { record, flow_result, .. } = contact;
+    let mut warnings = volumes(case.contact.boundary, &flow_result.volumes);
     let Some(flow) = &record.flow else { return warnings };
     let spot = spot_width(record, pair.cell_area());
-    warnings.extend(thick_layers(&flowed.volumes, flow.max_plastic_strain, spot));
+    warnings.extend(thick_layers(&flow_result.volumes, flow.max_plastic_strain, spot));
     let mut before = 0.0;
-    let coarse = flowed.increments.iter().any(|increment| {
+    let coarse = flow_result.increments.iter().any(|increment| {
         let step = increment.load - std::mem::replace(&mut before, increment.load);
         let flows = increment.flow.is_some_and(|flow| flow.yielded_cells > 0);
         flows && increment.increment > 1 && step.abs() > STEP * record.load.max(increment.load)
@@ -91,7 +91,7 @@ pub(super) fn flowed(case: &Case, pair: &Pair, contact: &FlowedContact) -> Vec<S
 }
 
 /// Returns the warnings of plastic volumes under a boundary.
-pub(super) fn volumes(boundary: Boundary, volumes: &[FlowedVolume]) -> Vec<String> {
+pub(super) fn volumes(boundary: Boundary, volumes: &[PlasticVolume]) -> Vec<String> {
     /// Plastic strain above which strains are not small, and the same for the slope of the residual surface.
     const SMALL: [f64; 2] = [0.1, 0.3];
     let mut warnings = Vec::new();
@@ -134,7 +134,7 @@ pub(super) fn volumes(boundary: Boundary, volumes: &[FlowedVolume]) -> Vec<Strin
 }
 
 /// Warns if the first layer of elasto-plastic bodies is too thick for the width of the contact spot.
-fn thick_layers(volumes: &[FlowedVolume], strain: f64, spot: Metre) -> Option<String> {
+fn thick_layers(volumes: &[PlasticVolume], strain: f64, spot: Metre) -> Option<String> {
     let first = volumes.first().map_or(0.0, |volume| volume.faces[1]);
     (strain > 0.0 && first > 0.25 * spot).then(|| {
         format!(
@@ -150,7 +150,7 @@ pub(super) fn rolled(
     pitch: Metre,
     steps: &[StepRecord],
     passes: &[PassRecord],
-    left: &[FlowedVolume],
+    left: &[PlasticVolume],
 ) -> Vec<String> {
     /// Step of the load from one position to the next, relative to the load reached, above which the loading path is
     /// resolved only roughly.

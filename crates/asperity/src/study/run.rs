@@ -10,11 +10,11 @@ use crate::motion::Watch;
 use crate::study::case::Case;
 use crate::study::estimate::{Estimate, estimate};
 use crate::study::finish::{Computed, conclude, pair};
-use crate::study::given::Given;
+use crate::study::given::SurfaceInput;
 use crate::study::identity;
 use crate::study::passes::Passes;
 use crate::study::prepare::bodies_until;
-use crate::study::rest::{self, Rest};
+use crate::study::rest::{self, StaticResult};
 use crate::study::results::{Existing, Writer};
 use crate::study::summary::Summary;
 
@@ -29,7 +29,7 @@ use crate::study::summary::Summary;
 /// a loading its finished increments. [`Existing::Resume`] continues from these.
 pub fn run(
     case: &Case,
-    given: Given,
+    given: SurfaceInput,
     directory: &Path,
     existing: Existing,
     watch: &dyn Watch,
@@ -40,7 +40,7 @@ pub fn run(
 /// [`run`] with a lock of the directory that may be held already.
 pub(super) fn run_with(
     case: &Case,
-    given: Given,
+    given: SurfaceInput,
     directory: &Path,
     (existing, lock): (Existing, Option<Lock>),
     watch: &dyn Watch,
@@ -60,15 +60,15 @@ pub(super) fn run_with(
     let pair = pair(case, bodies)?;
     let writer = Writer::enter_with(directory, &resolved, existing, lock)?;
     let rest = rest::solve(case, pair, apparent_area, Some(&writer), watch)?;
-    let Rest { outcome, updates, fields, flowed, closed_form, warnings: of_answer, .. } = rest;
+    let StaticResult { outcome, updates, fields, flow_result, closed_form, warnings: of_answer, .. } = rest;
     warnings.extend(of_answer);
     let below = subsurface.map(|plan| (plan, fields.tractions()));
     writer.write_rest(fields)?;
-    let volumes = match &flowed {
+    let volumes = match &flow_result {
         None => &[][..],
-        Some(flowed) => {
-            writer.write_flow(flowed)?;
-            &flowed.volumes
+        Some(flow_result) => {
+            writer.write_flow(flow_result)?;
+            &flow_result.volumes
         }
     };
     let stress =
@@ -76,6 +76,6 @@ pub(super) fn run_with(
     let (subsurface, sliding) = (stress.into_iter().collect(), updates.last().cloned());
     let computed = Computed { outcome, subsurface, sliding, flow: None, closed_form };
     let summary = conclude(case, &writer, resolved, began, computed, warnings)?;
-    writer.results().forget_state()?;
+    writer.results().remove_state()?;
     Ok((summary, writer))
 }

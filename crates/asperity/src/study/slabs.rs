@@ -19,8 +19,8 @@ use web_time::Instant;
 use super::case::Case;
 use super::estimate::{Demand, cut_off, demand, spot, too_few_cells};
 use super::finish::{Computed, closed_form, conclude, params};
-use super::given::Given;
-use super::identity::{self, Known};
+use super::given::SurfaceInput;
+use super::identity::{self, BodyData};
 use super::prepare::{SlabBodies, grids, made_by_slabs, slab_bodies};
 use super::rest::pressed;
 use super::results::{Existing, Results, Writer};
@@ -53,7 +53,7 @@ pub struct DemandOfRank {
 /// [`Error::Case`] if a file cannot be read, or if `case` is not supported on ranks; [`Error::TooManyRanks`].
 pub fn demand_on_ranks(case: &Case, ranks: usize) -> Result<DemandOfRank> {
     check(case)?;
-    let given = Given::default();
+    let given = SurfaceInput::default();
     let Demand { surfaces, solver, results, .. } = demand(case, &given, 1)?;
     let cells = |grid: &Grid| grid.shape[0] as f64 * grid.shape[1] as f64;
     let grids = grids(case, &given)?;
@@ -115,7 +115,7 @@ pub fn run_on_ranks(
     let SlabBodies { slab, bodies } = slab_bodies(case, Arc::clone(ranks))?;
     let resolved = identity::resolved_of(
         case,
-        [&bodies[0], &bodies[1]].map(|body| Known {
+        [&bodies[0], &bodies[1]].map(|body| BodyData {
             grid: slab.whole_grid(),
             origin: body.origin.as_ref(),
             hardness_sha256: body.hardness_sha256.as_ref(),
@@ -266,7 +266,7 @@ mod tests {
     use super::*;
     use crate::grid::Field;
     use crate::ranks::threads::on_ranks;
-    use crate::study::{Given, run};
+    use crate::study::{SurfaceInput, run};
 
     /// Two bodies: a ball with roughness below, a measured or generated surface above.
     fn case(upper: &str, contact: &str) -> Case {
@@ -323,7 +323,7 @@ mod tests {
                 on_ranks(3, |ranks| run_on_ranks(&case, &ranks, &together, Existing::Keep).unwrap());
             assert!(summaries[0].is_some() && summaries[1..].iter().all(Option::is_none));
             collect(&together).unwrap();
-            let (expected, _) = run(&case, Given::default(), &alone, Existing::Keep, &()).unwrap();
+            let (expected, _) = run(&case, SurfaceInput::default(), &alone, Existing::Keep, &()).unwrap();
             let [together, alone] = [together, alone].map(|path| Results::open(&path).unwrap());
             assert_eq!(together.case_json().unwrap(), alone.case_json().unwrap());
             let [fields, others] = [&together, &alone].map(|results| results.static_fields().unwrap());

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::case::{Case, Side};
 use crate::error::{Error, Result};
-use crate::grid::{Field, Grid, Seat};
+use crate::grid::{Field, Grid, Placement};
 use crate::io::fields::{Attribute, FieldFile, Fields};
 use crate::io::vti;
 use crate::material::Material;
@@ -155,29 +155,29 @@ impl Plan {
     }
 
     /// Returns the residual stress from the plastic state of the body, on the cells of the contact.
-    fn residual(&self, flowed: Option<(&PlasticState, &Seat)>) -> Result<Option<LayeredStress>> {
-        let (Some((state, seat)), Some(layers)) = (flowed, &self.layers) else { return Ok(None) };
+    fn residual(&self, plastic_state: Option<(&PlasticState, &Placement)>) -> Result<Option<LayeredStress>> {
+        let (Some((state, placement)), Some(layers)) = (plastic_state, &self.layers) else { return Ok(None) };
         let to = self.depths[self.depths.len() - 1];
         let (grid, columns) = (self.of_body, self.grid.shape[0]);
-        residual_below(grid, layers, self.boundary, &self.material, &state.strain, seat, columns, to)
+        residual_below(grid, layers, self.boundary, &self.material, &state.strain, placement, columns, to)
             .map(Some)
     }
 
     /// Computes the stress in the requested body under `tractions`, which act on the lower body, plus its residual stress
-    /// from `flowed`. Writes it to `path` with the present content of `file`.
+    /// from `plastic_state`. Writes it to `path` with the present content of `file`.
     pub(super) fn write(
         &self,
         mut file: FieldFile,
         path: &Path,
         pass: Option<usize>,
         tractions: Tractions,
-        flowed: Option<(&PlasticState, &Seat)>,
+        plastic_state: Option<(&PlasticState, &Placement)>,
     ) -> Result<SubsurfaceRecord> {
         let tractions = match self.body {
             Side::Lower => tractions,
             Side::Upper => tractions.on_upper(),
         };
-        let residual = self.residual(flowed)?;
+        let residual = self.residual(plastic_state)?;
         let body =
             Subsurface::new(self.grid, self.boundary, self.poisson, &tractions).with_residual(residual);
         let most = body.maximum(&self.depths);

@@ -39,6 +39,6 @@ pub use profile::{Profile, ProfileParameters};
 pub use segmentation::{Motif, Segmentation, WOLF_PRUNING};
 pub use spectrum::{Bins, SpectralPoint, Spectrum, Window};
 pub use stop::Stop;
-pub(crate) use stop::{NEVER, go_on, go_on_at};
+pub(crate) use stop::{NEVER, check_stop, check_stop_at};
 pub use summits::{GreenwoodWilliamson, Summit, Summits};
 pub use topography::Topography;

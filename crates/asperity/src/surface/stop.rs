@@ -10,14 +10,14 @@ pub type Stop<'a> = &'a (dyn Fn() -> bool + Sync);
 pub(crate) const NEVER: Stop<'static> = &|| false;
 
 /// Returns [`Error::Interrupted`] if `stop` returns true.
-pub(crate) fn go_on(stop: Stop<'_>) -> Result<()> {
+pub(crate) fn check_stop(stop: Stop<'_>) -> Result<()> {
     if stop() { Err(Error::Interrupted) } else { Ok(()) }
 }
 
 /// Number of samples between two calls.
 const STRIDE: usize = 1 << 14;
 
-/// [`go_on`], called once for every `STRIDE` samples counted by `n`.
-pub(crate) fn go_on_at(n: usize, stop: Stop<'_>) -> Result<()> {
-    if n.is_multiple_of(STRIDE) { go_on(stop) } else { Ok(()) }
+/// [`check_stop`], called once for every `STRIDE` samples counted by `n`.
+pub(crate) fn check_stop_at(n: usize, stop: Stop<'_>) -> Result<()> {
+    if n.is_multiple_of(STRIDE) { check_stop(stop) } else { Ok(()) }
 }

@@ -30,14 +30,14 @@ pub struct FlashTemperature {
     width: usize,
     /// Number of cells per period along each periodic axis.
     repeats: [Option<usize>; 2],
-    bodies: [Warmed; 2],
+    bodies: [HeatedBody; 2],
     /// Response of the temperature difference to a flux into both bodies.
     sum: Spread,
     preconditioner: Preconditioner,
 }
 
 /// A body in its own frame.
-struct Warmed {
+struct HeatedBody {
     history: History,
     /// Response to a flux that grows during the present step, and to one that decreases.
     present: [Spread; 2],
@@ -90,7 +90,7 @@ impl FlashTemperature {
         let far =
             if boundary.leaves_mean_free() { 0.5 * sum.table[[shape[0] / 2, shape[1] / 2]] } else { 0.0 };
         let preconditioner = Preconditioner::new(shape, |i, j| sum.table[[i, j]] - far);
-        let body = |body: usize| Warmed {
+        let body = |body: usize| HeatedBody {
             history: History::new(grids[body], &thermal[body], boundary, steps, step),
             present: ramps[body].each_ref().map(|ramp| ramp.spread(shape)),
             width: shape[1] as u32,
@@ -112,7 +112,7 @@ impl FlashTemperature {
     /// Begins a pass: resets both bodies to their bulk temperatures.
     pub fn begin(&mut self) {
         for body in &mut self.bodies {
-            body.history.forget();
+            body.history.reset();
             body.cells.clear();
             body.flux.clear();
         }
@@ -158,8 +158,8 @@ impl FlashTemperature {
         let [lower, upper] = &mut self.bodies;
         let [of_lower, of_upper] = &mut rise;
         rayon::join(
-            || lower.remember(cells[0], fraction[0], of_lower),
-            || upper.remember(cells[1], fraction[1], of_upper),
+            || lower.add_history(cells[0], fraction[0], of_lower),
+            || upper.add_history(cells[1], fraction[1], of_upper),
         );
         // x is the flux into the lower body: (G₁ + G₂) x = G₂ q + (T_b2 + T₂) − (T_b1 + T₁), with the temperature rise T
         // from earlier steps.
@@ -169,7 +169,7 @@ impl FlashTemperature {
             .map(|(other, own)| self.bulk[1] - self.bulk[0] + other - own)
             .collect();
         upper.present[0].add(cells[1], flux, cells[1], &mut right);
-        let own = |body: &Warmed| body.present[0].table[[0, 0]];
+        let own = |body: &HeatedBody| body.present[0].table[[0, 0]];
         let share = own(upper) / (own(lower) + own(upper));
         let mut into_lower: Vec<f64> = flux.iter().map(|q| share * q).collect();
         let sum = &mut self.sum;
@@ -225,22 +225,22 @@ impl FlashTemperature {
     }
 }
 
-impl Warmed {
+impl HeatedBody {
     /// Adds the temperature rise from all heat before the present step, at a `fraction` of a cell beyond the flat `cells`.
-    fn remember(&mut self, cells: &[u32], fraction: f64, rise: &mut [Kelvin]) {
+    fn add_history(&mut self, cells: &[u32], fraction: f64, rise: &mut [Kelvin]) {
         if fraction == 0.0 {
-            self.remember_at(cells, rise);
+            self.add_history_at(cells, rise);
             return;
         }
         let mut beyond = vec![0.0; rise.len()];
-        self.remember_at(cells, rise);
-        self.remember_at(&self.next(cells), &mut beyond);
+        self.add_history_at(cells, rise);
+        self.add_history_at(&self.next(cells), &mut beyond);
         let between = |(rise, beyond): (&mut f64, &f64)| *rise = (1.0 - fraction) * *rise + fraction * beyond;
         rise.iter_mut().zip(&beyond).for_each(between);
     }
 
     /// Adds to `rise` the temperature rise from all heat before the present step, at the flat `cells`.
-    fn remember_at(&mut self, cells: &[u32], rise: &mut [Kelvin]) {
+    fn add_history_at(&mut self, cells: &[u32], rise: &mut [Kelvin]) {
         if cells.is_empty() {
             return;
         }

@@ -112,7 +112,7 @@ impl History {
     }
 
     /// Resets the history: removes all heat.
-    pub(super) fn forget(&mut self) {
+    pub(super) fn reset(&mut self) {
         self.terms.iter_mut().for_each(|term| term.state.fill(0.0));
         self.flux.fill(0.0);
         self.before.fill(0.0);

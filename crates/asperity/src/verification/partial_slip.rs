@@ -18,14 +18,14 @@ const FRICTION: f64 = 0.3;
 const DIRECTION: [f64; 2] = [0.8, 0.6];
 
 /// The sphere on the plane, both with Poisson's ratio `poisson`.
-struct Pushed {
+struct PushedSphere {
     contact: CattaneoMindlin,
     grid: Grid,
     gap: Field,
     operator: Box<dyn CoupledOperator>,
 }
 
-impl Pushed {
+impl PushedSphere {
     /// Creates a contact with `n` cells along its radius, under the load 7 and a `share` of the friction limit.
     fn new(poisson: f64, share: f64, n: usize) -> Result<Self> {
         let body = Material::elastic(2.0 * MODULUS * (1.0 - poisson * poisson), poisson)?;
@@ -80,7 +80,7 @@ pub(super) const CATTANEO: Case = Case {
             ("stick area", Expected::Counted(1.5)),
         ];
         study("a/Δx", &[8, 16, 32, 64], checks, |n| {
-            let mut pushed = Pushed::new(0.0, 0.6, n)?;
+            let mut pushed = PushedSphere::new(0.0, 0.6, n)?;
             let solution = pushed.under(pushed.contact.tangential_load, FRICTION, None)?;
             let exact = pushed.around(|r| pushed.contact.shear(r));
             let stick = solution.stick.sum() * pushed.grid.cell_area();
@@ -135,7 +135,7 @@ fn hysteresis() -> Result<Vec<Check>> {
         ("loss in two increments", Expected::RoundOff(1e-6)),
     ];
     study("a/Δx", &[8, 16, 32], checks, |n| {
-        let mut pushed = Pushed::new(0.0, 0.9, n)?;
+        let mut pushed = PushedSphere::new(0.0, 0.9, n)?;
         let turn = pushed.contact;
         let force = |step: usize| turn.tangential_load * (4.0 * step.abs_diff(n / 2) as f64 / n as f64 - 1.0);
         let exact = |step: usize| {

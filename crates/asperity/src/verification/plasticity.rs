@@ -7,12 +7,12 @@ use ndarray::s;
 
 use super::{Case, Expected, PARAMS, relative, study};
 use crate::error::Result;
-use crate::grid::{Field, Grid, Seat};
+use crate::grid::{Field, Grid, Placement};
 use crate::material::Material;
 use crate::operator::{Boundary, FreeFft, Operator, PeriodicFft};
 use crate::plasticity::{
-    Action, Facing, FlowParams, Hardening, Interface, J2, Layers, Loading, PlasticBody, PlasticContact,
-    SurfaceDisplacement, TensorField, Volume, advance,
+    Action, FlowParams, Hardening, Interface, J2, Layers, Loading, PlasticBody, PlasticContact,
+    RelativePosition, SurfaceDisplacement, TensorField, Volume, advance,
 };
 use crate::solver::Control;
 use crate::stress::Stress;
@@ -53,7 +53,8 @@ impl Sphere {
             Box::new(FreeFft::new(grid, modulus))
         };
         let interface = Interface::Frictionless(operator);
-        let facing = Facing { interface, initial_gap: gap, seats: [Seat::flush(grid.shape); 2] };
+        let facing =
+            RelativePosition { interface, initial_gap: gap, placements: [Placement::flush(grid.shape); 2] };
         let body = PlasticBody::new(volume, Arc::new(law));
         Ok(PlasticContact::new(facing, [Some(body), None], flow, PARAMS))
     }
@@ -273,12 +274,12 @@ pub(super) fn fully_plastic(cells: usize, growth: f64) -> Result<f64> {
 }
 
 /// A stress that moves over the body by one cell at a time.
-struct Travelling {
+struct MovingStress {
     stress: TensorField,
     at: usize,
 }
 
-impl Travelling {
+impl MovingStress {
     /// Creates the stress of a pressure. The limits for ever longer waves replace the mean, which would constrain the body.
     fn under(volume: &mut Volume, pressure: Field, [xx, yy]: [f64; 2]) -> Self {
         let mean = pressure.mean().unwrap_or(0.0);
@@ -292,7 +293,7 @@ impl Travelling {
     }
 }
 
-impl Loading for Travelling {
+impl Loading for MovingStress {
     fn act(&mut self, _: &[SurfaceDisplacement]) -> Result<Vec<Action>> {
         let n = self.stress.shape()[2];
         let mut moved = self.stress.clone();
@@ -310,7 +311,7 @@ struct Pass {
     shift: f64,
 }
 
-fn roll(body: &mut PlasticBody, load: &mut Travelling) -> Result<Pass> {
+fn roll(body: &mut PlasticBody, load: &mut MovingStress) -> Result<Pass> {
     let before = (body.mean_shear(), body.accumulated().clone());
     let cells = body.displacement().nrows();
     for position in 0..cells {
@@ -341,7 +342,7 @@ fn line(peak: f64, law: J2, passes: usize) -> Result<(Vec<Pass>, PlasticBody)> {
     };
     let middle = 0.5 * grid.extent()[0];
     let pressure = Field::from_shape_fn(grid.shape, |(i, _)| mean(grid.centre(0, i) - middle));
-    let mut load = Travelling::under(&mut volume, pressure, [-1.0, -2.0 * POISSON]);
+    let mut load = MovingStress::under(&mut volume, pressure, [-1.0, -2.0 * POISSON]);
     let mut body = PlasticBody::new(volume, Arc::new(law));
     let passes = (0..passes).map(|_| roll(&mut body, &mut load)).collect::<Result<Vec<_>>>()?;
     Ok((passes, body))
@@ -441,7 +442,7 @@ fn point(peak: f64, passes: usize) -> Result<Vec<Pass>> {
         peak * sum / 64.0
     });
     let limit = -(0.5 + POISSON);
-    let mut load = Travelling::under(&mut volume, pressure, [limit; 2]);
+    let mut load = MovingStress::under(&mut volume, pressure, [limit; 2]);
     let mut body = PlasticBody::new(volume, Arc::new(perfect()?));
     let passes = (0..passes).map(|_| roll(&mut body, &mut load)).collect::<Result<Vec<_>>>()?;
     Ok(passes)

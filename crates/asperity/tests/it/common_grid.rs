@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use asperity::study::case::Case;
-use asperity::study::{self, Given, bodies, grids};
+use asperity::study::{self, SurfaceInput, bodies, grids};
 use asperity::surface::Topography;
 use asperity::{CellValues, Error, Field, Grid, ndarray};
 
@@ -24,7 +24,7 @@ fn case(contact: &str, more: &str) -> Case {
 }
 
 /// A paraboloid about the centre of a grid, and a hardness of the lower body that grows along x.
-fn given() -> Given {
+fn given() -> SurfaceInput {
     let heights = |shape: [usize; 2], pitch: [f64; 2]| {
         let grid = Grid::new(shape, pitch).unwrap();
         let [lx, ly] = grid.extent();
@@ -34,7 +34,7 @@ fn given() -> Given {
         };
         Topography::new(grid, Field::from_shape_fn(shape, z)).unwrap()
     };
-    let mut given = Given::default();
+    let mut given = SurfaceInput::default();
     given.topographies.insert("lower".to_owned(), heights([64, 50], [1e-6, 1e-6]));
     given.topographies.insert("upper".to_owned(), heights([80, 60], [0.75e-6, 1.25e-6]));
     // The lower surface is resampled to 1.25 µm along y.

@@ -101,8 +101,14 @@ fn every_key_of_a_summary_is_explained() {
     for case in [ball.to_owned(), ball.replace("creepage = [2e-4, 0.0]", "force = [1e-3, 0.0]")] {
         let folder = tempfile::tempdir().unwrap();
         let case = Case::parse(&case, Path::new("case.toml"), folder.path()).unwrap();
-        study::run(&case, asperity::study::Given::default(), &folder.path().join("out"), Existing::Keep, &())
-            .unwrap();
+        study::run(
+            &case,
+            asperity::study::SurfaceInput::default(),
+            &folder.path().join("out"),
+            Existing::Keep,
+            &(),
+        )
+        .unwrap();
         let text = fs::read(folder.path().join("out/summary.json")).unwrap();
         keys(&serde_json::from_slice(&text).unwrap(), &mut names);
     }

@@ -366,7 +366,7 @@ fn every_case_is_as_it_should_be() {
     for (number, text) in CASES.iter().enumerate() {
         let case = Case::parse(text, Path::new("case.toml"), Path::new("")).unwrap();
         let folder = tempfile::tempdir().unwrap();
-        study::run(&case, asperity::study::Given::default(), folder.path(), Existing::Keep, &())
+        study::run(&case, asperity::study::SurfaceInput::default(), folder.path(), Existing::Keep, &())
             .unwrap_or_else(|e| panic!("{number}: {e}"));
     }
 }
@@ -377,12 +377,13 @@ fn extreme_values_are_refused_at_their_line_or_foreseen() {
         .par_iter()
         .map(|mutation| {
             let Some(case) = read(mutation) else { return 0 };
-            let Ok(demand) = demand(&case, &asperity::study::Given::default(), 2) else { return 1 };
+            let Ok(demand) = demand(&case, &asperity::study::SurfaceInput::default(), 2) else { return 1 };
             assert!(demand.memory > 0.0 && demand.effort >= 0.0, "{demand:?}\n{}", mutation.text);
             if is_large(&demand) {
                 return 1;
             }
-            match bodies(&case, asperity::study::Given::default()).and_then(|bodies| estimate(&case, &bodies))
+            match bodies(&case, asperity::study::SurfaceInput::default())
+                .and_then(|bodies| estimate(&case, &bodies))
             {
                 Ok(estimate) => assert!(
                     estimate.modulus > 0.0 && estimate.apparent_area > 0.0 && estimate.gap_slope.is_finite(),
@@ -405,13 +406,14 @@ fn what_is_computed_of_extreme_values_are_numbers() {
     let chosen: Vec<_> = mutations().into_iter().step_by(stride).collect();
     chosen.par_iter().for_each(|mutation| {
         let Some(case) = read(mutation) else { return };
-        let Ok(demand) = demand(&case, &asperity::study::Given::default(), 1) else { return };
+        let Ok(demand) = demand(&case, &asperity::study::SurfaceInput::default(), 1) else { return };
         if is_large(&demand) {
             told.lock().unwrap()[2] += 1;
             return;
         }
         let folder = tempfile::tempdir().unwrap();
-        match study::run(&case, asperity::study::Given::default(), folder.path(), Existing::Keep, &()) {
+        match study::run(&case, asperity::study::SurfaceInput::default(), folder.path(), Existing::Keep, &())
+        {
             Ok((summary, _)) => {
                 let written = serde_json::to_value(&summary).unwrap();
                 for part in ["static", "passes", "subsurface"] {

@@ -186,7 +186,8 @@ fn topographies_are_added_in_the_order_of_the_file() {
         Layer::Generate { generate: Generator::Autocorrelation(fine), seed: 0 },
     ];
     assert_eq!(case.upper.topography.plus, expected);
-    let heights = bodies(&case, asperity::study::Given::default()).unwrap().upper.topography.into_heights();
+    let heights =
+        bodies(&case, asperity::study::SurfaceInput::default()).unwrap().upper.topography.into_heights();
     let grid = Grid::new([64, 64], [1e-6; 2]).unwrap();
     let mut sum = Form::Sphere { radius: 1e-3 }.on(&grid).unwrap();
     for layer in expected {
@@ -197,7 +198,7 @@ fn topographies_are_added_in_the_order_of_the_file() {
 
 #[test]
 fn what_is_made_takes_the_shape_and_the_pitch_that_it_lacks_from_the_other_body_as_prepared() {
-    let made = bodies(&load("as_the_other"), asperity::study::Given::default()).unwrap();
+    let made = bodies(&load("as_the_other"), asperity::study::SurfaceInput::default()).unwrap();
     let grid = Grid::new([48, 32], [1e-6, 0.7e-6]).unwrap();
     assert_eq!([&made.lower, &made.upper].map(|body| *body.topography.grid()), [grid; 2]);
     let low_pass = LowPass::new(20e-9, [8e-6; 2]);
@@ -224,7 +225,7 @@ fn what_is_made_takes_the_shape_and_the_pitch_that_it_lacks_from_the_other_body_
         let short = case("");
         let long = case(", shape = [28, 40], pitch = [0.246913578246e-6, 0.3e-6]");
         let [found, expected] =
-            [&short, &long].map(|case| bodies(case, asperity::study::Given::default()).unwrap());
+            [&short, &long].map(|case| bodies(case, asperity::study::SurfaceInput::default()).unwrap());
         for (a, b) in [(&found.lower, &expected.lower), (&found.upper, &expected.upper)] {
             let pitches = [a, b].map(|body| body.topography.grid().pitch);
             assert!((0..2).all(|axis| (pitches[0][axis] / pitches[1][axis] - 1.0).abs() < 1e-12));
@@ -240,12 +241,12 @@ fn what_is_made_takes_the_shape_and_the_pitch_that_it_lacks_from_the_other_body_
         assert_eq!(made["pitch"], serde_json::json!(found.lower.topography.grid().pitch));
         let again = case(&format!(", shape = {}, pitch = {}", made["shape"], made["pitch"]));
         assert_eq!(
-            study::resolved(&again, &bodies(&again, asperity::study::Given::default()).unwrap())["identity"],
+            study::resolved(&again, &bodies(&again, asperity::study::SurfaceInput::default()).unwrap())["identity"],
             resolved["identity"]
         );
         assert_eq!(
-            demand(&short, &asperity::study::Given::default(), 1).unwrap().memory,
-            demand(&long, &asperity::study::Given::default(), 1).unwrap().memory
+            demand(&short, &asperity::study::SurfaceInput::default(), 1).unwrap().memory,
+            demand(&long, &asperity::study::SurfaceInput::default(), 1).unwrap().memory
         );
     }
 }
@@ -270,7 +271,8 @@ fn what_has_no_meaning_on_the_grid_is_shown_at_its_place() {
     ] {
         let text = text.replace(good, bad);
         let case = Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap();
-        let Err(asperity::Error::Case(error)) = bodies(&case, asperity::study::Given::default()) else {
+        let Err(asperity::Error::Case(error)) = bodies(&case, asperity::study::SurfaceInput::default())
+        else {
             panic!("{bad}")
         };
         assert!(error.message.starts_with(message), "{error:?}");

@@ -46,7 +46,7 @@ fn write_map(folder: &Path, map: &Field) {
 
 fn run(text: &str, folder: &Path, out: &str, existing: Existing) -> asperity::Result<Outcome> {
     let case = Case::parse(text, Path::new("case.toml"), folder)?;
-    study::run(&case, asperity::study::Given::default(), &folder.join(out), existing, &())
+    study::run(&case, asperity::study::SurfaceInput::default(), &folder.join(out), existing, &())
         .map(|(summary, _)| summary.outcome)
 }
 

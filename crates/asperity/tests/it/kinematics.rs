@@ -3,11 +3,11 @@
 use asperity::material::Material;
 use asperity::motion::{
     Acceleration, Contact, FILM, Law, LoadControl, Motion, OffsetY, Output, Pair, PassRecord, Path,
-    PlasticUpdate, Simulation, Step, StepRecord, Strategy, Way, Wear, WearCoefficient,
+    PlasticUpdate, Simulation, Step, StepRecord, Strategy, Stroke, Wear, WearCoefficient,
 };
 use asperity::operator::{Boundary, Edge, Operators};
 use asperity::solver::{Bounds, Control, Friction, Method, Params, solve_normal};
-use asperity::study::{self, Case, Existing, Given, Results};
+use asperity::study::{self, Case, Existing, Results, SurfaceInput};
 use asperity::surface::{Amplitude, SelfAffine, Topography};
 use asperity::temperature::Thermal;
 use asperity::{Error, Field, Grid, Result};
@@ -277,9 +277,9 @@ fn the_way_back_meets_the_contacts_of_the_way_forth_again_and_wears_as_much() {
     for (k, contact) in both.iter().enumerate() {
         let again = &forth[if k < n { k } else { 2 * n - 1 - k }];
         assert_eq!((&contact.pressure, &contact.plastic), (&again.pressure, &again.plastic));
-        assert_eq!(contact.position.way, if k < n { Way::Forth } else { Way::Back });
+        assert_eq!(contact.position.stroke, if k < n { Stroke::Forth } else { Stroke::Back });
         assert_eq!(contact.position.offset, again.position.offset);
-        assert_eq!(contact.tangential_force, contact.position.way.sign() * again.tangential_force);
+        assert_eq!(contact.tangential_force, contact.position.stroke.sign() * again.tangential_force);
         assert_eq!(contact.stats.convolutions == 0.0, k >= n);
     }
     let [one, two] = [&there.passes[0], &back.passes[0]];
@@ -560,7 +560,7 @@ fn a_resumed_motion_comes_to_the_same_bits_whatever_its_kinematics() {
             let text = format!("{case}[motion]\npasses = {passes}\n{motion}[output]\nparaview = true\n");
             let case = Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap();
             let out = folder.path().join(out);
-            study::run(&case, Given::default(), &out, existing, &())
+            study::run(&case, SurfaceInput::default(), &out, existing, &())
                 .unwrap_or_else(|error| panic!("{error}: {motion}"));
             Results::open(&out).unwrap()
         };

@@ -2,8 +2,8 @@
 
 use asperity::material::Material;
 use asperity::motion::{
-    Acceleration, Law, LoadControl, Motion, Output, Pair, PassRecord, PlasticUpdate, Simulation, State, Step,
-    Strategy, Touching,
+    Acceleration, ContactCells, Law, LoadControl, Motion, Output, Pair, PassRecord, PlasticUpdate,
+    Simulation, State, Step, Strategy,
 };
 use asperity::operator::Boundary;
 use asperity::solver::{Control, Friction, Params};
@@ -33,10 +33,10 @@ impl Law for Wear {
         2
     }
 
-    fn add(&self, _: &Pair, touching: &Touching, [lower, _]: &mut [Vec<Field>; 2]) {
+    fn add(&self, _: &Pair, contact_cells: &ContactCells, [lower, _]: &mut [Vec<Field>; 2]) {
         let [work, way] = lower.as_mut_slice() else { panic!("two sums") };
-        touching.add(0, work, |index| touching.pressure[index] * touching.sliding_distance);
-        touching.add(0, way, |_| touching.sliding_distance);
+        contact_cells.add(0, work, |index| contact_cells.pressure[index] * contact_cells.sliding_distance);
+        contact_cells.add(0, way, |_| contact_cells.sliding_distance);
     }
 
     fn advance(&self, pair: &mut Pair, [lower, upper]: &[Vec<Field>; 2], passes: f64) -> [Field; 2] {
@@ -173,10 +173,10 @@ impl Law for Oxidation {
         }
     }
 
-    fn add(&self, _: &Pair, touching: &Touching, sums: &mut [Vec<Field>; 2]) {
+    fn add(&self, _: &Pair, contact_cells: &ContactCells, sums: &mut [Vec<Field>; 2]) {
         for (body, sums) in sums.iter_mut().enumerate() {
-            touching.add(body, &mut sums[0], |index| {
-                OXIDATION * (-ACTIVATION / touching.temperature[body][index]).exp() * touching.time
+            contact_cells.add(body, &mut sums[0], |index| {
+                OXIDATION * (-ACTIVATION / contact_cells.temperature[body][index]).exp() * contact_cells.time
             });
         }
     }

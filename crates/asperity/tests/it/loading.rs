@@ -511,7 +511,7 @@ fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
         let case = parsed(text);
         let folder = tempfile::tempdir().unwrap();
         let whole = folder.path().join("whole");
-        study::run(&case, asperity::study::Given::default(), &whole, Existing::Keep, &()).unwrap();
+        study::run(&case, asperity::study::SurfaceInput::default(), &whole, Existing::Keep, &()).unwrap();
         let expected = outcome(&whole);
         // After each increment, and once within one.
         for stopped in 1..increments {
@@ -519,7 +519,7 @@ fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
             let outcome_of = |existing, most| {
                 study::run(
                     &case,
-                    asperity::study::Given::default(),
+                    asperity::study::SurfaceInput::default(),
                     &directory,
                     existing,
                     &Until::increment(most),
@@ -537,7 +537,8 @@ fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
                 fs::write(&state, kept).unwrap();
                 fs::write(directory.join("increments.csv"), rows).unwrap();
             }
-            study::run(&case, asperity::study::Given::default(), &directory, Existing::Resume, &()).unwrap();
+            study::run(&case, asperity::study::SurfaceInput::default(), &directory, Existing::Resume, &())
+                .unwrap();
             assert!(outcome(&directory) == expected, "{text}: stopped after {stopped}");
         }
     }
@@ -546,10 +547,15 @@ fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
 #[test]
 fn a_loading_without_friction_leaves_its_increments_and_one_gap_with_what_was_taken_up() {
     let folder = tempfile::tempdir().unwrap();
-    let summary =
-        study::run(&parsed(PRESSED), asperity::study::Given::default(), folder.path(), Existing::Keep, &())
-            .unwrap()
-            .0;
+    let summary = study::run(
+        &parsed(PRESSED),
+        asperity::study::SurfaceInput::default(),
+        folder.path(),
+        Existing::Keep,
+        &(),
+    )
+    .unwrap()
+    .0;
     let results = asperity::study::Results::open(folder.path()).unwrap();
     let rows = results.increments().unwrap();
     assert_eq!(rows.iter().map(|row| row.stage).collect::<Vec<_>>(), [1, 2, 2, 2, 3, 3]);
@@ -588,7 +594,7 @@ fn loads_that_what_slides_does_not_bear_are_refused_beforehand() {
         ("[contact]\nload = \"1 mN\"\n[[history]]\nload = \"1 N\"".to_owned(), false),
     ] {
         let case = parsed(&text);
-        let bodies = asperity::study::bodies(&case, asperity::study::Given::default()).unwrap();
+        let bodies = asperity::study::bodies(&case, asperity::study::SurfaceInput::default()).unwrap();
         let found = asperity::study::estimate(&case, &bodies);
         match found {
             Ok(_) => assert!(bears, "{text}"),
@@ -629,9 +635,9 @@ fn what_friction_is_not_asked_rightly_is_said_beforehand() {
         (smooth(&rolling).replace("0.6 GPa", "0.2 GPa").replace("50 mN", "1 uN"), vec![]),
     ] {
         let case = case::Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap();
-        let bodies = asperity::study::bodies(&case, asperity::study::Given::default()).unwrap();
+        let bodies = asperity::study::bodies(&case, asperity::study::SurfaceInput::default()).unwrap();
         let estimate = asperity::study::estimate(&case, &bodies).unwrap();
-        let warnings = [estimate.warnings, estimate.foreseen].concat().join("\n");
+        let warnings = [estimate.warnings, estimate.predicted].concat().join("\n");
         for part in [ONE_STEP, AT_ONCE, ROUGH, TRACK] {
             assert_eq!(warnings.contains(part), said.contains(&part), "{part}: {text}\n{warnings}");
         }
@@ -655,9 +661,9 @@ fn what_rolls_from_a_file_is_rough_by_what_it_holds() {
         surface.write(folder.path().join("ball.npy")).unwrap();
         let path = folder.path().join("case.toml");
         let case = case::Case::parse(text, &path, folder.path()).unwrap();
-        let bodies = asperity::study::bodies(&case, asperity::study::Given::default()).unwrap();
+        let bodies = asperity::study::bodies(&case, asperity::study::SurfaceInput::default()).unwrap();
         let estimate = asperity::study::estimate(&case, &bodies).unwrap();
-        let warnings = [estimate.warnings, estimate.foreseen].concat();
+        let warnings = [estimate.warnings, estimate.predicted].concat();
         let said = |part: &str| warnings.iter().any(|warning| warning.contains(part));
         assert_eq!(said("steady rolling of a rough surface"), is_rough, "{warnings:?}");
         assert!(!said("not flattened before"), "{warnings:?}");
@@ -671,7 +677,7 @@ fn what_only_the_answer_shows_is_said_with_it() {
         let case = case::Case::parse(text, "case.toml".as_ref(), "".as_ref()).unwrap();
         let summary = study::run(
             &case,
-            asperity::study::Given::default(),
+            asperity::study::SurfaceInput::default(),
             &folder.path().join(name),
             Existing::Keep,
             &(),

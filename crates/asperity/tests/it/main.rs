@@ -9,7 +9,7 @@ mod common_grid;
 mod convergence;
 mod documents;
 mod extremes;
-mod flowing;
+mod elasto_plastic;
 mod friction;
 mod good_inputs;
 mod hardness;

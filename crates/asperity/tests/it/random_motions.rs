@@ -389,7 +389,7 @@ fn again(
             let loading = Loading {
                 normal,
                 tangential: Tangential::Sliding([
-                    position.way.sign() * case.motion.strategy.direction(),
+                    position.stroke.sign() * case.motion.strategy.direction(),
                     0.0,
                 ]),
             };

@@ -25,7 +25,9 @@ fn a_measured_surface_runs_in_against_a_generated_one() {
     let case = Case::parse(&text, Path::new("real.toml"), Path::new("")).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let summary =
-        study::run(&case, asperity::study::Given::default(), folder.path(), Existing::Keep, &()).unwrap().0;
+        study::run(&case, asperity::study::SurfaceInput::default(), folder.path(), Existing::Keep, &())
+            .unwrap()
+            .0;
 
     let Outcome::Passes(passes) = summary.outcome else { panic!("{:?}", summary.outcome) };
     assert_eq!(passes.len(), 2);

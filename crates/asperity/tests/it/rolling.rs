@@ -13,7 +13,7 @@ use asperity::operator::Boundary;
 use asperity::plasticity::{FlowParams, Hardening, J2, Layers, PlasticBody, PlasticState, Volume};
 use asperity::solver::{Control, Friction, Params};
 use asperity::study::case::Case;
-use asperity::study::{self, Existing, Given, Results, Summary};
+use asperity::study::{self, Existing, Results, Summary, SurfaceInput};
 use asperity::surface::Topography;
 use asperity::{Error, Field, Grid};
 
@@ -67,8 +67,8 @@ impl Output for Kept {
         let Step::Pass(report) = step else { return Ok(()) };
         self.passes.push(report.record.clone());
         self.steps.extend(report.steps.iter().cloned());
-        self.states = report.flowed.iter().map(|volume| volume.state.clone()).collect();
-        self.displacement = report.flowed.iter().map(|volume| volume.displacement.clone()).collect();
+        self.states = report.plastic_volumes.iter().map(|volume| volume.state.clone()).collect();
+        self.displacement = report.plastic_volumes.iter().map(|volume| volume.displacement.clone()).collect();
         Ok(())
     }
 }
@@ -376,7 +376,7 @@ fn an_interrupted_motion_goes_on_to_the_same_bits_and_keeps_the_volumes_asked_fo
     let folder = tempfile::tempdir().unwrap();
     let whole = folder.path().join("whole");
     let run = |keep: &str, out: &Path, existing, watch: &dyn Watch| -> asperity::Result<Summary> {
-        study::run(&case(keep), Given::default(), out, existing, watch).map(|(summary, _)| summary)
+        study::run(&case(keep), SurfaceInput::default(), out, existing, watch).map(|(summary, _)| summary)
     };
     let summary = run("last", &whole, Existing::Keep, &()).unwrap();
     let flow = summary.plasticity.unwrap();
@@ -425,7 +425,7 @@ fn what_the_model_bears_badly_is_told() {
         let case = Case::parse(&text, Path::new("rolling.toml"), Path::new("")).unwrap();
         let folder = tempfile::tempdir().unwrap();
         let out = folder.path().join("out");
-        study::run(&case, Given::default(), &out, Existing::Keep, &()).unwrap().0.warnings.join("\n")
+        study::run(&case, SurfaceInput::default(), &out, Existing::Keep, &()).unwrap().0.warnings.join("\n")
     };
     assert_eq!(warnings(&[]), "");
     assert!(warnings(&[("\"80 um\"", "\"20 um\"")]).contains("yields in its deepest layer"));

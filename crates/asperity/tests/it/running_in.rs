@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use asperity::material::Material;
 use asperity::motion::{
-    Acceleration, FILM, Film, FilmLaw, FilmStress, Films, Law, LoadControl, Motion, Output, Pair, PassRecord,
-    Simulation, Step, Strategy, Touching, Wear, WearCoefficient,
+    Acceleration, ContactCells, FILM, Film, FilmLaw, FilmStress, Films, Law, LoadControl, Motion, Output,
+    Pair, PassRecord, Simulation, Step, Strategy, Wear, WearCoefficient,
 };
 use asperity::operator::Boundary;
 use asperity::solver::{Control, Params};
@@ -291,7 +291,7 @@ impl Law for Once {
         false
     }
 
-    fn add(&self, _: &Pair, _: &Touching, _: &mut [Vec<Field>; 2]) {}
+    fn add(&self, _: &Pair, _: &ContactCells, _: &mut [Vec<Field>; 2]) {}
 
     fn advance(&self, _: &mut Pair, sums: &[Vec<Field>; 2], _: f64) -> [Field; 2] {
         [sums[0][0].mapv(|_| 1e-9), sums[1][0].clone()]
@@ -317,7 +317,7 @@ fn what_is_not_accelerated_keeps_nothing_for_jumps() {
     impl Output for Warm {
         fn step(&mut self, step: &Step<'_>) -> Result<()> {
             let Step::Pass(report) = step else { return Ok(()) };
-            self.0.push(report.warm.jump.is_some());
+            self.0.push(report.warm.extrapolation.is_some());
             Ok(())
         }
     }
@@ -335,7 +335,7 @@ fn what_is_not_accelerated_keeps_nothing_for_jumps() {
 /// A pass with one position over the whole length of surfaces that are pressed flat. The wear is computed by the law, or by
 /// the caller as an explicit step. Returns the amplitude of the checkerboard mode of the pressures over their mean, after
 /// `passes` passes.
-fn chequered(wear: f64, passes: usize, by_law: bool) -> f64 {
+fn checkerboard(wear: f64, passes: usize, by_law: bool) -> f64 {
     const CELLS: usize = 16;
     let grid = Grid::new([CELLS, CELLS], [PITCH; 2]).unwrap();
     let steel = steel(f64::INFINITY);
@@ -343,12 +343,12 @@ fn chequered(wear: f64, passes: usize, by_law: bool) -> f64 {
     // A checkerboard surface whose pressures alternate by a thousandth of the mean, which is E*/1000.
     let flat = Form::Flat.on(&grid).unwrap();
     let pair = Pair::new(flat.clone(), flat, [&steel; 2]).unwrap();
-    let (modulus, softness) = (pair.modulus(), chequered_softness(&pair));
+    let (modulus, compliance_of_grid) = (pair.modulus(), chequered_softness(&pair));
     let mut pair = pair;
-    let depth = 1e-6 * modulus * softness;
+    let depth = 1e-6 * modulus * compliance_of_grid;
     pair.lower.heights = Field::from_shape_fn(grid.shape, |(i, j)| depth * alternating(i, j));
     let length = CELLS as f64 * PITCH;
-    let coefficient = wear * 2.0 * softness / (2.0 * length);
+    let coefficient = wear * 2.0 * compliance_of_grid / (2.0 * length);
     let motion = Motion::new(SLIDE, Control::Load(1e-3 * modulus * grid.area()))
         .with_passes(passes)
         .with_stride(CELLS)
@@ -381,17 +381,17 @@ fn chequered_softness(pair: &Pair) -> f64 {
 /// wears more, a pass is solved together with its wear, and does not oscillate.
 #[test]
 fn beyond_the_stability_bound_pressures_swing_unless_a_pass_is_solved_with_its_wear() {
-    let first = chequered(0.9, 1, false);
+    let first = checkerboard(0.9, 1, false);
     assert!((first / 1e-3 - 1.0).abs() < 1e-3, "{first:e}");
     // A pass multiplies a checkerboard pressure by |1 − 2 · 0.9|, and by |1 − 2 · 1.1|.
     for (wear, by_law) in [(0.9, false), (0.9, true)] {
-        let left = chequered(wear, 21, by_law);
+        let left = checkerboard(wear, 21, by_law);
         assert!((left / first / 0.8_f64.powi(20) - 1.0).abs() < 0.01, "{left:e}");
     }
-    let swung = chequered(1.1, 61, false);
+    let swung = checkerboard(1.1, 61, false);
     assert!(swung > 0.5, "{swung}");
     // An implicit pass multiplies it by 1/(1 + 2 · 1.1).
-    let worn = chequered(1.1, 6, true);
+    let worn = checkerboard(1.1, 6, true);
     let expected = 1e-3 / 3.2_f64.powi(6);
     assert!((worn / expected - 1.0).abs() < 0.01, "{worn:e}, expected {expected:e}");
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use asperity::study::case::Case;
-use asperity::study::{self, ClosedFormRecord, Given, Theory};
+use asperity::study::{self, ClosedFormRecord, SurfaceInput, Theory};
 
 /// The closed form beside a contact of two steel bodies under these tables.
 fn beside(lower: &str, upper: &str, contact: &str, more: &str) -> Option<ClosedFormRecord> {
@@ -15,7 +15,7 @@ fn beside(lower: &str, upper: &str, contact: &str, more: &str) -> Option<ClosedF
     let text = format!("{lower}{}[contact]\n{contact}\n", body("upper", upper, ""));
     let case =
         Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap_or_else(|e| panic!("{e}\n{text}"));
-    study::rest(&case, Given::default(), &()).unwrap().closed_form
+    study::rest(&case, SurfaceInput::default(), &()).unwrap().closed_form
 }
 
 const FLAT: &str = "form = \"flat\"";

@@ -29,7 +29,7 @@ output = { pressure_every = 4 }
 fn run(case: &str, subsurface: &str, directory: &Path, existing: Existing) -> Summary {
     let text = format!("{case}\n[subsurface]\n{subsurface}");
     let case = Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap();
-    study::run(&case, asperity::study::Given::default(), directory, existing, &()).unwrap().0
+    study::run(&case, asperity::study::SurfaceInput::default(), directory, existing, &()).unwrap().0
 }
 
 #[test]

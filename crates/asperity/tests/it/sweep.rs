@@ -258,7 +258,7 @@ fn through_creepages_a_cylinder_draws_carters_curve() {
     let case = Case::parse(ROLLING, "case.toml".as_ref(), "".as_ref()).unwrap();
     let out = folder.path().join("out");
     let (summary, _) =
-        study::run(&case, asperity::study::Given::default(), &out, Existing::Keep, &()).unwrap();
+        study::run(&case, asperity::study::SurfaceInput::default(), &out, Existing::Keep, &()).unwrap();
     let Outcome::Sweep(points) = &summary.outcome else { panic!() };
     let modulus = 210e9 / (2.0 * (1.0 - 0.09));
     let hertz = HertzLine { radius: 5e-3, modulus, load_per_length: 0.04 / 2e-6 };
@@ -276,7 +276,7 @@ fn through_creepages_a_cylinder_draws_carters_curve() {
         let case = Case::parse(&one, "case.toml".as_ref(), "".as_ref()).unwrap();
         let alone = folder.path().join(format!("alone-{}", point.point));
         let Outcome::Static(alone) =
-            study::run(&case, asperity::study::Given::default(), &alone, Existing::Keep, &())
+            study::run(&case, asperity::study::SurfaceInput::default(), &alone, Existing::Keep, &())
                 .unwrap()
                 .0
                 .outcome
@@ -290,13 +290,13 @@ fn through_creepages_a_cylinder_draws_carters_curve() {
         let broken = folder.path().join(format!("broken-{count}"));
         let stopped = study::run(
             &case,
-            asperity::study::Given::default(),
+            asperity::study::SurfaceInput::default(),
             &broken,
             Existing::Keep,
             &StopAfter::points(count),
         );
         assert!(matches!(stopped, Err(Error::Interrupted)));
-        study::run(&case, asperity::study::Given::default(), &broken, Existing::Resume, &()).unwrap();
+        study::run(&case, asperity::study::SurfaceInput::default(), &broken, Existing::Resume, &()).unwrap();
         for file in ["sweep.csv", "fields.h5"] {
             assert_eq!(
                 fs::read(broken.join(file)).unwrap(),
@@ -315,7 +315,7 @@ fn an_interrupted_sweep_goes_on_to_the_same_bits() {
     let case = Case::parse(CASE, "case.toml".as_ref(), "".as_ref()).unwrap();
     let whole = folder.path().join("whole");
     let (summary, _) =
-        study::run(&case, asperity::study::Given::default(), &whole, Existing::Keep, &()).unwrap();
+        study::run(&case, asperity::study::SurfaceInput::default(), &whole, Existing::Keep, &()).unwrap();
     let Outcome::Sweep(points) = &summary.outcome else { panic!() };
     assert_eq!(points, &Results::open(&whole).unwrap().sweep().unwrap());
     assert!(
@@ -325,14 +325,14 @@ fn an_interrupted_sweep_goes_on_to_the_same_bits() {
         let broken = folder.path().join(format!("broken-{count}"));
         let stopped = study::run(
             &case,
-            asperity::study::Given::default(),
+            asperity::study::SurfaceInput::default(),
             &broken,
             Existing::Keep,
             &StopAfter::points(count),
         );
         assert!(matches!(stopped, Err(Error::Interrupted)));
         assert_eq!(Results::open(&broken).unwrap().sweep().unwrap(), points[..count]);
-        study::run(&case, asperity::study::Given::default(), &broken, Existing::Resume, &()).unwrap();
+        study::run(&case, asperity::study::SurfaceInput::default(), &broken, Existing::Resume, &()).unwrap();
         let files = [
             "sweep.csv",
             "fields.h5",
@@ -351,13 +351,13 @@ fn an_interrupted_sweep_goes_on_to_the_same_bits() {
     // Damaged files, and those of another sweep, are refused.
     let broken = folder.path().join("broken-3");
     fs::remove_file(broken.join("fields/point-0003.h5")).unwrap();
-    let error = study::run(&case, asperity::study::Given::default(), &broken, Existing::Resume, &())
+    let error = study::run(&case, asperity::study::SurfaceInput::default(), &broken, Existing::Resume, &())
         .err()
         .unwrap()
         .to_string();
     assert!(error.ends_with("point-0003.h5 is missing"), "{error}");
     let other = Case::parse(&CASE.replace("0.3 N", "0.4 N"), "case.toml".as_ref(), "".as_ref()).unwrap();
-    let error = study::run(&other, asperity::study::Given::default(), &whole, Existing::Resume, &())
+    let error = study::run(&other, asperity::study::SurfaceInput::default(), &whole, Existing::Resume, &())
         .err()
         .unwrap()
         .to_string();
@@ -369,7 +369,7 @@ fn the_fields_of_points_are_those_of_their_contacts() {
     let folder = tempfile::tempdir().unwrap();
     let case = Case::parse(CASE, "case.toml".as_ref(), "".as_ref()).unwrap();
     let out = folder.path().join("out");
-    study::run(&case, asperity::study::Given::default(), &out, Existing::Keep, &()).unwrap();
+    study::run(&case, asperity::study::SurfaceInput::default(), &out, Existing::Keep, &()).unwrap();
     let results = Results::open(&out).unwrap();
     let field = |point: usize, name: &str| {
         results.point_fields(point).unwrap().read(name).unwrap().into_field().unwrap()

@@ -99,7 +99,7 @@ fn wear_of_the_rim_a_thick_film_and_passes_all_computed_are_told_of() {
     let flat = run(&flat).warnings;
     assert!(told(&flat, "the film on the lower body is up to "), "{flat:?}");
     let case = sliding_under("30 mN", RAISED, "0.5 m/s", wear, &format!("stride = 4\n{bulk}"));
-    let mut given = study::Given::default();
+    let mut given = study::SurfaceInput::default();
     for name in ["lower", "upper"] {
         // Its ends are raised.
         let heights = Field::from_shape_fn([32, 16], |(i, j)| {
@@ -468,15 +468,21 @@ fn moving(cells: i32, motion: &str, hardness: [&str; 2], seed: u64, output: &str
 }
 
 fn check(case: &Case) -> Vec<String> {
-    let estimate = estimate(case, &bodies(case, asperity::study::Given::default()).unwrap()).unwrap();
-    estimate.warnings.into_iter().chain(estimate.foreseen).collect()
+    let estimate = estimate(case, &bodies(case, asperity::study::SurfaceInput::default()).unwrap()).unwrap();
+    estimate.warnings.into_iter().chain(estimate.predicted).collect()
 }
 
 fn run(case: &Case) -> Summary {
     let folder = tempfile::tempdir().unwrap();
-    study::run(case, asperity::study::Given::default(), &folder.path().join("results"), Existing::Keep, &())
-        .unwrap()
-        .0
+    study::run(
+        case,
+        asperity::study::SurfaceInput::default(),
+        &folder.path().join("results"),
+        Existing::Keep,
+        &(),
+    )
+    .unwrap()
+    .0
 }
 
 fn record(summary: &Summary) -> &StaticRecord {

@@ -10,7 +10,7 @@ use asperity::motion::{
 };
 use asperity::operator::Boundary;
 use asperity::solver::{Control, Creep, Friction, Loading, Method, Params, Rolling, Tangential};
-use asperity::study::{self, Case, Existing, Given};
+use asperity::study::{self, Case, Existing, SurfaceInput};
 use asperity::surface::{Amplitude, SelfAffine};
 use asperity::{Error, Grid};
 
@@ -171,7 +171,7 @@ fn what_was_interrupted_goes_on_from_the_rows_that_it_has_written_and_from_no_ot
         let out = folder.path().join("out");
         let case = Case::parse(&case, Path::new("case.toml"), folder.path()).unwrap();
         let run = |existing: Existing, watch: &dyn Watch| {
-            study::run(&case, Given::default(), &out, existing, watch).map(|(summary, _)| summary)
+            study::run(&case, SurfaceInput::default(), &out, existing, watch).map(|(summary, _)| summary)
         };
         let stopped = run(Existing::Keep, &Until(out.join(state)));
         assert!(matches!(stopped, Err(Error::Interrupted)), "{table}: {stopped:?}");

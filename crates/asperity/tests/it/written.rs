@@ -9,11 +9,13 @@ use asperity::grid::{Field, Grid};
 use asperity::io::fields::Attribute;
 use asperity::material::Material;
 use asperity::motion::{
-    InPlace, Law, LoadControl, Motion, Pair, Simulation, Slide, State, Strategy, Touching,
+    ContactCells, Law, LoadControl, Motion, Pair, Simulation, Slide, State, Strategy, WearInPlace,
 };
 use asperity::operator::Boundary;
 use asperity::solver::{Control, Params};
-use asperity::study::{self, Case, Existing, Given, Outcome, Results, Summary, cap_name, pressure_name};
+use asperity::study::{
+    self, Case, Existing, Outcome, Results, Summary, SurfaceInput, cap_name, pressure_name,
+};
 use asperity::surface::Form;
 
 fn case(text: &str) -> Case {
@@ -21,7 +23,7 @@ fn case(text: &str) -> Case {
 }
 
 fn run(text: &str, folder: &Path) -> (Summary, Results) {
-    let (summary, _) = study::run(&case(text), Given::default(), folder, Existing::Keep, &()).unwrap();
+    let (summary, _) = study::run(&case(text), SurfaceInput::default(), folder, Existing::Keep, &()).unwrap();
     (summary, Results::open(folder).unwrap())
 }
 
@@ -48,7 +50,7 @@ impl Law for Spoil {
         false
     }
 
-    fn add(&self, _: &Pair, _: &Touching, _: &mut [Vec<Field>; 2]) {}
+    fn add(&self, _: &Pair, _: &ContactCells, _: &mut [Vec<Field>; 2]) {}
 
     fn advance(&self, pair: &mut Pair, _: &[Vec<Field>; 2], _: f64) -> [Field; 2] {
         let mut depths = [&pair.lower, &pair.upper].map(|body| Field::zeros(body.heights.raw_dim()));
@@ -87,7 +89,7 @@ fn no_pass_and_no_update_that_is_no_number_is_handed_on() {
         assert!(error.hint().unwrap().contains("unit"));
 
         let slide = Slide::to(vec![1e-3, 2e-3, 3e-3], Control::Load(1e-3));
-        let contact = InPlace::new(ball(), Boundary::FREE, slide, Params::default()).unwrap();
+        let contact = WearInPlace::new(ball(), Boundary::FREE, slide, Params::default()).unwrap();
         let error = contact.with_law(law(3)).run(None, &(), &mut []).unwrap_err();
         let AtUpdate { update: 3, source } = &error else { panic!("{error:?}") };
         assert!(matches!(&**source, NotFinite { field: found, .. } if found == field), "{error:?}");
@@ -102,7 +104,7 @@ fn a_film_that_grows_without_bound_stays_at_its_thickest() {
     let text = format!(
         "{SLIDING}wear = {{ coefficient = 1e-16, under_film = 1e-17 }}\n{film}\n{BALL}updates = 3\nspeed = 1e-9\n[temperature]\nbulk = 9e4\n"
     );
-    let mut rest = study::rest(&case(&text), Given::default(), &()).unwrap();
+    let mut rest = study::rest(&case(&text), SurfaceInput::default(), &()).unwrap();
     let [film, pressure] = ["film_lower", "pressure"].map(|name| rest.fields.take(name).unwrap());
     let thickest = film.iter().copied().fold(0.0, f64::max);
     assert!((thickest / 10e-9 - 1.0).abs() < 1e-6, "{thickest:e}");
@@ -126,7 +128,7 @@ fn what_a_film_loses_has_grown_and_its_volume_is_that_of_its_thickness() {
             "film = {{ law = \"mechano-chemical\", max_thickness = 1e-7, x = {x:e}, c3 = 3e-8, c4 = 1000 }}"
         );
         let text = format!("{SLIDING}{film}\n{BALL}speed = 1\nupdates = 4\n[temperature]\nbulk = 373.15\n");
-        let mut rest = study::rest(&case(&text), Given::default(), &()).unwrap();
+        let mut rest = study::rest(&case(&text), SurfaceInput::default(), &()).unwrap();
         let [film, lower] = ["film_lower", "lower"].map(|name| rest.fields.take(name).unwrap());
         assert!(film.iter().all(|f| *f >= 0.0), "{film}");
         let [volume, rise] = [&film, &lower].map(|field| 1e-12 * field.sum());
@@ -194,7 +196,7 @@ fn caps_are_those_of_the_contact_that_they_stand_beside() {
         "[upper]",
         "[sliding]\ndistance = \"1 mm\"\nupdates = 2\nspeed = 1\n[temperature]\nbulk = 400\n[upper]",
     );
-    let mut rest = study::rest(&case(&place), Given::default(), &()).unwrap();
+    let mut rest = study::rest(&case(&place), SurfaceInput::default(), &()).unwrap();
     let least = rest.fields.take("cap").unwrap().iter().copied().fold(f64::INFINITY, f64::min);
     assert!((least / 0.9e9 - 1.0).abs() < 1e-6, "{least:e}");
     assert_eq!(rest.fields.hardness, least);
@@ -317,7 +319,7 @@ fn each_position_has_the_fields_that_others_have() {
         .replace("[motion]\nspeed = 1\n", "[sliding]\ndistance = 1e-3\nupdates = 1\nspeed = 1\n")
         .replace("[output]\npressure_every = 1\n", "")
         .replacen("poisson = 0.3\n", "poisson = 0.3\nwear = { coefficient = 1e-16 }\n", 1);
-    let mut rest = study::rest(&case(&place), Given::default(), &()).unwrap();
+    let mut rest = study::rest(&case(&place), SurfaceInput::default(), &()).unwrap();
     assert!(rest.fields.take("temperature").unwrap().iter().all(|t| t.is_nan()));
     assert!(matches!(rest.outcome, Outcome::Static(_)));
 }

@@ -6,7 +6,7 @@ use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use serde::ser::Serializer;
 
 use super::Column;
-use super::number::Known;
+use super::number::OptionalNumber;
 use crate::units::CubicMetre;
 
 /// Endings of the columns of a law, after its name.
@@ -82,7 +82,7 @@ fn read<'de, const N: usize, D: Deserializer<'de>>(
     endings: [&str; N],
 ) -> Result<Vec<(String, [CubicMetre; N])>, D::Error> {
     // All columns that no field has come here, those of numbers that there are not among them.
-    let columns = deserializer.deserialize_map(InOrder)?;
+    let columns = deserializer.deserialize_map(ColumnsInOrder)?;
     let laws = columns.iter().filter_map(|(column, _)| column.strip_suffix(endings[0]));
     laws.map(|law| {
         let mut values = [0.0; N];
@@ -97,9 +97,9 @@ fn read<'de, const N: usize, D: Deserializer<'de>>(
 }
 
 /// Columns in their order, which is that of the laws.
-struct InOrder;
+struct ColumnsInOrder;
 
-impl<'de> Visitor<'de> for InOrder {
+impl<'de> Visitor<'de> for ColumnsInOrder {
     type Value = Vec<(String, Option<CubicMetre>)>;
 
     fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
@@ -108,7 +108,7 @@ impl<'de> Visitor<'de> for InOrder {
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
         let mut columns = Vec::new();
-        while let Some((column, Known(value))) = map.next_entry()? {
+        while let Some((column, OptionalNumber(value))) = map.next_entry()? {
             columns.push((column, value));
         }
         Ok(columns)

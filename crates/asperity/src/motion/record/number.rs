@@ -7,48 +7,48 @@ use serde::{Deserialize, Deserializer};
 
 /// Reads a number that may be unknown: NaN then.
 pub(super) fn number_or_none<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Ok(Known::deserialize(deserializer)?.0.unwrap_or(f64::NAN))
+    Ok(OptionalNumber::deserialize(deserializer)?.0.unwrap_or(f64::NAN))
 }
 
 /// A number of a table or of JSON; none where the cell is empty, or JSON has `null`.
-pub(super) struct Known(pub(super) Option<f64>);
+pub(super) struct OptionalNumber(pub(super) Option<f64>);
 
-impl<'de> Deserialize<'de> for Known {
+impl<'de> Deserialize<'de> for OptionalNumber {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Number;
 
         impl Visitor<'_> for Number {
-            type Value = Known;
+            type Value = OptionalNumber;
 
             fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
                 formatter.write_str("a number, or nothing")
             }
 
-            fn visit_f64<E>(self, value: f64) -> Result<Known, E> {
-                Ok(Known(Some(value)))
+            fn visit_f64<E>(self, value: f64) -> Result<OptionalNumber, E> {
+                Ok(OptionalNumber(Some(value)))
             }
 
-            fn visit_u64<E>(self, value: u64) -> Result<Known, E> {
-                Ok(Known(Some(value as f64)))
+            fn visit_u64<E>(self, value: u64) -> Result<OptionalNumber, E> {
+                Ok(OptionalNumber(Some(value as f64)))
             }
 
-            fn visit_i64<E>(self, value: i64) -> Result<Known, E> {
-                Ok(Known(Some(value as f64)))
+            fn visit_i64<E>(self, value: i64) -> Result<OptionalNumber, E> {
+                Ok(OptionalNumber(Some(value as f64)))
             }
 
-            fn visit_str<E: Error>(self, value: &str) -> Result<Known, E> {
+            fn visit_str<E: Error>(self, value: &str) -> Result<OptionalNumber, E> {
                 match value {
-                    "" => Ok(Known(None)),
+                    "" => Ok(OptionalNumber(None)),
                     text => Err(E::invalid_value(Unexpected::Str(text), &self)),
                 }
             }
 
-            fn visit_unit<E>(self) -> Result<Known, E> {
-                Ok(Known(None))
+            fn visit_unit<E>(self) -> Result<OptionalNumber, E> {
+                Ok(OptionalNumber(None))
             }
 
-            fn visit_none<E>(self) -> Result<Known, E> {
-                Ok(Known(None))
+            fn visit_none<E>(self) -> Result<OptionalNumber, E> {
+                Ok(OptionalNumber(None))
             }
         }
 

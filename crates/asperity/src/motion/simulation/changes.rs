@@ -4,10 +4,12 @@ use super::Simulation;
 use crate::error::Result;
 use crate::grid::Field;
 use crate::motion::body::Body;
+use crate::motion::extrapolation::{
+    self, Acceleration, Bounds, Extrapolation, GridCompliance, LastExtrapolation,
+};
 use crate::motion::film::FILM;
 use crate::motion::heat::PassHeat;
-use crate::motion::jump::{self, Acceleration, Bounds, Jump, Leap, Softness};
-use crate::motion::law::{self, Heat, Law, Sums, Warmth};
+use crate::motion::law::{self, FrictionHeat, Heat, Law, Sums};
 use crate::motion::pass::Pass;
 use crate::motion::plastic::PlasticFlow;
 use crate::motion::record::{RunningRecord, StepRecord};
@@ -21,7 +23,7 @@ pub(super) struct Changes {
     pub(super) laws: Vec<Box<dyn Law>>,
     pub(super) acceleration: Acceleration,
     /// Compliance of single cells; set once a law repeats.
-    softness: Option<Softness>,
+    compliance_of_grid: Option<GridCompliance>,
     /// The flash temperature over a pass, if requested.
     pub(super) heat: Option<PassHeat>,
 }
@@ -30,13 +32,13 @@ impl Changes {
     /// Plastic deformation alone.
     pub(super) fn new() -> Self {
         let laws: Vec<Box<dyn Law>> = vec![Box::new(PlasticFlow)];
-        Self { laws, acceleration: Acceleration::NONE, softness: None, heat: None }
+        Self { laws, acceleration: Acceleration::NONE, compliance_of_grid: None, heat: None }
     }
 
     /// Adds a law.
-    pub(super) fn add(&mut self, law: Box<dyn Law>, softness: impl FnOnce() -> Softness) {
+    pub(super) fn add(&mut self, law: Box<dyn Law>, compliance_of_grid: impl FnOnce() -> GridCompliance) {
         if law.repeats() {
-            self.softness.get_or_insert_with(softness);
+            self.compliance_of_grid.get_or_insert_with(compliance_of_grid);
             self.laws.push(law);
         } else {
             // Laws that act once per computed pass come first, because the extrapolation depends on their results.
@@ -52,7 +54,7 @@ impl Changes {
 
 /// Wear in a pass by the laws that repeat.
 pub(super) struct PassWear {
-    softness: Softness,
+    compliance_of_grid: GridCompliance,
     /// Number of passes of such wear at which a checkerboard mode of the pressures would not decay with explicit steps.
     stable: f64,
     /// The depths that an explicit step would have removed, if the pass was solved implicitly.
@@ -63,24 +65,33 @@ impl Simulation {
     /// Solves a pass again, with its wear, if it wears too much for an explicit step. The new contacts replace those of the
     /// `outcome`. Returns `None` if no law repeats.
     pub(super) fn solve_with_wear(&self, outcome: &mut Pass, watch: &dyn Watch) -> Result<Option<PassWear>> {
-        let Some(softness) = self.changes.softness.filter(|_| !outcome.has_changed) else { return Ok(None) };
-        let passage = self.motion.passage(self.pair.pitch()[0]);
+        let Some(compliance_of_grid) = self.changes.compliance_of_grid.filter(|_| !outcome.has_changed)
+        else {
+            return Ok(None);
+        };
+        let position_data = self.motion.position_data(self.pair.pitch()[0]);
         let friction = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
         let laws = &self.changes.laws[self.changes.once()..];
-        let relaxation = jump::relaxation(&outcome.pair, &outcome.contacts, laws, friction, passage.distance);
-        let stable = softness.chequered / relaxation;
+        let relaxation = extrapolation::relaxation(
+            &outcome.pair,
+            &outcome.contacts,
+            laws,
+            friction,
+            position_data.distance,
+        );
+        let stable = compliance_of_grid.checkerboard / relaxation;
         if stable > 0.5 {
-            return Ok(Some(PassWear { softness, stable, explicit: None }));
+            return Ok(Some(PassWear { compliance_of_grid, stable, explicit: None }));
         }
-        let (sums, _) = law::sums(laws, &outcome.pair, &outcome.contacts, &passage, None)?;
+        let (sums, _) = law::sums(laws, &outcome.pair, &outcome.contacts, &position_data, None)?;
         // The return stroke wears as much again at the same pressures.
-        let distance = passage.distance * (self.positions.len() / self.distinct) as f64;
+        let distance = position_data.distance * (self.positions.len() / self.distinct) as f64;
         let compliance = law::compliance(laws, &outcome.pair, &sums, friction, distance);
         let explicit = Some(law::tried(laws, &outcome.pair, &sums, 1));
         outcome.contacts.truncate(self.distinct);
         outcome.contacts = self.solver(watch).solve_implicitly(outcome, compliance, &self.params)?;
         self.come_back(&mut outcome.contacts);
-        Ok(Some(PassWear { softness, stable, explicit }))
+        Ok(Some(PassWear { compliance_of_grid, stable, explicit }))
     }
 
     /// Lets the laws change the bodies after a solved pass, by the number of passes of its extrapolation.
@@ -89,21 +100,25 @@ impl Simulation {
         pass: &mut Pass,
         steps: &mut [StepRecord],
         wear: Option<&PassWear>,
-    ) -> Result<(Option<RunningRecord>, Option<Jump>)> {
-        let passage = self.motion.passage(self.pair.pitch()[0]);
-        let mut heat =
-            self.changes.heat.as_ref().map(|heat| heat.of_pass(self.passes_done, &pass.pair, passage.bulk));
+    ) -> Result<(Option<RunningRecord>, Option<LastExtrapolation>)> {
+        let position_data = self.motion.position_data(self.pair.pitch()[0]);
+        let mut heat = self
+            .changes
+            .heat
+            .as_ref()
+            .map(|heat| heat.of_pass(self.passes_done, &pass.pair, position_data.bulk));
         let step = heat.as_deref_mut().map(|heat| heat as &mut Heat);
-        let (mut sums, warm) = law::sums(&self.changes.laws, &pass.pair, &pass.contacts, &passage, step)?;
+        let (mut sums, warm) =
+            law::sums(&self.changes.laws, &pass.pair, &pass.contacts, &position_data, step)?;
         drop(heat);
-        for ((step, contact), Warmth { record, temperature }) in
+        for ((step, contact), FrictionHeat { record, temperature }) in
             steps.iter_mut().zip(&mut pass.contacts).zip(warm)
         {
             step.heat = Some(record);
             contact.temperature = Some(temperature);
         }
         if let Some(heat) = &self.changes.heat {
-            heat.remember(self.passes_done, &mut pass.pair, &pass.contacts, passage.bulk);
+            heat.store_in_bodies(self.passes_done, &mut pass.pair, &pass.contacts, position_data.bulk);
         }
         let once = self.changes.once();
         let (flow, laws) = self.changes.laws.split_at(once);
@@ -115,14 +130,14 @@ impl Simulation {
             return Ok((None, None));
         }
         let flown = lost.iter().flat_map(|lost| lost.whole).sum();
-        let Leap { passes, mean, error } = match wear {
+        let Extrapolation { passes, mean, error } = match wear {
             // Implicit and explicit Euler steps have equal errors of opposite sign.
             Some(PassWear { explicit: Some(explicit), .. }) => {
                 let taken = law::tried(laws, &pass.pair, &repeated, 1);
-                Leap { error: 0.5 * law::difference(explicit, &taken), ..Leap::ONE }
+                Extrapolation { error: 0.5 * law::difference(explicit, &taken), ..Extrapolation::ONE }
             }
-            Some(wear) => self.jump(pass, laws, &repeated, flown, wear),
-            None => Leap::ONE,
+            Some(wear) => self.extrapolate(pass, laws, &repeated, flown, wear),
+            None => Extrapolation::ONE,
         };
         let mean = mean.as_deref().unwrap_or(&repeated);
         let taken =
@@ -137,13 +152,13 @@ impl Simulation {
         let rubbed = pass.contacts.iter().map(|contact| contact.tangential_force.abs()).sum::<f64>();
         let running = RunningRecord {
             represents: passes,
-            time: done * positions * passage.time,
-            distance: done * positions * passage.distance,
+            time: done * positions * position_data.time,
+            distance: done * positions * position_data.distance,
             max_wear_lower,
             max_wear_upper,
             mean_film_lower: film(&pass.pair.lower),
             mean_film_upper: film(&pass.pair.upper),
-            friction_work: passes as f64 * rubbed * passage.distance,
+            friction_work: passes as f64 * rubbed * position_data.distance,
             max_flash_temperature: match steps
                 .iter()
                 .filter_map(|step| step.heat)
@@ -151,25 +166,28 @@ impl Simulation {
                 .reduce(f64::max)
             {
                 Some(warmest) => warmest,
-                None => passage.bulk[0].max(passage.bulk[1]),
+                None => position_data.bulk[0].max(position_data.bulk[1]),
             },
             error_estimate: error,
         };
-        let jump = (self.changes.acceleration.max_jump > 1).then_some(Jump { passes, sums: repeated });
-        Ok((Some(running), jump))
+        let extrapolation =
+            (self.changes.acceleration.max_jump > 1).then_some(LastExtrapolation { passes, sums: repeated });
+        Ok((Some(running), extrapolation))
     }
 
     /// Chooses the number of passes of the extrapolation from the sums of the `laws` and from the plastic volume.
-    fn jump(
+    fn extrapolate(
         &self,
         pass: &Pass,
         laws: &[Box<dyn Law>],
         sums: &[Sums],
         flown: CubicMetre,
         wear: &PassWear,
-    ) -> Leap {
-        let Some(before) = self.warm.jump.as_ref().filter(|_| self.changes.acceleration.max_jump > 1) else {
-            return Leap::ONE;
+    ) -> Extrapolation {
+        let Some(before) =
+            self.warm.extrapolation.as_ref().filter(|_| self.changes.acceleration.max_jump > 1)
+        else {
+            return Extrapolation::ONE;
         };
         let one = law::tried(laws, &pass.pair, sums, 1);
         let worn = one.iter().flatten().map(|depth| depth.iter().map(|depth| depth.max(0.0)).sum::<f64>());
@@ -182,20 +200,20 @@ impl Simulation {
         let mut passes = self.changes.acceleration.most(&bounds, before);
         let pressures = pass.contacts.iter().flat_map(|contact| &contact.pressure);
         let highest = pressures.fold(0.0, |most: f64, (_, p)| most.max(*p));
-        let allowed = self.changes.acceleration.tolerance * wear.softness.single * highest;
+        let allowed = self.changes.acceleration.tolerance * wear.compliance_of_grid.single * highest;
         while passes > 1 {
-            let mean = jump::extrapolated(sums, before, passes);
+            let mean = extrapolation::extrapolated(sums, before, passes);
             let error = law::difference(
                 &law::tried(laws, &pass.pair, sums, passes),
                 &law::tried(laws, &pass.pair, &mean, passes),
             );
             if error <= allowed {
-                return Leap { passes, mean: Some(mean), error };
+                return Extrapolation { passes, mean: Some(mean), error };
             }
             // The error of wear grows as the square.
             let fewer = (passes as f64 * (allowed / error).sqrt()) as usize;
             passes = fewer.clamp(1, passes - 1);
         }
-        Leap::ONE
+        Extrapolation::ONE
     }
 }

@@ -12,13 +12,13 @@ use crate::error::{Error, Result, check, check_in};
 use crate::motion::body::Body;
 use crate::motion::contact::Contact;
 use crate::motion::course::{self, Course, Output, Step};
-use crate::motion::flowed::FlowedVolume;
+use crate::motion::extrapolation::{Acceleration, GridCompliance};
 use crate::motion::heat::PassHeat;
-use crate::motion::jump::{Acceleration, Softness};
 use crate::motion::law::Law;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::{OffsetY, Position};
+use crate::motion::plastic_volume::PlasticVolume;
 use crate::motion::record::{RunningRecord, StepRecord};
 use crate::motion::rim::Interior;
 use crate::motion::together::memory_together;
@@ -75,8 +75,8 @@ impl Simulation {
     /// [`Error::BeyondPlasticLimit`] if the bodies cannot carry the load.
     pub fn new(pair: Pair, boundary: Boundary, motion: Motion, params: Params) -> Result<Self> {
         let positions = positions(&pair, boundary, &motion)?;
-        let bearable: Vec<Newton> = positions.iter().map(|p| bearable(&pair, &motion, p)).collect();
-        check_limit(motion.control, motion.load_control.plastic_limit(&bearable))?;
+        let max_load: Vec<Newton> = positions.iter().map(|p| max_load(&pair, &motion, p)).collect();
+        check_limit(motion.control, motion.load_control.plastic_limit(&max_load))?;
         let distinct = motion.distinct(positions.len(), pair.yields(), pair.couples());
         let columns: Vec<usize> = positions[..distinct].iter().map(|p| p.columns).collect();
         let largest = pair.grid(pair.lower.columns().min(pair.upper.columns()));
@@ -176,7 +176,7 @@ impl Simulation {
     /// bodies before the pass or, under [`crate::motion::PlasticUpdate::Step`], before the position.
     pub fn with_law(mut self, mut law: impl Law + 'static) -> Self {
         law.prepare(&mut self.pair);
-        self.changes.add(Box::new(law), || Softness::of(&self.pair, self.boundary));
+        self.changes.add(Box::new(law), || GridCompliance::of(&self.pair, self.boundary));
         self
     }
 
@@ -256,7 +256,7 @@ impl Simulation {
     ///
     /// # Panics
     /// If no body is elasto-plastic.
-    pub fn with_flowed(self, states: Vec<PlasticState>) -> Self {
+    pub fn with_plastic_states(self, states: Vec<PlasticState>) -> Self {
         let volumes = self.volumes.expect("bodies that flow").with_states(states);
         Self { volumes: Some(volumes), ..self }
     }
@@ -265,13 +265,13 @@ impl Simulation {
     ///
     /// # Panics
     /// If no body is elasto-plastic.
-    pub fn looking_at(self, position: usize) -> Self {
-        let volumes = self.volumes.expect("bodies that flow").looked_at(position);
+    pub fn with_state_under_load(self, position: usize) -> Self {
+        let volumes = self.volumes.expect("bodies that flow").states_under_load(position);
         Self { volumes: Some(volumes), ..self }
     }
 
     /// Returns the plastic state after the finished passes; empty for other than elasto-plastic bodies.
-    pub fn flowed(&self) -> Vec<FlowedVolume> {
+    pub fn plastic_volumes(&self) -> Vec<PlasticVolume> {
         self.volumes.as_ref().map_or(Vec::new(), Volumes::volumes)
     }
 
@@ -364,10 +364,10 @@ impl Simulation {
             StepRecord { offset_y: offset_y(contact.position.across), ..record }
         };
         let mut steps: Vec<StepRecord> = outcome.contacts.iter().enumerate().map(step).collect();
-        if let Some(flowed) = &outcome.flowed {
-            steps.iter_mut().zip(&flowed.steps).for_each(|(step, flow)| step.flow = Some(*flow));
+        if let Some(plastic_pass) = &outcome.plastic_pass {
+            steps.iter_mut().zip(&plastic_pass.steps).for_each(|(step, flow)| step.flow = Some(*flow));
         }
-        let (running, jump) = match outcome.has_changed {
+        let (running, extrapolation) = match outcome.has_changed {
             true => (None, None),
             false => self.advance(&mut outcome, &mut steps, wear.as_ref())?,
         };
@@ -383,7 +383,7 @@ impl Simulation {
             wall_time,
             interiors,
             running,
-            jump,
+            extrapolation,
             represented,
         })
     }
@@ -412,7 +412,7 @@ impl Simulation {
     /// Returns a solved pass with the state that it leaves to the next one.
     fn finished(&self, pass: SolvedPass) -> FinishedPass {
         let record = pass.record();
-        let SolvedPass { outcome, hardness, steps, guess, jump, represented, .. } = pass;
+        let SolvedPass { outcome, hardness, steps, guess, extrapolation, represented, .. } = pass;
         // Without repetition the next pass begins from zero.
         let (guess, again) = match self.repeats() {
             // Each pass of elasto-plastic bodies begins with separated bodies.
@@ -420,7 +420,7 @@ impl Simulation {
             true => (guess, &outcome.contacts[..self.distinct]),
             false => (None, &[][..]),
         };
-        let warm = WarmStart::new(guess, again, jump, represented, &self.warm);
+        let warm = WarmStart::new(guess, again, extrapolation, represented, &self.warm);
         FinishedPass { record, outcome, hardness, steps, warm }
     }
 
@@ -463,9 +463,9 @@ impl Course for Simulation {
     }
 
     fn take(&mut self, pass: FinishedPass) {
-        let Pass { pair, flowed, .. } = pass.outcome;
-        if let (Some(volumes), Some(flowed)) = (&mut self.volumes, flowed) {
-            volumes.take(flowed.volumes);
+        let Pass { pair, plastic_pass, .. } = pass.outcome;
+        if let (Some(volumes), Some(plastic_pass)) = (&mut self.volumes, plastic_pass) {
+            volumes.take(plastic_pass.volumes);
         }
         self.warm = pass.warm;
         self.pair = pair;
@@ -518,7 +518,7 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
 }
 
 /// Largest load that the cells at a position can carry together.
-fn bearable(pair: &Pair, motion: &Motion, position: &Position) -> Newton {
+fn max_load(pair: &Pair, motion: &Motion, position: &Position) -> Newton {
     let bounds = pair.bounds(position, motion.friction.as_ref());
     pair.cell_area() * bounds.upper().sum(pair.grid(position.columns).cells())
 }

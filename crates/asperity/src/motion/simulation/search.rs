@@ -1,6 +1,6 @@
 //! Search for the approach of a pass.
 
-use super::{Simulation, bearable};
+use super::{Simulation, max_load};
 use crate::error::{Error, LoadLimit, Result};
 use crate::grid::Field;
 use crate::motion::LoadControl;
@@ -24,7 +24,7 @@ impl Simulation {
         let load = match (self.motion.control, self.motion.load_control, &self.volumes) {
             (Control::Load(load), LoadControl::Pass, _) => load,
             (control, _, Some(volumes)) => {
-                return Ok((solver.solve_flowing(volumes, pair, control)?, None, 1));
+                return Ok((solver.solve_elasto_plastic(volumes, pair, control)?, None, 1));
             }
             (control, ..) => return Ok((solver.solve(pair, control, &self.params, &earlier)?, None, 1)),
         };
@@ -64,7 +64,7 @@ impl Simulation {
         let found = search.run(guess, residual, |approach, residual| {
             let control = Control::Approach(approach);
             let outcome = match &self.volumes {
-                Some(volumes) => solver.solve_flowing(volumes, pair, control)?,
+                Some(volumes) => solver.solve_elasto_plastic(volumes, pair, control)?,
                 None => solver.solve_roughly(pair, control, (residual, &self.params), &earlier)?,
             };
             solver.progress.trial += 1;
@@ -94,7 +94,7 @@ impl Simulation {
     fn first_guess(&self, pair: &Pair, load: Newton, watch: &dyn Watch) -> Result<Guess> {
         let fullest = self.positions.iter().max_by_key(|p| p.columns).expect("a pass has positions");
         let share = fullest.columns as f64 / mean_columns(&self.positions);
-        let limit = bearable(pair, &self.motion, fullest);
+        let limit = max_load(pair, &self.motion, fullest);
         let params = Params { tolerance: 1e-3_f64.max(self.params.tolerance), ..self.params };
         let solve = |load: Newton, start: Option<&Contact>| {
             let start = start.map(|c| c.pressure_field(pair.lower.width()));

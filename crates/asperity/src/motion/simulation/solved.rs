@@ -3,11 +3,11 @@
 use crate::grid::{CellValues, Field};
 use crate::motion::Motion;
 use crate::motion::contact::Contact;
-use crate::motion::flowed::FlowedVolume;
-use crate::motion::jump::Jump;
+use crate::motion::extrapolation::LastExtrapolation;
 use crate::motion::law;
 use crate::motion::pair::Pair;
 use crate::motion::pass::Pass;
+use crate::motion::plastic_volume::PlasticVolume;
 use crate::motion::record::{LostVolume, PassRecord, RunningRecord, StepRecord};
 use crate::motion::report::PassReport;
 use crate::motion::rim::Interior;
@@ -25,7 +25,7 @@ pub struct SolvedPass {
     pub(super) wall_time: Second,
     pub(super) interiors: [Interior; 2],
     pub(super) running: Option<RunningRecord>,
-    pub(super) jump: Option<Jump>,
+    pub(super) extrapolation: Option<LastExtrapolation>,
     /// Finished passes of the motion, this one and its extrapolation included.
     pub(super) represented: usize,
 }
@@ -42,8 +42,8 @@ impl SolvedPass {
     }
 
     /// The plastic state below the surfaces after unloading; empty for other than elasto-plastic bodies.
-    pub fn flowed(&self) -> &[FlowedVolume] {
-        self.outcome.flowed.as_ref().map_or(&[], |flowed| &flowed.volumes)
+    pub fn plastic_volumes(&self) -> &[PlasticVolume] {
+        self.outcome.plastic_pass.as_ref().map_or(&[], |pass| &pass.volumes)
     }
 
     /// The bodies after the pass.
@@ -58,7 +58,7 @@ impl SolvedPass {
             outer_iterations: self.trials,
             wall_time_s: self.wall_time,
             running: self.running,
-            flow: self.outcome.flowed.as_ref().map(|flowed| flowed.record),
+            flow: self.outcome.plastic_pass.as_ref().map(|pass| pass.record),
             ..record
         }
     }
@@ -91,7 +91,7 @@ impl FinishedPass {
     /// Returns the report for the outputs.
     pub(super) fn report<'a>(&'a self, motion: &'a Motion) -> PassReport<'a> {
         let Self { record, outcome, hardness: [lower, upper], steps, warm } = self;
-        let flowed = outcome.flowed.as_ref();
+        let plastic_pass = outcome.plastic_pass.as_ref();
         PassReport {
             record,
             steps,
@@ -100,8 +100,8 @@ impl FinishedPass {
             hardness: [lower, upper],
             motion,
             warm,
-            flowed: flowed.map_or(&[], |flowed| &flowed.volumes),
-            looked_at: flowed.map_or(&[], |flowed| &flowed.looked_at),
+            plastic_volumes: plastic_pass.map_or(&[], |pass| &pass.volumes),
+            states_under_load: plastic_pass.map_or(&[], |pass| &pass.states_under_load),
         }
     }
 }

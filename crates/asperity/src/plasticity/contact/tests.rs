@@ -48,9 +48,10 @@ fn contact(n: usize, bodies: [Option<PlasticBody>; 2], flow: FlowParams) -> Plas
 }
 
 /// Placement on bodies with the grid of the contact, which begins at these cells.
-fn facing(operator: PeriodicFft, initial_gap: Field, first: [[usize; 2]; 2]) -> Facing {
-    let seats = first.map(|first| Seat::new([initial_gap.nrows(), initial_gap.ncols()], first, 0.0));
-    Facing { interface: Interface::Frictionless(Box::new(operator)), initial_gap, seats }
+fn facing(operator: PeriodicFft, initial_gap: Field, first: [[usize; 2]; 2]) -> RelativePosition {
+    let placements =
+        first.map(|first| Placement::new([initial_gap.nrows(), initial_gap.ncols()], first, 0.0));
+    RelativePosition { interface: Interface::Frictionless(Box::new(operator)), initial_gap, placements }
 }
 
 fn sphere(n: usize, layers: usize) -> PlasticContact {
@@ -232,7 +233,7 @@ impl Ball {
         })
     }
 
-    fn facing(&self, x: f64) -> Facing {
+    fn facing(&self, x: f64) -> RelativePosition {
         let operator = PeriodicFft::new(self.grid, steel().plane_strain_modulus());
         facing(operator, self.gap(x), [[0; 2]; 2])
     }
@@ -340,7 +341,11 @@ fn the_work_of_pressure_and_friction_is_stored_and_spent() {
             Some(PlasticBody::new(Volume::new(grid, layers, boundary, material).unwrap(), Arc::new(law)))
         };
         let interface = Interface::Frictional(operators.coupled_on(grid.shape), friction);
-        let facing = Facing { interface, initial_gap: gap(n), seats: [Seat::flush(grid.shape); 2] };
+        let facing = RelativePosition {
+            interface,
+            initial_gap: gap(n),
+            placements: [Placement::flush(grid.shape); 2],
+        };
         let params = Params::default().with_tolerance(1e-9);
         let flow = FlowParams::new().with_tolerance(1e-6);
         let mut contact =
@@ -399,7 +404,8 @@ fn friction_without_flow_is_that_of_elastic_bodies() {
     let volume = Volume::new(grid, layers, Boundary::FREE, &steel()).unwrap();
     let strong = PlasticBody::new(volume, Arc::new(J2::new(Hardening::perfect(1.0).unwrap())));
     let interface = Interface::Frictional(operators.coupled_on(grid.shape), friction);
-    let facing = Facing { interface, initial_gap: gap(n), seats: [Seat::flush(grid.shape); 2] };
+    let facing =
+        RelativePosition { interface, initial_gap: gap(n), placements: [Placement::flush(grid.shape); 2] };
     let params = Params::default();
     let mut contact = PlasticContact::new(facing, [Some(strong), None], FlowParams::new(), params);
     let mut before = None;

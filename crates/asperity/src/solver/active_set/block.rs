@@ -14,7 +14,7 @@ use crate::solver::preconditioner::Preconditioner;
 use crate::solver::residual::{Cell, Multiplier, ResidualSums};
 use crate::solver::sets::{Set, Sets};
 use crate::solver::site::Site;
-use crate::solver::{SINGLE_PRECISION, Terms};
+use crate::solver::{SINGLE_PRECISION, Settings};
 use crate::units::{Metre, Pascal};
 
 /// Radius, in cells, of the influence by which a residual is predicted without a convolution.
@@ -322,7 +322,7 @@ impl<'a> Block<'a> {
     }
 
     /// The sums of this contact for the residual at an approach.
-    pub(super) fn residual_sums(&self, approach: Metre, terms: &Terms) -> ResidualSums {
+    pub(super) fn residual_sums(&self, approach: Metre, terms: &Settings) -> ResidualSums {
         let (gap, bounds) = (self.site.initial_gap(), self.site.bounds());
         let self_influence = terms.self_influence;
         let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));
@@ -562,7 +562,12 @@ impl<'a> Block<'a> {
 
     /// Moves by `step` times the direction, in the pressure and its displacement, and computes the residual of the free
     /// cells, whose gap is to close at `datum`. Returns its norm and that of the violations of the bounds.
-    pub(super) fn step_along_direction(&mut self, step: f64, datum: Metre, terms: &Terms) -> ResidualNorms {
+    pub(super) fn step_along_direction(
+        &mut self,
+        step: f64,
+        datum: Metre,
+        terms: &Settings,
+    ) -> ResidualNorms {
         let c0 = terms.self_influence;
         let (bands, bounds) = (self.bands, self.site.bounds());
         let parts = bands.cut(self.sets.of()).zip(bands.cut(flat(&self.direction)));

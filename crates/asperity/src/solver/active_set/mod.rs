@@ -15,7 +15,7 @@ use crate::solver::feasible::{Cells, Range, make_feasible, offset_for_sum};
 use crate::solver::residual::Residual;
 use crate::solver::site::Site;
 use crate::solver::watch::go_on;
-use crate::solver::{Control, Stats, TOLERANCE_REDUCTION, Terms, finite};
+use crate::solver::{Control, Settings, Stats, TOLERANCE_REDUCTION, finite};
 use crate::units::{Metre, Pascal};
 
 use block::{Block, ResidualNorms};
@@ -78,7 +78,7 @@ pub(super) struct Answer {
 /// self-influence.
 pub(super) fn solve(
     sites: &[&dyn Site],
-    terms: &Terms,
+    terms: &Settings,
     start: Option<Vec<Field>>,
     compliance_factor: f64,
     tolerance: &dyn Fn(&Residual) -> f64,
@@ -128,7 +128,7 @@ pub(super) fn solve(
 }
 
 struct Iteration<'a> {
-    terms: Terms<'a>,
+    terms: Settings<'a>,
     blocks: Vec<Block<'a>>,
     /// The slab that the first block has of a grid divided among ranks; several blocks are whole grids.
     slab: Slab,
@@ -153,7 +153,7 @@ struct Iteration<'a> {
 impl<'a> Iteration<'a> {
     fn new(
         sites: &[&'a dyn Site],
-        terms: &Terms<'a>,
+        terms: &Settings<'a>,
         start: Option<Vec<Field>>,
         compliance_factor: f64,
     ) -> Self {

@@ -12,7 +12,7 @@ use crate::solver::friction::transport::History;
 use crate::solver::friction::yielding::{bounds_under_shear, shear_limits, start_within};
 use crate::solver::friction::{Friction, FrictionalSolution, Loading, Tangential, self_compliance};
 use crate::solver::residual::{Residual, residual, scale};
-use crate::solver::watch::Within;
+use crate::solver::watch::InnerWatch;
 use crate::solver::{Bounds, Params, Solution, Stats, Watch, solve_normal_watched};
 use crate::units::Metre;
 
@@ -84,7 +84,7 @@ pub(super) fn alternate(
         history: start.history,
         params,
         watch,
-        within: &Within(watch),
+        within: &InnerWatch(watch),
         unsheared: &unsheared,
         shear_method: None,
         stats: Stats::default(),

@@ -4,11 +4,11 @@ use crate::error::{Error, Result, check};
 use crate::grid::{Field, Grid};
 use crate::operator::{Boundary, CoupledOperator};
 use crate::solver::friction::bodies::Bodies;
-use crate::solver::friction::transport::{Ahead, Passage, SteadyMethod};
+use crate::solver::friction::transport::{ShiftByCell, SteadyMethod, Transport};
 use crate::solver::friction::{
     Friction, FrictionalSolution, History, Loading, Start, Tangential, solve_frictional_from,
 };
-use crate::solver::watch::Within;
+use crate::solver::watch::InnerWatch;
 use crate::solver::{Bounds, Control, Params, Stats, Watch};
 use crate::units::{Joule, Newton};
 
@@ -141,7 +141,7 @@ pub(crate) fn solve_rolling_watched(
         Creep::Force(force) => Tangential::Force(force),
     };
     let turn = [-lever(&grid, 1), lever(&grid, 0)].map(|arm| arm * (rolling.spin * pitch));
-    let passage = Passage { ahead: Ahead::on(operator), turn, method: SteadyMethod::Newton };
+    let transport = Transport { ahead: ShiftByCell::on(operator), turn, method: SteadyMethod::Newton };
     let loading = Loading { normal, tangential };
     let mut spent = Stats::default();
     let mut solve = |loading, start, tolerance, watch: &dyn Watch| {
@@ -161,12 +161,12 @@ pub(crate) fn solve_rolling_watched(
         Ok(found)
     };
     let steady = |method| {
-        let history = History::Rolling(Passage { method, ..passage.clone() });
+        let history = History::Rolling(Transport { method, ..transport.clone() });
         Start { history, ..Start::default() }
     };
     let mut found = solve(loading, steady(SteadyMethod::Newton), params.tolerance, watch);
     if matches!(found, Err(Error::NotConverged { .. })) {
-        found = cell_by_cell(&mut solve, loading, &passage, grid.shape[0], params.tolerance, watch);
+        found = cell_by_cell(&mut solve, loading, &transport, grid.shape[0], params.tolerance, watch);
     }
     if matches!(found, Err(Error::NotConverged { .. })) {
         found = solve(loading, steady(SteadyMethod::ProximalPoint), params.tolerance, watch);
@@ -226,19 +226,19 @@ fn work_of_pressure(
 fn cell_by_cell(
     solve: &mut impl FnMut(Loading, Start, f64, &dyn Watch) -> Result<FrictionalSolution>,
     loading: Loading,
-    passage: &Passage,
+    transport: &Transport,
     length: usize,
     tolerance: f64,
     watch: &dyn Watch,
 ) -> Result<FrictionalSolution> {
-    let within = Within(watch);
+    let within = InnerWatch(watch);
     let mut present = FIRST_TOLERANCE.max(tolerance);
     let unloaded = Loading { tangential: Tangential::Force([0.0; 2]), ..loading };
     let mut state = solve(unloaded, Start::default(), present, &within)?;
     let mut iterations = state.normal.stats.iterations;
     let (mut left, mut before) = (f64::INFINITY, f64::INFINITY);
     for cell in 1..=MAX_LENGTHS * length {
-        let slip = passage.arriving(&state.displacement).map(|u| -u);
+        let slip = transport.arriving(&state.displacement).map(|u| -u);
         let start = Start { history: History::Increment(slip), ..Start::after(&state) };
         let next = solve(loading, start, present, &within)?;
         iterations += next.normal.stats.iterations;

@@ -13,14 +13,14 @@ pub(crate) enum History {
     /// The slip s₀ of the cell before the increment, m.
     Increment([Field; 2]),
     /// Steady rolling: the material comes from the cell ahead, as it is there.
-    Rolling(Passage),
+    Rolling(Transport),
 }
 
 /// How material passes through a contact that moves on by a cell.
 #[derive(Clone)]
-pub(crate) struct Passage {
+pub(crate) struct Transport {
     /// The cells whose material comes.
-    pub(super) ahead: Ahead,
+    pub(super) ahead: ShiftByCell,
     /// What the spin turns the upper body by meanwhile, m.
     pub(super) turn: [Field; 2],
     /// The method by which the steady state is found.
@@ -36,7 +36,7 @@ pub(super) enum SteadyMethod {
     ProximalPoint,
 }
 
-impl Passage {
+impl Transport {
     /// The displacement of the material that arrives at each cell, after the turn, where the surfaces are displaced by u.
     pub(super) fn arriving(&self, displacement: &[Field; 2]) -> [Field; 2] {
         [0, 1].map(|axis| self.ahead.field(&displacement[axis]) + &self.turn[axis])
@@ -54,8 +54,8 @@ impl History {
                 x -= before_x;
                 y -= before_y;
             }
-            Self::Rolling(passage) => {
-                let [arriving_x, arriving_y] = passage.arriving(displacement);
+            Self::Rolling(transport) => {
+                let [arriving_x, arriving_y] = transport.arriving(displacement);
                 x += &arriving_x;
                 y += &arriving_y;
             }
@@ -66,13 +66,13 @@ impl History {
 
 /// The shift S by a cell along the rolling, x: the last column stays, or is followed by the first where the surface repeats itself.
 #[derive(Clone, Copy)]
-pub(super) struct Ahead {
+pub(super) struct ShiftByCell {
     cells: usize,
     columns: usize,
     repeats: bool,
 }
 
-impl Ahead {
+impl ShiftByCell {
     pub(super) fn on(operator: &mut dyn CoupledOperator) -> Self {
         let grid = *operator.grid();
         let repeats = operator.normal().boundary().repeats(0);
@@ -105,7 +105,7 @@ mod tests {
     fn the_last_column_stays_or_is_followed_by_the_first() {
         let field = Field::from_shape_fn([3, 2], |(i, j)| (10 * i + j) as f64);
         for (repeats, last) in [(false, [20.0, 21.0]), (true, [0.0, 1.0])] {
-            let ahead = Ahead { cells: 6, columns: 2, repeats }.field(&field);
+            let ahead = ShiftByCell { cells: 6, columns: 2, repeats }.field(&field);
             assert_eq!(ahead.into_raw_vec_and_offset().0, [10.0, 11.0, 20.0, 21.0, last[0], last[1]]);
         }
     }

@@ -5,22 +5,10 @@ use serde::Serialize;
 use super::cursor::Table;
 use super::schema::passage::flow as keys;
 use super::schema::tables::known_in;
-use crate::choice::choice;
 use crate::error::Result;
-use crate::flow::Ends;
+use crate::flow::{Along, Ends};
 use crate::operator::Boundary;
 use crate::units::{Pascal, PascalSecond};
-
-/// A direction in the plane of contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Direction {
-    /// Along x.
-    X,
-    /// Along y.
-    Y,
-}
-
-choice!(Direction: "x" => X, "y" => Y);
 
 /// Requested flow through the gap.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -30,9 +18,8 @@ pub struct GapFlowSpec {
     pub viscosity: PascalSecond,
     /// Pressure difference, ≥ 0.
     pub pressure: Pascal,
-    /// Direction of the flow; `None` for both.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub along: Option<Direction>,
+    /// Directions of the flow.
+    pub along: Along,
     /// How the gap goes on beyond the grid along the flow.
     pub ends: Ends,
     /// Whether the fluid is an ideal gas.

@@ -14,13 +14,13 @@ pub enum Hardness {
     Uniform(Pascal),
     /// A value for each cell of the prepared body.
     Map(HardnessMap),
-    /// A value for each cell, supplied in memory by the caller, see [`Given`](crate::study::Given).
-    Given(GivenMap),
+    /// A value for each cell, supplied in memory by the caller, see [`SurfaceInput`](crate::study::SurfaceInput).
+    Given(HardnessInput),
 }
 
 /// A hardness supplied in memory by the caller.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct GivenMap {
+pub struct HardnessInput {
     /// The name under which it is supplied.
     #[serde(rename = "given")]
     pub name: String,

@@ -12,7 +12,9 @@ use super::schema::values::running::LawKind;
 use super::{Body, Case, Hardness};
 use crate::choice::Choice;
 use crate::error::Result;
-use crate::motion::{Acceleration, Film, FilmLaw, Films, InPlace, Pair, Simulation, Wear, WearCoefficient};
+use crate::motion::{
+    Acceleration, Film, FilmLaw, Films, Pair, Simulation, Wear, WearCoefficient, WearInPlace,
+};
 use crate::temperature::Thermal;
 use crate::units::{Kelvin, Metre, Pascal, PerPascal};
 
@@ -189,7 +191,7 @@ impl Case {
     ///
     /// # Errors
     /// The errors of the library.
-    pub(in crate::study) fn wearing(&self, contact: InPlace) -> Result<InPlace> {
+    pub(in crate::study) fn wearing(&self, contact: WearInPlace) -> Result<WearInPlace> {
         let (wear, films) = self.laws(contact.pair())?;
         let mut contact = contact;
         if let Some(wear) = wear {

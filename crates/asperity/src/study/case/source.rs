@@ -47,7 +47,7 @@ pub enum Source {
         #[serde(skip_serializing_if = "Option::is_none")]
         unit: Option<Metre>,
     },
-    /// Heights supplied in memory by the caller, see [`Given`](crate::study::Given).
+    /// Heights supplied in memory by the caller, see [`SurfaceInput`](crate::study::SurfaceInput).
     Given {
         /// The name under which they are supplied.
         #[serde(rename = "given")]

@@ -138,32 +138,32 @@ impl Paraboloid {
 
 /// Returns the predictions of Hertz' estimate for bodies with this initial `gap`: whether the boundary cuts the contact
 /// off, and whether it has too few cells.
-pub(super) fn foreseen(
+pub(super) fn predict(
     gap: &Field,
     pitch: [Metre; 2],
     modulus: Pascal,
     boundary: Boundary,
     control: Control,
-) -> Foreseen {
-    let mut foreseen = Foreseen::default();
-    let Some(paraboloid) = Paraboloid::of(gap, pitch) else { return foreseen };
+) -> HertzPrediction {
+    let mut prediction = HertzPrediction::default();
+    let Some(paraboloid) = Paraboloid::of(gap, pitch) else { return prediction };
     let touch = gap.iter().copied().fold(f64::INFINITY, f64::min);
     let presses = match control {
         Control::Load(_) => true,
         Control::Approach(approach) => approach > touch,
     };
     if !presses {
-        return foreseen;
+        return prediction;
     }
     let length = |value| units::format(value, Dimension::Length);
     let Some(contact) = paraboloid.hertz(modulus, control, touch) else {
-        foreseen.rim = endless(&paraboloid, boundary);
-        return foreseen;
+        prediction.rim = endless(&paraboloid, boundary);
+        return prediction;
     };
     if let Some((axis, reach, rim, pressure)) = paraboloid.hardest_side(contact.semi_axes, boundary)
         && pressure >= 1.0
     {
-        foreseen.rim = Some(format!(
+        prediction.rim = Some(format!(
             "the rim of the grid cuts the contact off along {}: by Hertz it reaches {} from the apex, the rim is {} away; \
              take a larger `shape` or a lower load",
             ["x", "y"][axis],
@@ -174,18 +174,18 @@ pub(super) fn foreseen(
     let narrow = 2.0 * contact.semi_axes[0].min(contact.semi_axes[1]);
     let cells = narrow / paraboloid.pitch[0].max(paraboloid.pitch[1]);
     if cells < CELLS_ACROSS as f64 {
-        foreseen.coarse = Some(format!(
+        prediction.coarse = Some(format!(
             "the mesh is coarse for the contact: by Hertz it is {} across, {cells:.3} cells; its pressures need \
              {CELLS_ACROSS}: take a smaller `pitch`",
             length(narrow)
         ));
     }
-    foreseen
+    prediction
 }
 
 /// Predictions of Hertz' estimate.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Foreseen {
+pub(super) struct HertzPrediction {
     /// Warning that the boundary of the grid cuts the contact off.
     pub(super) rim: Option<String>,
     /// Warning that the contact has too few cells.

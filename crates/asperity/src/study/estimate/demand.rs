@@ -9,7 +9,7 @@ use crate::motion::{PlasticUpdate, memory_together};
 use crate::operator::{FreeFft, Operator};
 use crate::solver::{Control, Coupling, Friction, Method, Sliding};
 use crate::study::case::{Body, Case, ControlKind, CounterBody, Layer, LoadingPath, MotionSpec, Source};
-use crate::study::given::Given;
+use crate::study::given::SurfaceInput;
 use crate::study::prepare::grids;
 use crate::study::subsurface::Plan;
 use crate::units::Second;
@@ -43,7 +43,7 @@ pub struct Demand {
 ///
 /// # Errors
 /// [`Error::Case`] if a file cannot be read, or if a step of its preparation is invalid on its grid.
-pub fn demand(case: &Case, given: &Given, threads: usize) -> Result<Demand> {
+pub fn demand(case: &Case, given: &SurfaceInput, threads: usize) -> Result<Demand> {
     let [lower, upper] = grids(case, given)?;
     let overlaps: Vec<usize> = super::positions(case, [lower, upper]).iter().map(|p| p.columns).collect();
     let sizes = Sizes { case, lower, upper, overlaps: &overlaps };

@@ -96,7 +96,7 @@ mod tests {
             body("upper", "young = \"inf\"")
         );
         let case = Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap();
-        estimate(&case, &bodies(&case, crate::study::Given::default()).unwrap()).unwrap().warnings
+        estimate(&case, &bodies(&case, crate::study::SurfaceInput::default()).unwrap()).unwrap().warnings
     }
 
     #[test]

@@ -15,7 +15,7 @@ use crate::units::{self, Dimension};
 #[derive(Debug, Clone)]
 pub struct Axis {
     key: String,
-    values: Vec<Stated>,
+    values: Vec<ValueInFile>,
     /// The values in SI, if all of them are numbers or quantities.
     numbers: Option<Vec<f64>>,
     dimension: Option<Dimension>,
@@ -26,14 +26,14 @@ pub struct Axis {
 
 /// A value and its place in the file.
 #[derive(Debug, Clone)]
-pub(super) struct Stated {
+pub(super) struct ValueInFile {
     pub(super) value: Value,
     pub(super) span: Range<usize>,
 }
 
 impl Axis {
     /// Creates an axis of at least one value, in the unit of its key.
-    pub(super) fn new(key: String, values: Vec<Stated>) -> Self {
+    pub(super) fn new(key: String, values: Vec<ValueInFile>) -> Self {
         let dimension = dimension(&key);
         let numbers: Option<Vec<f64>> =
             values.iter().map(|stated| number(&stated.value, dimension)).collect();
@@ -105,12 +105,13 @@ impl Axis {
 }
 
 /// Writes values for people, with as few digits as distinguish them. Values that are short in the file stay as they are.
-fn texts(values: &[Stated], numbers: Option<&[f64]>, dimension: Option<Dimension>) -> Vec<String> {
+fn texts(values: &[ValueInFile], numbers: Option<&[f64]>, dimension: Option<Dimension>) -> Vec<String> {
     const LEAST: usize = 3;
     const ALL: usize = 17;
     let with = |digits: usize| -> Vec<String> {
-        let said =
-            |(n, stated): (usize, &Stated)| said(&stated.value, numbers.map(|all| all[n]), dimension, digits);
+        let said = |(n, stated): (usize, &ValueInFile)| {
+            said(&stated.value, numbers.map(|all| all[n]), dimension, digits)
+        };
         values.iter().enumerate().map(said).collect()
     };
     let different = |texts: &[String]| texts.iter().collect::<BTreeSet<_>>().len();
@@ -200,9 +201,9 @@ fn axis(key: String, entry: &Entry<'_>) -> Result<Axis> {
 const AXIS: &str = "a list of values or a range";
 const EXAMPLE: &str = r#"{ from = "1 N", to = "5 N", count = 5 }"#;
 
-fn listed(key: &str, entry: &Entry<'_>) -> Result<Vec<Stated>> {
+fn listed(key: &str, entry: &Entry<'_>) -> Result<Vec<ValueInFile>> {
     let items = entry.items(AXIS)?;
-    let stated = |item: &Entry<'_>| Ok(Stated { value: item.literal()?, span: item.span() });
+    let stated = |item: &Entry<'_>| Ok(ValueInFile { value: item.literal()?, span: item.span() });
     let values = items.iter().map(stated).collect::<Result<Vec<_>>>()?;
     if values.is_empty() {
         let hint = format!("for example `{EXAMPLE}`");
@@ -212,10 +213,10 @@ fn listed(key: &str, entry: &Entry<'_>) -> Result<Vec<Stated>> {
 }
 
 /// Reads `{ from = "1 N", to = "5 N", count = 5, spacing = "log" }` or `{ seeds = 20, first = 100 }`.
-fn ranged(key: &str, entry: &Entry<'_>) -> Result<Vec<Stated>> {
+fn ranged(key: &str, entry: &Entry<'_>) -> Result<Vec<ValueInFile>> {
     let table = entry.clone().table()?;
     table.known(&["from", "to", "count", "spacing", "seeds", "first"], |_| None)?;
-    let at = |value: Value| Stated { value, span: entry.span() };
+    let at = |value: Value| ValueInFile { value, span: entry.span() };
     if let Some(seeds) = table.get("seeds") {
         if let Some(other) = ["from", "to", "count", "spacing"].iter().find_map(|key| table.get(key)) {
             let message = format!("'{}' has no meaning beside 'seeds'", other.key());
@@ -320,7 +321,7 @@ mod tests {
 
     #[test]
     fn an_axis_of_quantities_is_told_in_si() {
-        let stated = |text: &str| Stated { value: Value::String(text.to_owned()), span: 0..0 };
+        let stated = |text: &str| ValueInFile { value: Value::String(text.to_owned()), span: 0..0 };
         let axis = Axis::new("contact.load".to_owned(), ["500 mN", "2 N"].map(stated).to_vec());
         assert_eq!(
             (axis.label(), axis.cell(0), axis.text(0)),
@@ -333,7 +334,7 @@ mod tests {
     #[test]
     fn a_value_is_said_with_the_digits_that_tell_it_from_the_others() {
         let said = |key: &str, values: &[Value]| {
-            let stated = |value: &Value| Stated { value: value.clone(), span: 0..0 };
+            let stated = |value: &Value| ValueInFile { value: value.clone(), span: 0..0 };
             let axis = Axis::new(key.to_owned(), values.iter().map(stated).collect());
             let of = |index| (axis.text(index).to_owned(), axis.cell(index));
             (0..axis.len()).map(of).unzip::<_, _, Vec<_>, Vec<_>>()

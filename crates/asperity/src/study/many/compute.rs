@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::motion::{Progress, Watch};
 use crate::study::case::Case;
 use crate::study::estimate::demand;
-use crate::study::given::Given;
+use crate::study::given::SurfaceInput;
 
 /// Computes the cases of a queue, as many at a time as the pool of the caller has threads. If fewer cases are left, each
 /// gets several threads.
@@ -31,7 +31,7 @@ pub fn compute(
     let threads = rayon::current_num_threads();
     let at_a_time = threads.min(queue.len());
     let pools = (0..at_a_time).map(|_| pool(threads / at_a_time)).collect::<Result<Vec<_>>>()?;
-    let crew = Crew {
+    let crew = WorkerData {
         stop,
         ended,
         memory: Memory { all: memory, taken: Mutex::default(), given_back: Condvar::new() },
@@ -52,7 +52,7 @@ pub fn compute(
 }
 
 /// Computes one case after the other.
-fn work(queue: &Queue<'_>, crew: &Crew<'_>) -> Result<()> {
+fn work(queue: &Queue<'_>, crew: &WorkerData<'_>) -> Result<()> {
     while !crew.stop() {
         let Some(turn) = queue.take()? else { return Ok(()) };
         let case = turn.case();
@@ -69,7 +69,7 @@ fn pool(threads: usize) -> Result<ThreadPool> {
 }
 
 /// Data shared by all workers.
-struct Crew<'c> {
+struct WorkerData<'c> {
     stop: &'c (dyn Fn() -> bool + Sync),
     ended: &'c (dyn Fn(usize, &Computed) + Sync),
     memory: Memory,
@@ -78,7 +78,7 @@ struct Crew<'c> {
     error: Mutex<Option<Error>>,
 }
 
-impl Watch for Crew<'_> {
+impl Watch for WorkerData<'_> {
     fn at(&self, _: &Progress) {}
 
     fn stop(&self) -> bool {
@@ -102,7 +102,7 @@ struct Part<'m> {
 impl Memory {
     /// Reserves the memory of a case, once it is free; an error if it never will be.
     fn take(&self, case: &Case) -> Result<Part<'_>> {
-        let demand = demand(case, &Given::default(), rayon::current_num_threads())?;
+        let demand = demand(case, &SurfaceInput::default(), rayon::current_num_threads())?;
         demand.fits(self.all)?;
         let mut taken = locked(&self.taken);
         while *taken > 0.0 && *taken + demand.memory > self.all {

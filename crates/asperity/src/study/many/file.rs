@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use toml::Value;
 
-use super::axis::{Axis, Stated, axes};
+use super::axis::{Axis, ValueInFile, axes};
 use super::base::Base;
 use super::cell::unguarded;
 use super::filter::Exclusion;
@@ -144,7 +144,7 @@ fn rows(entry: &Entry<'_>, folder: &Path, axes: &mut Vec<Axis>) -> Result<Rows> 
         }
         keys.push((key, unit));
     }
-    let mut values: Vec<Vec<Stated>> = keys.iter().map(|_| Vec::new()).collect();
+    let mut values: Vec<Vec<ValueInFile>> = keys.iter().map(|_| Vec::new()).collect();
     let mut known = vec![std::collections::HashMap::new(); keys.len()];
     let mut rows = Vec::new();
     for record in reader.records() {
@@ -162,7 +162,7 @@ fn rows(entry: &Entry<'_>, folder: &Path, axes: &mut Vec<Axis>) -> Result<Rows> 
                     let hint = Some("what all cases share stands in the base".to_owned());
                     document.error(key, span.clone(), format!("no value of '{key}' in this row"), hint)
                 })?;
-                values[column].push(Stated { value, span });
+                values[column].push(ValueInFile { value, span });
             }
             row.push(index);
         }

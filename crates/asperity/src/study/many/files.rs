@@ -11,7 +11,7 @@ use super::named::NamedFile;
 use super::plan::Study;
 use crate::error::{Error, Result};
 use crate::io::{atomic, regular, sha256_of_file};
-use crate::study::given::Pinned;
+use crate::study::given::ExpectedContent;
 use crate::study::identity::FILES;
 use crate::study::results::Results;
 
@@ -73,13 +73,13 @@ impl Files {
     }
 
     /// Required content of the files of a case, of a study in `directory`.
-    pub(super) fn pinned(&self, directory: &Path, study: &Study, case: usize) -> Pinned {
+    pub(super) fn pinned(&self, directory: &Path, study: &Study, case: usize) -> ExpectedContent {
         let digest = |file: NamedFile| {
             let digest = self.digests.get(&file.name())?.clone();
             Some((file.key, (file.path, digest)))
         };
         let digests = study.files_of(case).into_iter().filter_map(digest).collect();
-        Pinned { directory: directory.to_owned(), digests }
+        ExpectedContent { directory: directory.to_owned(), digests }
     }
 
     /// Returns an error if a finished case was computed from files of other content.

@@ -82,7 +82,7 @@ struct Identity {
 
 /// Content of `failed.json`.
 #[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Failed {
+pub(super) struct FailedCase {
     pub(super) version: String,
     pub(super) message: String,
 }
@@ -176,7 +176,7 @@ impl Folder {
         let failed = |source| Error::File { path: path.clone(), source };
         match regular::read(&path, "the failure of a case", u64::MAX) {
             Ok(text) => {
-                let told: Failed = serde_json::from_slice(&text).map_err(|error| failed(error.into()))?;
+                let told: FailedCase = serde_json::from_slice(&text).map_err(|error| failed(error.into()))?;
                 Ok(Some(told.message))
             }
             Err(error) if is_missing(&error) => Ok(None),

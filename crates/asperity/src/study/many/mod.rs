@@ -29,4 +29,4 @@ pub use compute::compute;
 pub use folder::{Folder, State, Tally};
 pub use plan::{MAX_CASES, Study};
 pub use table::{Row, Table};
-pub use work::{Computed, Queue, Task, Turn};
+pub use work::{Computed, OwnedCase, Queue, Task};

@@ -54,7 +54,7 @@ impl Table {
     /// # Errors
     /// [`crate::Error::File`] if a summary or a failure cannot be read.
     pub fn collect(study: &Study, folder: &Folder) -> Result<Self> {
-        let found: Result<Vec<Option<Found>>> =
+        let found: Result<Vec<Option<CaseData>>> =
             (1..=study.len()).into_par_iter().map(|case| found(folder, case)).collect();
         let found = found?;
         let mut columns: Vec<String> = Vec::new();
@@ -65,7 +65,7 @@ impl Table {
             }
         }
         let rows = found.into_iter().enumerate().filter_map(|(n, found)| {
-            let Found { numbers, warnings, wall_time, failure } = found?;
+            let CaseData { numbers, warnings, wall_time, failure } = found?;
             let numbers: BTreeMap<String, f64> = numbers.into_iter().collect();
             let numbers =
                 columns.iter().map(|column| numbers.get(column).copied().unwrap_or(f64::NAN)).collect();
@@ -177,35 +177,35 @@ impl Table {
 }
 
 /// Data of a finished or failed case.
-struct Found {
+struct CaseData {
     numbers: Vec<(String, f64)>,
     warnings: usize,
     wall_time: f64,
     failure: Option<String>,
 }
 
-impl Found {
+impl CaseData {
     fn failed(message: String) -> Self {
         Self { numbers: Vec::new(), warnings: 0, wall_time: 0.0, failure: Some(message) }
     }
 }
 
 /// Reads the data of a case. A case with a damaged summary counts as failed, so that the others have their rows.
-fn found(folder: &Folder, case: usize) -> Result<Option<Found>> {
+fn found(folder: &Folder, case: usize) -> Result<Option<CaseData>> {
     if !folder.is_done(case) {
-        return Ok(folder.failure(case)?.map(Found::failed));
+        return Ok(folder.failure(case)?.map(CaseData::failed));
     }
     match Results::open(&folder.case(case)).and_then(|results| results.summary()) {
         Ok(summary) => {
             let wall_time = summary.wall_time_s;
             // A table must not depend on where it was computed.
             let warnings = summary.warnings.iter().filter(|warning| *warning != NO_LOCKS).count();
-            Ok(Some(Found { numbers: numbers(&summary), warnings, wall_time, failure: None }))
+            Ok(Some(CaseData { numbers: numbers(&summary), warnings, wall_time, failure: None }))
         }
         Err(Error::File { source, .. }) if is_damage(&source) => {
             let message =
                 format!("its summary.json is damaged; without it the case is computed again: {source}");
-            Ok(Some(Found::failed(message)))
+            Ok(Some(CaseData::failed(message)))
         }
         Err(error) => Err(error),
     }

@@ -11,14 +11,14 @@ use std::sync::{Mutex, PoisonError};
 use std::time::SystemTime;
 
 use super::files::Files;
-use super::folder::{Failed, Folder};
+use super::folder::{FailedCase, Folder};
 use super::plan::Study;
 use crate::error::{Error, Result};
 use crate::io::lock::Lock;
 use crate::io::{atomic, regular};
 use crate::motion::Watch;
 use crate::study::case::Case;
-use crate::study::given::Given;
+use crate::study::given::SurfaceInput;
 use crate::study::results::{CASE_FILE, Existing, try_acquire};
 use crate::study::run::run_with;
 
@@ -58,7 +58,7 @@ pub struct Queue<'s> {
 
 /// A case owned by this process.
 #[derive(Debug)]
-pub struct Turn<'s> {
+pub struct OwnedCase<'s> {
     queue: &'s Queue<'s>,
     case: usize,
     lock: Lock,
@@ -107,7 +107,7 @@ impl<'s> Queue<'s> {
     ///
     /// # Errors
     /// [`Error::File`].
-    pub fn take(&'s self) -> Result<Option<Turn<'s>>> {
+    pub fn take(&'s self) -> Result<Option<OwnedCase<'s>>> {
         while let Some(case) = self.cases.get(self.next.fetch_add(1, Ordering::Relaxed)) {
             match self.attempt(*case)? {
                 Some(turn) => return Ok(Some(turn)),
@@ -130,7 +130,7 @@ impl<'s> Queue<'s> {
         Ok(None)
     }
 
-    fn attempt(&'s self, case: usize) -> Result<Option<Turn<'s>>> {
+    fn attempt(&'s self, case: usize) -> Result<Option<OwnedCase<'s>>> {
         if self.is_over(case) {
             return Ok(None);
         }
@@ -138,7 +138,7 @@ impl<'s> Queue<'s> {
         fs::create_dir_all(&results).map_err(|source| Error::File { path: results.clone(), source })?;
         let Some(lock) = try_acquire(&results)? else { return Ok(None) };
         // It may have been finished since.
-        Ok((!self.is_over(case)).then_some(Turn { queue: self, case, lock }))
+        Ok((!self.is_over(case)).then_some(OwnedCase { queue: self, case, lock }))
     }
 
     /// Whether a case needs no more work.
@@ -152,7 +152,7 @@ impl<'s> Queue<'s> {
     }
 }
 
-impl Turn<'_> {
+impl OwnedCase<'_> {
     /// The number of the case, from 1.
     pub fn case(&self) -> usize {
         self.case
@@ -193,7 +193,7 @@ impl Turn<'_> {
             let _ = fs::remove_file(&failure);
             let _admitted = admit(&case)?;
             let pinned = self.queue.files.pinned(self.queue.folder.path(), self.queue.study, self.case);
-            let given = Given { pinned: Some(pinned), ..Given::default() };
+            let given = SurfaceInput { pinned: Some(pinned), ..SurfaceInput::default() };
             let go = |existing| {
                 let lock = Some(self.lock.clone());
                 run_with(&case, given.clone(), &folder, (existing, lock), watch).map(drop)
@@ -210,7 +210,8 @@ impl Turn<'_> {
             Err(error) if is_of_the_place(&error, self.queue.folder.path()) => Err(error),
             Err(error) => {
                 let message = error.to_string();
-                let told = Failed { version: env!("CARGO_PKG_VERSION").to_owned(), message: message.clone() };
+                let told =
+                    FailedCase { version: env!("CARGO_PKG_VERSION").to_owned(), message: message.clone() };
                 let text = serde_json::to_vec_pretty(&told).expect("texts can be written");
                 atomic::replace(&failure, &text)?;
                 Ok(Computed::Failed(message))

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use ndarray::s;
 
-use super::{Bodies, Fit, Origin, Place, Prepared, bodies, grids, hardness, topography_of};
+use super::{Bodies, Fit, MountedSurface, Origin, Place, bodies, grids, hardness, topography_of};
 use crate::error::Result;
 use crate::grid::{CellValues, Grid};
 use crate::ranks::{Ranks, Slab};
 use crate::study::case::{Body, Case, GridMatch, Layer, Mount, Source, TopographySpec};
-use crate::study::given::Given;
+use crate::study::given::SurfaceInput;
 use crate::surface::{Form, Generator, Preparation, Topography};
 
 /// The rows of this rank of the two surfaces of a case.
@@ -36,15 +36,15 @@ pub(in crate::study) struct SlabBody {
 pub(in crate::study) fn slab_bodies(case: &Case, ranks: Arc<dyn Ranks>) -> Result<SlabBodies> {
     let specs = [&case.lower.topography, &case.upper.topography];
     if !specs.into_iter().all(made_by_slabs) || case.contact.grid == GridMatch::Common {
-        let Bodies { lower, upper } = bodies(case, Given::default())?;
+        let Bodies { lower, upper } = bodies(case, SurfaceInput::default())?;
         let slab = Slab::new(ranks, *upper.topography.grid())?;
         let bodies = [cut(lower, &slab)?, cut(upper, &slab)?];
         return Ok(SlabBodies { slab, bodies });
     }
-    let both = grids(case, &Given::default())?;
+    let both = grids(case, &SurfaceInput::default())?;
     Fit { case, grids: both, origins: [None; 2] }.check(&[1, 0])?;
     let slab = Slab::new(ranks, Grid::new(both[1].shape, both[0].pitch)?)?;
-    let bodies = [made(case, "lower", &case.lower, &slab)?, made(case, "upper", &case.upper, &slab)?];
+    let bodies = [generate(case, "lower", &case.lower, &slab)?, generate(case, "upper", &case.upper, &slab)?];
     Ok(SlabBodies { slab, bodies })
 }
 
@@ -63,7 +63,7 @@ pub(in crate::study) fn made_by_slabs(spec: &TopographySpec) -> bool {
 }
 
 /// Generates the rows of a body on this rank.
-fn made(case: &Case, name: &str, body: &Body, slab: &Slab) -> Result<SlabBody> {
+fn generate(case: &Case, name: &str, body: &Body, slab: &Slab) -> Result<SlabBody> {
     let (table, spec) = (topography_of(name), &body.topography);
     let at = Place { document: case.document(), table: &table, spec, pitch: None };
     let mount = body.mount.unwrap_or(Mount::TurnedOver);
@@ -85,14 +85,14 @@ fn made(case: &Case, name: &str, body: &Body, slab: &Slab) -> Result<SlabBody> {
     }
     let topography = Topography::new(slab.grid(), heights)?;
     at.measurable(&topography)?;
-    let given = &mut Given::default();
+    let given = &mut SurfaceInput::default();
     let (hardness, hardness_sha256) = hardness(case, name, body, &slab.whole_grid(), mount, given)?;
     Ok(SlabBody { topography, hardness: rows_of(hardness, slab), hardness_sha256, origin: None })
 }
 
 /// Returns the rows of a body that is read or generated in full.
-fn cut(body: Prepared, slab: &Slab) -> Result<SlabBody> {
-    let Prepared { topography, hardness, hardness_sha256, origin, .. } = body;
+fn cut(body: MountedSurface, slab: &Slab) -> Result<SlabBody> {
+    let MountedSurface { topography, hardness, hardness_sha256, origin, .. } = body;
     let heights = topography.heights().slice(s![slab.rows(), ..]).to_owned();
     let topography = Topography::new(slab.grid(), heights)?;
     Ok(SlabBody { topography, hardness: rows_of(hardness, slab), hardness_sha256, origin })

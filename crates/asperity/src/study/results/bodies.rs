@@ -3,15 +3,15 @@
 use super::{BODIES, depths_attribute, state_name, states_attribute, tensor_name};
 use crate::grid::{CellValues, Grid};
 use crate::io::fields::FieldFile;
-use crate::motion::{FlowedVolume, Pair, State};
+use crate::motion::{Pair, PlasticVolume, State};
 use crate::plasticity::TensorField;
 use crate::solver::Friction;
 use crate::stress::Component;
 use crate::units::Pascal;
 
 /// Adds the plastic state below the surfaces, and the part `left` after unloading.
-pub(super) fn add_volumes(file: &mut FieldFile, volumes: &[FlowedVolume], left: &[FlowedVolume]) {
-    for FlowedVolume { body, grid, faces, state, displacement, .. } in volumes {
+pub(super) fn add_volumes(file: &mut FieldFile, volumes: &[PlasticVolume], left: &[PlasticVolume]) {
+    for PlasticVolume { body, grid, faces, state, displacement, .. } in volumes {
         let body = BODIES[*body];
         file.set(&depths_attribute(body), faces.clone());
         add_tensor(file, "strain", "1", body, grid, &state.strain);
@@ -22,7 +22,7 @@ pub(super) fn add_volumes(file: &mut FieldFile, volumes: &[FlowedVolume], left: 
         }
         file.add_field(&state_name("displacement", body), "m", grid, [0.0, 0.0], displacement);
     }
-    for FlowedVolume { body, grid, residual_stress, displacement, .. } in left {
+    for PlasticVolume { body, grid, residual_stress, displacement, .. } in left {
         let body = BODIES[*body];
         add_tensor(file, "residual_stress", "Pa", body, grid, residual_stress);
         file.add_field(&state_name("residual_displacement", body), "m", grid, [0.0, 0.0], displacement);

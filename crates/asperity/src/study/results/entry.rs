@@ -72,7 +72,7 @@ pub(in crate::study) fn is_in_use(directory: &Path) -> bool {
 
 /// The existing results from which a run continues.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kept {
+pub(super) enum ExistingResults {
     Nothing,
     /// Number of finished passes.
     Passes(usize),
@@ -87,7 +87,7 @@ pub(super) fn enter(
     case: &Value,
     existing: Existing,
     lock: Option<Lock>,
-) -> Result<(Lock, Kept)> {
+) -> Result<(Lock, ExistingResults)> {
     let failed = |source| Error::File { path: directory.to_owned(), source };
     outside_others(directory)?;
     fs::create_dir_all(directory).map_err(|source| {
@@ -104,7 +104,7 @@ pub(super) fn enter(
     let results = Results { directory: directory.to_owned() };
     let kept = match existing {
         Existing::Resume if results.case_path().exists() => resumable(&results, case)?,
-        _ => Kept::Nothing,
+        _ => ExistingResults::Nothing,
     };
     Ok((lock, kept))
 }
@@ -150,7 +150,7 @@ fn is_vacant(directory: &Path) -> io::Result<bool> {
 }
 
 /// Returns the finished part, if the results belong to `case` and are complete.
-fn resumable(results: &Results, case: &Value) -> Result<Kept> {
+fn resumable(results: &Results, case: &Value) -> Result<ExistingResults> {
     identity::compare(results.directory(), &results.case_json()?, case)?;
     let identity = identity::of(case);
     if case.get("motion").is_some_and(Value::is_object) {
@@ -166,21 +166,21 @@ fn resumable(results: &Results, case: &Value) -> Result<Kept> {
     ] {
         if let Some(state) = results.last_state(rows, first, &table)? {
             whole(&results.state_path(state), &identity, None)?;
-            return Ok(Kept::Steps);
+            return Ok(ExistingResults::Steps);
         }
     }
-    Ok(Kept::Nothing)
+    Ok(ExistingResults::Nothing)
 }
 
 /// Returns the number of finished passes, if they are complete.
-fn resumable_passes(results: &Results, case: &Value, identity: &str) -> Result<Kept> {
+fn resumable_passes(results: &Results, case: &Value, identity: &str) -> Result<ExistingResults> {
     let passes = results.passes_there()?;
     if !passes.iter().map(|pass| pass.pass).eq(1..=passes.len()) {
         let path = results.passes_path();
         return Err(Error::NotResumable { path, reason: "does not number its passes 1, 2, 3 …" });
     }
     if passes.is_empty() {
-        return Ok(Kept::Nothing);
+        return Ok(ExistingResults::Nothing);
     }
     let steps = results.steps_path();
     if !steps.exists() {
@@ -216,11 +216,16 @@ fn resumable_passes(results: &Results, case: &Value, identity: &str) -> Result<K
     }
     let digest = tables::digest_of_passes(&passes, &positions);
     same_rows(&results.state_path(passes.len()), &digest, &results.passes_path())?;
-    Ok(Kept::Passes(passes.len()))
+    Ok(ExistingResults::Passes(passes.len()))
 }
 
 /// Checks that the kept fields of each point of a sweep are complete.
-fn kept_points(results: &Results, case: &Value, identity: &str, points: &[SweepRecord]) -> Result<Kept> {
+fn kept_points(
+    results: &Results,
+    case: &Value,
+    identity: &str,
+    points: &[SweepRecord],
+) -> Result<ExistingResults> {
     if !points.iter().map(|point| point.point).eq(1..=points.len()) {
         let path = results.sweep_path();
         return Err(Error::NotResumable { path, reason: "does not number its points 1, 2, 3 …" });
@@ -233,7 +238,7 @@ fn kept_points(results: &Results, case: &Value, identity: &str, points: &[SweepR
     for point in points.iter().map(|point| point.point).filter(|point| is_kept(*point, every)) {
         whole(&results.point_path(point), identity, None)?;
     }
-    Ok(Kept::Steps)
+    Ok(ExistingResults::Steps)
 }
 
 /// Returns an error unless `path` holds the undamaged fields of this run; for a motion, those of this pass.
@@ -281,12 +286,12 @@ fn unlike_summary<T: serde::Serialize>(results: &Results, rows: &[T], table: &Pa
 
 /// Removes the results of an earlier computation, except the kept ones and, for elasto-plastic bodies, the volumes to
 /// `keep`. Nothing else is removed.
-pub(super) fn clear(results: &Results, kept: Kept, keep: Keep) -> Result<()> {
+pub(super) fn clear(results: &Results, kept: ExistingResults, keep: Keep) -> Result<()> {
     let at = |name: &str| results.directory.join(name);
     // It describes the complete results, or is absent.
     results.remove(&at("summary.json"))?;
     match kept {
-        Kept::Nothing => {
+        ExistingResults::Nothing => {
             // Files that mark something as done go first. The file that marks the directory as results is never removed.
             for name in
                 ["passes.csv", "steps.csv", "increments.csv", "updates.csv", "sweep.csv", "report.html"]
@@ -304,8 +309,8 @@ pub(super) fn clear(results: &Results, kept: Kept, keep: Keep) -> Result<()> {
             }
             Ok(())
         }
-        Kept::Passes(passes) => clear_later(results, passes, keep),
-        Kept::Steps => AT_REST.iter().try_for_each(|name| results.remove(&at(name))),
+        ExistingResults::Passes(passes) => clear_later(results, passes, keep),
+        ExistingResults::Steps => AT_REST.iter().try_for_each(|name| results.remove(&at(name))),
     }
 }
 

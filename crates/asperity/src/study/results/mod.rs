@@ -436,7 +436,7 @@ impl Results {
     }
 
     /// Removes the state of a finished static contact, and its folder if it is then empty.
-    pub(super) fn forget_state(&self) -> Result<()> {
+    pub(super) fn remove_state(&self) -> Result<()> {
         let Ok(entries) = fs::read_dir(self.fields_folder()) else { return Ok(()) };
         let states = entries.filter_map(|entry| Some(entry.ok()?.path()));
         for path in states.filter(|path| is_state(path)) {
@@ -458,7 +458,7 @@ impl Results {
     ///
     /// # Errors
     /// [`Error::File`].
-    pub(super) fn flowed_after(&self, passes: usize) -> Result<Vec<PlasticState>> {
+    pub(super) fn plastic_states_after(&self, passes: usize) -> Result<Vec<PlasticState>> {
         let fields = self.flow_fields(Some(passes))?;
         let attributes = fields.attributes()?;
         let flows = |body: &str| attributes.contains_key(&depths_attribute(body));

@@ -212,7 +212,7 @@ impl StepWriter {
                 if let CellValues::Field(cap) = report.bounds(contact).upper() {
                     file.add_field(&cap_name(index + 1), "Pa", &grid, corner, cap);
                 }
-                if let Some(sliding) = report.motion.sliding(contact.position.way) {
+                if let Some(sliding) = report.motion.sliding(contact.position.stroke) {
                     let traction = pressure.mapv(|p| sliding.shear(p)[0]);
                     file.add_field(&traction_name(index + 1), "Pa", &grid, corner, &traction);
                 }
@@ -223,22 +223,22 @@ impl StepWriter {
             let pass = Some(report.record.pass);
             let contact = &report.contacts[plan.index];
             let pressure = contact.pressure_field(pair.lower.width());
-            let sliding = report.motion.sliding(contact.position.way);
+            let sliding = report.motion.sliding(contact.position.stroke);
             let path = results.subsurface_path(pass);
             let shear = |axis: usize| sliding.map(|sliding| pressure.mapv(|p| sliding.shear(p)[axis]));
             let tractions = Tractions { shear: [shear(0), shear(1)], pressure };
             let plan = plan.at(&contact.position, &pair.lower_grid());
-            let seats = pair.seats(&contact.position);
-            let looked_at = report.flowed.iter().zip(report.looked_at);
-            let flowed = looked_at.into_iter().find(|(volume, _)| volume.body == plan.side());
-            let flowed = flowed.map(|(_, state)| (state, &seats[plan.side()]));
-            plan.write(FieldFile::of_run(&self.identity, &path), &path, pass, tractions, flowed)?;
+            let placements = pair.placements(&contact.position);
+            let states_under_load = report.plastic_volumes.iter().zip(report.states_under_load);
+            let plastic_state = states_under_load.into_iter().find(|(volume, _)| volume.body == plan.side());
+            let plastic_state = plastic_state.map(|(_, state)| (state, &placements[plan.side()]));
+            plan.write(FieldFile::of_run(&self.identity, &path), &path, pass, tractions, plastic_state)?;
         }
         let passes = report.record.pass;
-        if !report.flowed.is_empty() {
+        if !report.plastic_volumes.is_empty() {
             let mut file = FieldFile::of_run(&self.identity, &results.flow_path(Some(passes)));
             file.set("pass", passes);
-            add_volumes(&mut file, report.flowed, report.flowed);
+            add_volumes(&mut file, report.plastic_volumes, report.plastic_volumes);
             file.write()?;
         }
         Ok(())

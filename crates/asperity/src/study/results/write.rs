@@ -6,14 +6,14 @@ use serde_json::Value;
 
 use super::Results;
 use super::bodies::{add_bodies, add_volumes, set_caps};
-use super::entry::{self, Existing, Kept, NO_LOCKS};
+use super::entry::{self, Existing, ExistingResults, NO_LOCKS};
 use crate::choice::Choice;
 use crate::error::Result;
-use crate::grid::Seat;
+use crate::grid::Placement;
 use crate::io::fields::FieldFile;
 use crate::io::lock::Lock;
 use crate::io::{atomic, vti};
-use crate::motion::{Flowed, FlowedVolume, Pair};
+use crate::motion::{FlowResult, Pair, PlasticVolume};
 use crate::solver::Friction;
 use crate::study::case::Keep;
 use crate::study::fields::{NamedField, RestFields};
@@ -28,7 +28,7 @@ pub struct Writer {
     pub(super) results: Results,
     case: Value,
     pub(super) identity: String,
-    kept: Kept,
+    kept: ExistingResults,
     lock: Lock,
 }
 
@@ -116,7 +116,7 @@ impl Writer {
     ///
     /// # Errors
     /// [`crate::Error::File`].
-    pub(in crate::study) fn write_flow(&self, contact: &Flowed) -> Result<()> {
+    pub(in crate::study) fn write_flow(&self, contact: &FlowResult) -> Result<()> {
         let mut file = self.field_file(&self.results.flow_path(None));
         let left = if contact.residual.is_empty() { &contact.volumes } else { &contact.residual };
         add_volumes(&mut file, &contact.volumes, left);
@@ -132,13 +132,13 @@ impl Writer {
         &self,
         plan: &Plan,
         tractions: Tractions,
-        flowed: &[FlowedVolume],
+        plastic_volumes: &[PlasticVolume],
     ) -> Result<SubsurfaceRecord> {
-        let seat = Seat::flush(plan.grid.shape);
-        let flowed = flowed.iter().find(|volume| volume.body == plan.side());
-        let flowed = flowed.map(|volume| (&volume.state, &seat));
+        let placement = Placement::flush(plan.grid.shape);
+        let plastic_state = plastic_volumes.iter().find(|volume| volume.body == plan.side());
+        let plastic_state = plastic_state.map(|volume| (&volume.state, &placement));
         let path = self.results.subsurface_path(None);
-        plan.write(self.field_file(&path), &path, None, tractions, flowed)
+        plan.write(self.field_file(&path), &path, None, tractions, plastic_state)
     }
 
     /// Writes the bodies before the first pass; they slide under `friction`.

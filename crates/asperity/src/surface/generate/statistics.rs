@@ -18,7 +18,7 @@ const SEEDS: u64 = 100;
 const SHAPE: [usize; 2] = [96, 80];
 
 /// A method, with the prescribed autocorrelation of its heights at a distance in x and y, and its moments.
-struct Asked {
+struct PrescribedStatistics {
     name: &'static str,
     generator: Generator,
     autocorrelation: fn([f64; 2]) -> f64,
@@ -28,13 +28,13 @@ struct Asked {
     off: f64,
 }
 
-fn asked() -> [Asked; 9] {
+fn prescribed_statistics() -> [PrescribedStatistics; 9] {
     let low_pass = LowPass::new(1.0, [8.0; 2]);
     let rectangular = LowPass { band: Band::Rectangular, ..LowPass::new(1.0, [8.0, 6.0]) };
     let autocorrelation = Autocorrelation::new(1.0, [8.0, 5.0]);
     let ground = Autocorrelation { lay: FRAC_PI_4, ..Autocorrelation::new(1.0, [16.0, 4.0]) };
     let smooth = Autocorrelation { decay: Decay::Gaussian, ..autocorrelation };
-    let case = |name, generator, autocorrelation| Asked {
+    let case = |name, generator, autocorrelation| PrescribedStatistics {
         name,
         generator,
         autocorrelation,
@@ -60,7 +60,7 @@ fn asked() -> [Asked; 9] {
         case("exponential", Generator::Autocorrelation(autocorrelation), exponential),
         case("gaussian", Generator::Autocorrelation(smooth), gaussian),
         case("ground", Generator::Autocorrelation(ground), lay),
-        Asked {
+        PrescribedStatistics {
             ssk: -1.0,
             sku: 4.5,
             ..case(
@@ -69,7 +69,7 @@ fn asked() -> [Asked; 9] {
                 exponential,
             )
         },
-        Asked {
+        PrescribedStatistics {
             ssk: -0.8,
             sku: 3.6,
             ..case(
@@ -78,7 +78,7 @@ fn asked() -> [Asked; 9] {
                 lay,
             )
         },
-        Asked {
+        PrescribedStatistics {
             sku: 2.0,
             off: 2e-3,
             ..case(
@@ -87,7 +87,7 @@ fn asked() -> [Asked; 9] {
                 gaussian,
             )
         },
-        Asked {
+        PrescribedStatistics {
             ssk: 1.0,
             sku: 4.5,
             off: 0.02,
@@ -103,15 +103,15 @@ fn asked() -> [Asked; 9] {
 /// Surfaces of every case, generated once for all tests.
 static SURFACES: LazyLock<Vec<Vec<Topography>>> = LazyLock::new(|| {
     let grid = Grid::new(SHAPE, [1.0; 2]).unwrap();
-    let surface = |case: &Asked, seed| case.generator.generate(&grid, seed).unwrap();
-    asked().iter().map(|case| (0..SEEDS).map(|seed| surface(case, seed)).collect()).collect()
+    let surface = |case: &PrescribedStatistics, seed| case.generator.generate(&grid, seed).unwrap();
+    prescribed_statistics().iter().map(|case| (0..SEEDS).map(|seed| surface(case, seed)).collect()).collect()
 });
 
-fn cases() -> impl Iterator<Item = (Asked, &'static [Topography])> {
-    asked().into_iter().zip(SURFACES.iter().map(Vec::as_slice))
+fn cases() -> impl Iterator<Item = (PrescribedStatistics, &'static [Topography])> {
+    prescribed_statistics().into_iter().zip(SURFACES.iter().map(Vec::as_slice))
 }
 
-impl Asked {
+impl PrescribedStatistics {
     /// Area over ∫ R²: the number of independent spots of a surface.
     fn spots(&self) -> f64 {
         let half = |n: usize| -(n as i32 / 2)..n as i32 / 2;

@@ -25,7 +25,7 @@ pub use stratified::Core;
 use serde::Serialize;
 
 use crate::error::Result;
-use crate::surface::{NEVER, Stop, Topography, WOLF_PRUNING, go_on};
+use crate::surface::{NEVER, Stop, Topography, WOLF_PRUNING, check_stop};
 use crate::units::Metre;
 
 /// Areal roughness parameters over the defined samples, by families; serialised as one map from symbol to value.
@@ -64,7 +64,7 @@ impl Parameters {
     /// [`crate::Error::Interrupted`].
     pub fn until(topography: &Topography, stop: Stop<'_>) -> Result<Self> {
         fn made<T>(stop: Stop<'_>, of: impl FnOnce() -> T) -> Result<T> {
-            go_on(stop)?;
+            check_stop(stop)?;
             Ok(of())
         }
         Ok(Self {

@@ -4,7 +4,7 @@ use super::median::median;
 use crate::error::{Result, check};
 use crate::grid::Field;
 use crate::math::parallel;
-use crate::surface::{NEVER, Stop, Topography, go_on};
+use crate::surface::{NEVER, Stop, Topography, check_stop};
 
 /// Samples on each side of the judged one along x and y: 5 × 5 in all.
 const REACH: usize = 2;
@@ -74,7 +74,7 @@ fn spikes(z: &Field, factor: f64, stride: usize, stop: Stop<'_>) -> Result<Vec<(
     let mut around = Vec::new();
     for ((ix, iy), deviation) in candidates.indexed_iter_mut() {
         if iy == 0 {
-            go_on(stop)?;
+            check_stop(stop)?;
         }
         let is_one = deviation.abs() > factor * sigma && {
             let there = |i: usize, n: usize| {
@@ -92,7 +92,7 @@ fn spikes(z: &Field, factor: f64, stride: usize, stop: Stop<'_>) -> Result<Vec<(
     let groups = groups.into_iter().filter(|group| extent(group) <= 2 * REACH * stride);
     let mut spikes = Vec::new();
     for group in groups {
-        go_on(stop)?;
+        check_stop(stop)?;
         spikes.extend(outliers(z, group, factor, sigma));
     }
     Ok(spikes)
@@ -172,7 +172,7 @@ fn deviations(z: &Field, stride: usize, stop: Stop<'_>) -> Result<Field> {
         (i - reach..i + reach + 1).step_by(stride)
     };
     let done: Result<()> = parallel::tasks(rows.enumerate(), |(ix, row)| {
-        go_on(stop)?;
+        check_stop(stop)?;
         let mut around = Vec::with_capacity((2 * REACH + 1).pow(2));
         for (iy, deviation) in row.iter_mut().enumerate().filter(|(_, z)| !z.is_nan()) {
             defined(z, symmetric(ix, z.nrows()), symmetric(iy, z.ncols()), &mut around);

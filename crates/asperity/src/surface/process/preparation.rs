@@ -8,7 +8,7 @@ use super::window::within;
 use super::{Fill, Filter, Interpolation, Level, Round};
 use crate::error::{Result, check_in};
 use crate::grid::Grid;
-use crate::surface::{Axis, NEVER, Stop, Topography, go_on};
+use crate::surface::{Axis, NEVER, Stop, Topography, check_stop};
 use crate::units::{Dimension, Metre};
 
 /// Preparation steps of a topography; none by default.
@@ -108,7 +108,7 @@ impl Preparation {
     /// # Errors
     /// The errors of [`apply`](Self::apply); [`crate::Error::Interrupted`].
     pub fn apply_until(&self, mut topography: Topography, stop: Stop<'_>) -> Result<(Topography, Findings)> {
-        go_on(stop)?;
+        check_stop(stop)?;
         if let (Some(shortest), Some(longest)) = (self.s_filter, self.l_filter) {
             check_in(
                 Dimension::Length,
@@ -126,7 +126,7 @@ impl Preparation {
             topography = topography.despike_until(factor, stop)?;
         }
         let spikes = topography.undefined() - undefined;
-        go_on(stop)?;
+        check_stop(stop)?;
         if self.fill != Fill::None {
             topography = topography.fill(self.fill)?;
         }
@@ -134,17 +134,17 @@ impl Preparation {
         if let Some(axis) = self.mirror {
             topography = topography.mirror(axis);
         }
-        go_on(stop)?;
+        check_stop(stop)?;
         topography = topography.rotate(self.rotate)?;
-        go_on(stop)?;
+        check_stop(stop)?;
         if let Some(nesting_index) = self.s_filter {
             topography = topography.s_filter(nesting_index, self.filter)?;
         }
-        go_on(stop)?;
+        check_stop(stop)?;
         if let Some(nesting_index) = self.l_filter {
             topography = topography.l_filter(nesting_index, self.filter)?;
         }
-        go_on(stop)?;
+        check_stop(stop)?;
         topography = match self.resample {
             Some(Resample::Shape(shape)) => topography.resample_to_shape(shape, self.interpolate)?,
             Some(Resample::Pitch(pitch)) if pitch != topography.grid().pitch => {

@@ -6,7 +6,7 @@ mod watershed;
 use ndarray::Array2;
 
 use crate::error::{Result, check};
-use crate::surface::{NEVER, Stop, Topography, go_on};
+use crate::surface::{NEVER, Stop, Topography, check_stop};
 use crate::units::{CubicMetre, Metre, SquareMetre};
 use relief::Relief;
 use watershed::{Pruned, Watershed};
@@ -133,11 +133,11 @@ fn segment(topography: &Topography, up: f64, pruning: f64, stop: Stop<'_>) -> Re
             closed: true,
         })
         .collect();
-    go_on(stop)?;
+    check_stop(stop)?;
     let labels = Array2::from_shape_fn(topography.grid().shape, |(ix, iy)| of[relief.cell(ix, iy)]);
-    go_on(stop)?;
+    check_stop(stop)?;
     let rim = relief.rim();
-    go_on(stop)?;
+    check_stop(stop)?;
     let cell_area = topography.grid().cell_area();
     for ((ix, iy), &label) in labels.indexed_iter().filter(|(_, label)| **label > 0) {
         let (motif, cell) = (&mut motifs[label as usize - 1], relief.cell(ix, iy));

@@ -4,7 +4,7 @@ use rayon::slice::ParallelSliceMut;
 
 use super::relief::Relief;
 use crate::error::Result;
-use crate::surface::{Stop, go_on, go_on_at};
+use crate::surface::{Stop, check_stop, check_stop_at};
 
 /// No upward path.
 const NONE: usize = usize::MAX;
@@ -58,7 +58,7 @@ impl Watershed {
         let meets = |cell: usize, other: usize| z[other] >= z[cell] && of[other] != of[cell];
         let mut border: Vec<(f64, usize)> = Vec::new();
         for (n, cell) in relief.samples().enumerate() {
-            go_on_at(n, stop)?;
+            check_stop_at(n, stop)?;
             if relief.neighbours(cell).any(|other| meets(cell, other)) {
                 border.push((z[cell], cell));
             }
@@ -68,7 +68,7 @@ impl Watershed {
         let mut lands: Vec<usize> = (0..peaks.len()).collect();
         let mut ends: Vec<End> = peaks.iter().map(|&(_, height)| End { height, saddle: None }).collect();
         for (n, (height, cell)) in border.into_iter().enumerate() {
-            go_on_at(n, stop)?;
+            check_stop_at(n, stop)?;
             while let Some(other) = relief.steepest(cell, |other| {
                 meets(cell, other)
                     && find(&mut lands, of[other] as usize) != find(&mut lands, of[cell] as usize)
@@ -82,7 +82,7 @@ impl Watershed {
             }
         }
         for (n, cell) in relief.samples().filter(|&cell| !z[cell].is_nan()).enumerate() {
-            go_on_at(n, stop)?;
+            check_stop_at(n, stop)?;
             let end = &mut ends[find(&mut lands, of[cell] as usize)];
             end.height = end.height.min(z[cell]);
         }
@@ -127,7 +127,7 @@ fn hills(relief: &Relief, stop: Stop<'_>) -> Result<Hills> {
     // The upward path: the next cell of each cell. It ends at a cell that is its own successor.
     let mut next = vec![NONE; z.len()];
     for (n, cell) in relief.samples().enumerate() {
-        go_on_at(n, stop)?;
+        check_stop_at(n, stop)?;
         if let Some(higher) = relief.steepest(cell, |other| z[other] > z[cell]) {
             next[cell] = higher;
         }
@@ -135,12 +135,12 @@ fn hills(relief: &Relief, stop: Stop<'_>) -> Result<Hills> {
     let level = |cell: usize, next: &[usize]| {
         relief.neighbours(cell).any(|other| z[other] == z[cell] && next[other] == NONE)
     };
-    go_on(stop)?;
+    check_stop(stop)?;
     let brinks = relief.samples().filter(|&cell| next[cell] != NONE && level(cell, &next)).collect();
     spread(relief, &mut next, brinks);
     let mut peaks = Vec::new();
     for (n, cell) in relief.samples().filter(|&cell| !z[cell].is_nan()).enumerate() {
-        go_on_at(n, stop)?;
+        check_stop_at(n, stop)?;
         if next[cell] == NONE {
             next[cell] = cell;
             peaks.push((cell, z[cell]));
@@ -154,7 +154,7 @@ fn hills(relief: &Relief, stop: Stop<'_>) -> Result<Hills> {
         of[peak] = hill as u32;
     }
     for (n, cell) in relief.samples().filter(|&cell| !z[cell].is_nan()).enumerate() {
-        go_on_at(n, stop)?;
+        check_stop_at(n, stop)?;
         of[cell] = of[find(&mut next, cell)];
     }
     Ok((of, peaks))

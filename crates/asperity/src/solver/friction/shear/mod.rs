@@ -102,7 +102,9 @@ pub(super) trait Method {
 pub(super) fn method(history: &History, operator: &mut dyn CoupledOperator) -> Box<dyn Method> {
     match history {
         History::None | History::Increment(_) => Box::new(ShearSolver::new(operator)),
-        History::Rolling(passage) => Box::new(SteadySolver::new(operator, passage.ahead, passage.method)),
+        History::Rolling(transport) => {
+            Box::new(SteadySolver::new(operator, transport.ahead, transport.method))
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use crate::solver::friction::disc::{Vector, add, combination, dot, minus, times}
 use crate::solver::friction::shear::influence::{Influence, at};
 use crate::solver::friction::shear::state::{Freedom, State};
 use crate::solver::friction::shear::{Answer, Method, PROGRESS, Task};
-use crate::solver::friction::transport::{Ahead, SteadyMethod};
+use crate::solver::friction::transport::{ShiftByCell, SteadyMethod};
 use crate::solver::watch::go_on;
 use crate::solver::{Stats, TOLERANCE_REDUCTION, Watch};
 use crate::units::SquareMetre;
@@ -77,7 +77,7 @@ const MAX_PROJECTED_STEPS: usize = 50;
 pub(super) struct SteadySolver {
     cell_area: SquareMetre,
     influence: Influence,
-    ahead: Ahead,
+    ahead: ShiftByCell,
     method: SteadyMethod,
     /// The proximal term added to the displacement, if any.
     proximal: Option<Proximal>,
@@ -93,7 +93,7 @@ struct Proximal {
 }
 
 impl SteadySolver {
-    pub(super) fn new(operator: &mut dyn CoupledOperator, ahead: Ahead, method: SteadyMethod) -> Self {
+    pub(super) fn new(operator: &mut dyn CoupledOperator, ahead: ShiftByCell, method: SteadyMethod) -> Self {
         Self {
             cell_area: operator.grid().cell_area(),
             influence: Influence::new(operator),

@@ -69,8 +69,7 @@ pub(in crate::study) mod conductance {
 /// `[flow]`.
 pub(in crate::study) mod flow {
     use super::*;
-    use crate::flow::Ends;
-    use crate::study::case::gap_flow::Direction;
+    use crate::flow::{Along, Ends};
 
     section! { &["flow"], "";
         VISCOSITY: Typed<f64> = required(
@@ -86,12 +85,12 @@ pub(in crate::study) mod flow {
             "\"1 bar\"",
             "pressure difference that drives the leakage",
         );
-        ALONG: Optional<Direction> = optional(
+        ALONG: Typed<Along> = defaulted(
             "along",
-            choice::<Direction>(),
-            "along both axes",
+            choice::<Along>(),
+            "\"both\"",
             "\"x\"",
-            "direction of the flow",
+            "direction of the pressure gradient",
         );
         ENDS: Optional<Ends> = optional(
             "ends",

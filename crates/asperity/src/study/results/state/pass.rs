@@ -19,14 +19,14 @@ use std::path::Path;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::io::fields::{Attribute, FieldFile, Fields};
-use crate::motion::{Bearing, Guess, Jump, WarmStart};
+use crate::motion::{Guess, LastExtrapolation, LoadedCells, WarmStart};
 
 /// Adds the start of the pass after `pass`.
 pub(in crate::study) fn add(file: &mut FieldFile, pass: usize, grids: &[Grid; 2], warm: &WarmStart) {
     file.set("pass", pass).set("represented", warm.represented);
-    if let Some(jump) = &warm.jump {
-        file.set("jump", jump.passes);
-        for (law, sums) in jump.sums.iter().enumerate() {
+    if let Some(last) = &warm.extrapolation {
+        file.set("jump", last.passes);
+        for (law, sums) in last.sums.iter().enumerate() {
             for (body, grid) in grids.iter().enumerate() {
                 for (index, sum) in sums[body].iter().enumerate() {
                     file.add_field(&sum_name(law, body, index), "1", grid, [0.0, 0.0], sum);
@@ -37,7 +37,7 @@ pub(in crate::study) fn add(file: &mut FieldFile, pass: usize, grids: &[Grid; 2]
     if let Some(Guess { approach, slope }) = warm.guess {
         file.set("approach", approach).set("slope", slope);
     }
-    let of_positions = |value: fn(&Bearing) -> f64| warm.positions.iter().map(value).collect::<Vec<_>>();
+    let of_positions = |value: fn(&LoadedCells) -> f64| warm.positions.iter().map(value).collect::<Vec<_>>();
     let of_cells = |value: fn(&(u32, f64)) -> f64| {
         warm.positions.iter().flat_map(|p| &p.pressure).map(value).collect::<Vec<_>>()
     };
@@ -84,7 +84,7 @@ pub(in crate::study) fn read(path: &Path) -> Result<WarmStart> {
     // Files of earlier versions have neither change nor persistence.
     let mut changes = change.into_iter().chain(iter::repeat(0.0));
     let positions = approach.into_iter().zip(bearing).zip(persistence.into_iter().chain(iter::repeat(0.0)));
-    let positions = positions.map(|((approach, count), persistence)| Bearing {
+    let positions = positions.map(|((approach, count), persistence)| LoadedCells {
         approach,
         pressure: cells.by_ref().take(count as usize).collect(),
         change: changes.by_ref().take(count as usize).collect(),
@@ -104,11 +104,11 @@ pub(in crate::study) fn read(path: &Path) -> Result<WarmStart> {
         };
         known.map(sum).collect::<Result<Vec<_>>>()
     };
-    let jump = count("jump").map(|passes| {
+    let extrapolation = count("jump").map(|passes| {
         let laws = (0..).take_while(|law| names.contains(&sum_name(*law, 0, 0)));
         let sums = laws.map(|law| Ok([sums(law, 0)?, sums(law, 1)?])).collect::<Result<_>>()?;
-        Ok::<_, Error>(Jump { passes, sums })
+        Ok::<_, Error>(LastExtrapolation { passes, sums })
     });
     let represented = count("represented").or(count("pass")).unwrap_or(0);
-    Ok(WarmStart { guess, positions, jump: jump.transpose()?, represented })
+    Ok(WarmStart { guess, positions, extrapolation: extrapolation.transpose()?, represented })
 }

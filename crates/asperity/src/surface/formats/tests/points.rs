@@ -11,7 +11,7 @@ fn uniform(u: Random<'_, '_>) -> arbtest::arbitrary::Result<f64> {
 
 /// A table of points with its origin.
 #[derive(Debug)]
-struct Written {
+struct PointTable {
     text: String,
     pitch: [f64; 2],
     heights: Field,
@@ -19,7 +19,7 @@ struct Written {
 }
 
 /// A grid with up to a given fraction of its points missing, written in some order with some separator.
-fn written(u: Random<'_, '_>, shape: [usize; 2], lacking: f64) -> arbtest::arbitrary::Result<Written> {
+fn written(u: Random<'_, '_>, shape: [usize; 2], lacking: f64) -> arbtest::arbitrary::Result<PointTable> {
     let pitch = [10f64.powf(6.0 * uniform(u)? - 6.0), 10f64.powf(6.0 * uniform(u)? - 6.0)];
     let origin = [1e3 * pitch[0] * (uniform(u)? - 0.5), 1e3 * pitch[1] * (uniform(u)? - 0.5)];
     // Positions of a stage, exact or nearly so.
@@ -50,7 +50,7 @@ fn written(u: Random<'_, '_>, shape: [usize; 2], lacking: f64) -> arbtest::arbit
             }
         }
     }
-    Ok(Written { text: lines.join(*u.choose(&["\n", "\r\n"])?), pitch, heights, jitter })
+    Ok(PointTable { text: lines.join(*u.choose(&["\n", "\r\n"])?), pitch, heights, jitter })
 }
 
 /// The part of a field within its outermost nonempty lines.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::super::hardness::{given, map as keys};
 use crate::error::Result;
 use crate::study::case::cursor::Entry;
-use crate::study::case::{GivenMap, Hardness, HardnessMap};
+use crate::study::case::{Hardness, HardnessInput, HardnessMap};
 use crate::units::Dimension;
 
 /// One pressure or a table; a file as the table names it.
@@ -17,7 +17,7 @@ pub(in crate::study::case) fn hardness(entry: &Entry<'_>) -> Result<Hardness> {
     let map = entry.clone().table()?;
     if given::GIVEN.entry(&map).is_some() {
         map.known(&["given"], |_| None)?;
-        return Ok(Hardness::Given(GivenMap { name: given::GIVEN.of(&map)? }));
+        return Ok(Hardness::Given(HardnessInput { name: given::GIVEN.of(&map)? }));
     }
     map.known(&["file", "channel", "unit"], |_| None)?;
     let path = match keys::FILE.of(&map)?.as_str() {

@@ -11,7 +11,7 @@ use crate::units::{CubicMetre, Joule, Metre, Pascal};
 /// Plastic state below the surface of a body.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct FlowedVolume {
+pub struct PlasticVolume {
     /// The body: 0 the lower, 1 the upper one.
     pub body: usize,
     /// Grid of the surface.
@@ -33,18 +33,18 @@ pub struct FlowedVolume {
 }
 
 /// Results of a pass of elasto-plastic bodies.
-pub(super) struct FlowedPass {
+pub(super) struct ElastoPlasticPass {
     /// The plastic state after unloading.
-    pub(super) volumes: Vec<FlowedVolume>,
+    pub(super) volumes: Vec<PlasticVolume>,
     /// The records of the positions.
     pub(super) steps: Vec<FlowStepRecord>,
     /// The record of the pass.
     pub(super) record: PassFlowRecord,
     /// The plastic state under the load at the selected position; empty if none is selected.
-    pub(super) looked_at: Vec<PlasticState>,
+    pub(super) states_under_load: Vec<PlasticState>,
 }
 
-impl FlowedVolume {
+impl PlasticVolume {
     /// Returns the volumes of the bodies of a contact under its load.
     pub(super) fn loaded(contact: &mut PlasticContact) -> Vec<Self> {
         let sides = contact.sides().to_vec();
@@ -135,7 +135,7 @@ impl FlowedVolume {
 }
 
 /// Returns a `pair` with its surfaces displaced by the plastic strain; with `sign` −1 the displacement is removed.
-pub(super) fn displaced(mut pair: Pair, volumes: &[FlowedVolume], sign: f64) -> Pair {
+pub(super) fn displaced(mut pair: Pair, volumes: &[PlasticVolume], sign: f64) -> Pair {
     volumes.iter().for_each(|volume| displace(&mut pair, volume.body, &volume.displacement, sign));
     pair
 }
@@ -186,13 +186,13 @@ impl FlowStepRecord {
 
 impl FlowRecord {
     /// Returns the record of these volumes and of the increments with these sums.
-    pub(super) fn of(volumes: &[FlowedVolume], sums: &FlowSums) -> Self {
+    pub(super) fn of(volumes: &[PlasticVolume], sums: &FlowSums) -> Self {
         let (max_plastic_strain, max_plastic_strain_position) = volumes
             .iter()
             .map(|volume| volume.max_strain)
             .max_by(|(a, _), (b, _)| a.total_cmp(b))
             .unwrap_or((0.0, [0.0; 3]));
-        let displaced = |volume: &FlowedVolume| {
+        let displaced = |volume: &PlasticVolume| {
             volume.grid.cell_area() * volume.displacement.iter().map(|r| r.max(0.0)).sum::<f64>()
         };
         Self {
@@ -202,8 +202,8 @@ impl FlowRecord {
             plastic_work: sums.plastic_work,
             stored_energy: volumes.iter().map(|volume| volume.stored_energy).sum(),
             displaced_volume: volumes.iter().map(displaced).sum(),
-            max_residual_tension: volumes.iter().map(FlowedVolume::max_tension).fold(0.0, f64::max),
-            residual_displacement: volumes.iter().map(FlowedVolume::range).fold(0.0, f64::max),
+            max_residual_tension: volumes.iter().map(PlasticVolume::max_tension).fold(0.0, f64::max),
+            residual_displacement: volumes.iter().map(PlasticVolume::range).fold(0.0, f64::max),
             products: sums.products,
             mismatch: sums.mismatch,
             regime: if max_plastic_strain > 0.0 { Regime::Yields } else { Regime::Elastic },
@@ -216,7 +216,7 @@ impl FlowRecord {
 
 impl FlowRecord {
     /// Returns the record of the residual state after a motion with these positions and passes.
-    pub fn of_passes(left: &[FlowedVolume], steps: &[StepRecord], passes: &[PassRecord]) -> Self {
+    pub fn of_passes(left: &[PlasticVolume], steps: &[StepRecord], passes: &[PassRecord]) -> Self {
         let steps = steps.iter().filter_map(|step| step.flow);
         let passes: Vec<PassFlowRecord> = passes.iter().filter_map(|pass| pass.flow).collect();
         let mut sums = FlowSums::default();
@@ -236,16 +236,16 @@ impl PassFlowRecord {
     /// Returns the record of a pass from the states `before` to these volumes. Plastic work is given in the lower and in
     /// the upper body, and under the outer columns of the overlap.
     pub(super) fn of(
-        volumes: &[FlowedVolume],
+        volumes: &[PlasticVolume],
         before: &[PlasticState],
         [plastic_work_lower, plastic_work_upper]: [Joule; 2],
         plastic_work_rim: Joule,
     ) -> Self {
-        let of = |body: usize, value: &dyn Fn(&FlowedVolume, &PlasticState) -> f64| {
+        let of = |body: usize, value: &dyn Fn(&PlasticVolume, &PlasticState) -> f64| {
             let mut all = volumes.iter().zip(before);
             all.find(|(volume, _)| volume.body == body).map_or(0.0, |(volume, before)| value(volume, before))
         };
-        let both = |value: &dyn Fn(&FlowedVolume, &PlasticState) -> f64| [0, 1].map(|body| of(body, value));
+        let both = |value: &dyn Fn(&PlasticVolume, &PlasticState) -> f64| [0, 1].map(|body| of(body, value));
         let [max_plastic_strain_lower, max_plastic_strain_upper] = both(&|volume, _| volume.max_strain.0);
         let [surface_shift_lower, surface_shift_upper] =
             both(&|volume, before| volume.shift(&volume.state.strain) - volume.shift(&before.strain));

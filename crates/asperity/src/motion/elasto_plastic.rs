@@ -4,21 +4,21 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::facing;
 use crate::motion::course::{self, Course, Output, Step};
-use crate::motion::flowed::{self, FlowSums, FlowedVolume};
 use crate::motion::loading::{Stage, shear_record, static_record};
 use crate::motion::pair::Pair;
+use crate::motion::plastic_volume::{self, FlowSums, PlasticVolume};
 use crate::motion::record::{FlowRecord, FlowStepRecord, IncrementRecord, StaticRecord};
 use crate::motion::state::Origin;
-use crate::motion::watch::{AtRest, Watch};
+use crate::motion::watch::{StaticWatch, Watch};
 use crate::operator::Boundary;
-use crate::plasticity::{Facing, FlowParams, Interface, PlasticBody, PlasticContact};
+use crate::plasticity::{FlowParams, Interface, PlasticBody, PlasticContact, RelativePosition};
 use crate::solver::{Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Tangential};
 use crate::units::Joule;
 
 /// Result of a static contact of elasto-plastic bodies.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct FlowedContact {
+pub struct ElastoPlasticContact {
     /// The record of the contact under its last load.
     pub record: StaticRecord,
     /// The contact under its last load. Its gap includes the plastic displacement of the surfaces.
@@ -29,25 +29,25 @@ pub struct FlowedContact {
     /// [`FrictionalSolution::dissipation_error`](crate::solver::FrictionalSolution::dissipation_error).
     pub dissipation_error: Joule,
     /// The plastic state and its history.
-    pub flowed: Flowed,
+    pub flow_result: FlowResult,
 }
 
 /// Plastic state below the surfaces of a static contact, and its history.
 #[derive(Debug, Clone, Default)]
 #[non_exhaustive]
-pub struct Flowed {
+pub struct FlowResult {
     /// The increments, unloading included.
     pub increments: Vec<IncrementRecord>,
     /// The plastic state of each elasto-plastic body under the last load.
-    pub volumes: Vec<FlowedVolume>,
+    pub volumes: Vec<PlasticVolume>,
     /// The plastic state after unloading; empty if the load stays.
-    pub residual: Vec<FlowedVolume>,
+    pub residual: Vec<PlasticVolume>,
 }
 
-impl Flowed {
+impl FlowResult {
     /// Returns a `pair` with its surfaces displaced by the plastic strain under the last load.
     pub fn displaced(&self, pair: Pair) -> Pair {
-        flowed::displaced(pair, &self.volumes, 1.0)
+        plastic_volume::displaced(pair, &self.volumes, 1.0)
     }
 }
 
@@ -97,7 +97,7 @@ impl FlowPath {
 /// # Panics
 /// If the bodies have different shapes.
 #[expect(clippy::too_many_arguments, reason = "the contact, its path, and who looks on")]
-pub fn press_flowing(
+pub fn press_elasto_plastic(
     pair: &Pair,
     boundary: Boundary,
     friction: Option<&Friction>,
@@ -106,7 +106,7 @@ pub fn press_flowing(
     params: &Params,
     watch: &dyn Watch,
     outputs: &mut [&mut dyn Output],
-) -> Result<FlowedContact> {
+) -> Result<ElastoPlasticContact> {
     let (operators, initial_gap) = facing(pair, boundary)?;
     let shape = pair.lower_grid().shape;
     let interface = match friction {
@@ -116,9 +116,9 @@ pub fn press_flowing(
             Interface::Frictional(operators.coupled_on(shape), *friction)
         }
     };
-    let facing = Facing { interface, initial_gap, seats: pair.seats(&pair.at_rest()) };
+    let facing = RelativePosition { interface, initial_gap, placements: pair.placements(&pair.at_rest()) };
     let contact = PlasticContact::new(facing, bodies, path.flow, *params);
-    let mut flowing = Flowing {
+    let mut flowing = ElastoPlasticLoading {
         contact,
         path,
         increments: Vec::new(),
@@ -133,7 +133,7 @@ pub fn press_flowing(
 }
 
 /// A contact of elasto-plastic bodies on its loading path.
-struct Flowing<'a> {
+struct ElastoPlasticLoading<'a> {
     contact: PlasticContact,
     path: &'a FlowPath,
     increments: Vec<IncrementRecord>,
@@ -143,20 +143,20 @@ struct Flowing<'a> {
     /// State at the beginning of the current stage.
     origin: Option<Origin>,
     /// The contact under its last load, once it is reached.
-    loaded: Option<Loaded>,
+    loaded: Option<LastLoad>,
 }
 
 /// A contact under its last load.
-struct Loaded {
+struct LastLoad {
     solution: Equilibrium,
     slip: Option<[Field; 2]>,
     dissipation: Joule,
     dissipation_error: Joule,
-    volumes: Vec<FlowedVolume>,
+    volumes: Vec<PlasticVolume>,
     flow: FlowRecord,
 }
 
-impl Loaded {
+impl LastLoad {
     /// Creates the unloading stage with `increments` steps.
     fn unloading(&self, increments: usize) -> Stage {
         // The force of bodies in gross slip is the whole friction force, also under each smaller load.
@@ -169,7 +169,7 @@ impl Loaded {
     }
 }
 
-impl Course for Flowing<'_> {
+impl Course for ElastoPlasticLoading<'_> {
     type Solved = IncrementRecord;
 
     fn next(&mut self, watch: &dyn Watch) -> Result<Option<IncrementRecord>> {
@@ -182,7 +182,7 @@ impl Course for Flowing<'_> {
         }
         let origin = self.origin.expect("a stage has begun");
         let loading = origin.towards(stage.loading, step as f64 / stage.increments as f64);
-        let watch = AtRest::new(watch, self.increments.len(), self.path.increments(), loading.normal);
+        let watch = StaticWatch::new(watch, self.increments.len(), self.path.increments(), loading.normal);
         self.increment(loading, index + 1, &watch).map(Some)
     }
 
@@ -195,7 +195,7 @@ impl Course for Flowing<'_> {
     }
 }
 
-impl Flowing<'_> {
+impl ElastoPlasticLoading<'_> {
     /// Returns the index of the current stage, the stage, and its next step, from 1; `None` after the last.
     fn stage(&mut self) -> Result<Option<(usize, Stage, usize)>> {
         let (stages, done) = (&self.path.stages, self.increments.len());
@@ -210,11 +210,11 @@ impl Flowing<'_> {
         Ok((unloading < increments).then(|| (stages.len(), loaded.unloading(increments), unloading + 1)))
     }
 
-    fn under_the_last_load(&mut self) -> Result<Loaded> {
+    fn under_the_last_load(&mut self) -> Result<LastLoad> {
         let nothing = Error::Unsupported("an elasto-plastic contact needs a load");
         let solution = self.contact.equilibrium().cloned().ok_or(nothing)?;
-        let volumes = FlowedVolume::loaded(&mut self.contact);
-        Ok(Loaded {
+        let volumes = PlasticVolume::loaded(&mut self.contact);
+        Ok(LastLoad {
             solution,
             slip: self.slip.take(),
             dissipation: self.increments.iter().map(|increment| increment.dissipation).sum(),
@@ -225,7 +225,12 @@ impl Flowing<'_> {
     }
 
     /// Advances to a prescribed loading.
-    fn increment(&mut self, loading: Loading, stage: usize, watch: &AtRest<'_>) -> Result<IncrementRecord> {
+    fn increment(
+        &mut self,
+        loading: Loading,
+        stage: usize,
+        watch: &StaticWatch<'_>,
+    ) -> Result<IncrementRecord> {
         let contact = &mut self.contact;
         let before = contact.equilibrium().and_then(Equilibrium::frictional).cloned();
         let increment = contact.load(loading, watch)?;
@@ -248,13 +253,13 @@ impl Flowing<'_> {
     }
 
     /// Returns the contact at the end of its path.
-    fn finish(mut self) -> Result<FlowedContact> {
+    fn finish(mut self) -> Result<ElastoPlasticContact> {
         let loaded = self.loaded.take().expect("the end of the path");
-        let Loaded { solution, slip, dissipation, dissipation_error, volumes, flow } = loaded;
+        let LastLoad { solution, slip, dissipation, dissipation_error, volumes, flow } = loaded;
         let (residual, left) = match self.path.unloading {
             None => (Vec::new(), None),
             Some(_) => {
-                let residual = FlowedVolume::unloaded(&mut self.contact);
+                let residual = PlasticVolume::unloaded(&mut self.contact);
                 let left = FlowRecord::of(&residual, &self.sums).into_residual();
                 (residual, Some(left))
             }
@@ -264,7 +269,7 @@ impl Flowing<'_> {
         let shear = solution.frictional().map(|solution| shear_record(solution, dissipation));
         let plastic = Field::zeros(solution.normal().pressure.raw_dim());
         let record = StaticRecord { flow: Some(flow), shear, ..static_record(&solution, &plastic) };
-        let flowed = Flowed { increments: self.increments, volumes, residual };
-        Ok(FlowedContact { record, solution, slip, dissipation_error, flowed })
+        let flow_result = FlowResult { increments: self.increments, volumes, residual };
+        Ok(ElastoPlasticContact { record, solution, slip, dissipation_error, flow_result })
     }
 }

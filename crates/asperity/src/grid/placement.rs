@@ -8,7 +8,7 @@ use super::{CellValues, Field};
 /// weighted mean. A change of the contact cell is distributed to the body with the same weights. They sum to 1, so nothing
 /// is lost or gained.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Seat {
+pub struct Placement {
     /// Column of the body under the first column of the contact.
     first: usize,
     /// Shift of the body along y, in cells.
@@ -18,7 +18,7 @@ pub struct Seat {
     shape: [usize; 2],
 }
 
-impl Seat {
+impl Placement {
     /// Creates the placement of a contact whose first cell lies on `[column, row]` of a body of shape `shape`, counted
     /// cyclically, plus a `fraction` of a column, 0 ≤ `fraction` < 1.
     ///

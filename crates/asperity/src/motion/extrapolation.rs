@@ -67,7 +67,7 @@ impl Acceleration {
 /// The last extrapolation, needed to choose the next one.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub struct Jump {
+pub struct LastExtrapolation {
     /// Passes of the extrapolation, ≥ 1.
     pub passes: usize,
     /// Sums over the computed pass of each law that repeats.
@@ -87,7 +87,7 @@ pub(super) struct Bounds {
 }
 
 /// The extrapolation of a computed pass.
-pub(super) struct Leap {
+pub(super) struct Extrapolation {
     /// Passes of the extrapolation, ≥ 1.
     pub(super) passes: usize,
     /// Mean over these passes of the sums of the laws; `None` for a single pass, which uses its own sums.
@@ -96,21 +96,21 @@ pub(super) struct Leap {
     pub(super) error: Metre,
 }
 
-impl Leap {
+impl Extrapolation {
     /// No extrapolation: a single pass.
     pub(super) const ONE: Self = Self { passes: 1, mean: None, error: 0.0 };
 }
 
 /// Compliance of the surfaces at the shortest waves on the grid, m/Pa.
 #[derive(Clone, Copy)]
-pub(super) struct Softness {
+pub(super) struct GridCompliance {
     /// Under a pressure on a single cell.
     pub(super) single: f64,
     /// Under a checkerboard pressure; the smallest of all.
-    pub(super) chequered: f64,
+    pub(super) checkerboard: f64,
 }
 
-impl Softness {
+impl GridCompliance {
     /// Computes the compliance of a pair with a boundary.
     pub(super) fn of(pair: &Pair, boundary: Boundary) -> Self {
         /// Reach of the alternating sum in cells; it is tapered towards them.
@@ -119,19 +119,19 @@ impl Softness {
         let response = pair.response();
         let influence = response.influence(pitch);
         let fade = |k: i32| (0.5 * PI * f64::from(k) / f64::from(REACH)).cos().powi(2);
-        let mut chequered = 0.0;
+        let mut checkerboard = 0.0;
         for i in -REACH..=REACH {
             for j in -REACH..=REACH {
                 let sign = if (i + j) % 2 == 0 { 1.0 } else { -1.0 };
-                chequered +=
+                checkerboard +=
                     sign * fade(i) * fade(j) * influence.at(f64::from(i) * pitch[0], f64::from(j) * pitch[1]);
             }
         }
         if boundary.repeats(0) || boundary.repeats(1) {
             let shortest = pitch.map(|pitch| PI / pitch);
-            chequered = chequered.min(response.harmonic_displacement(shortest[0], shortest[1]));
+            checkerboard = checkerboard.min(response.harmonic_displacement(shortest[0], shortest[1]));
         }
-        Self { single: influence.at(0.0, 0.0), chequered }
+        Self { single: influence.at(0.0, 0.0), checkerboard }
     }
 }
 
@@ -145,9 +145,11 @@ pub(super) fn relaxation(
 ) -> f64 {
     let mut count = [&pair.lower, &pair.upper].map(|body| vec![0.0; body.heights.len()]);
     for contact in contacts {
-        for (count, seat) in count.iter_mut().zip(pair.seats(&contact.position)) {
+        for (count, placement) in count.iter_mut().zip(pair.placements(&contact.position)) {
             for &(cell, _) in &contact.pressure {
-                seat.parts(seat.cell(cell as usize)).for_each(|(cell, weight)| count[cell] += weight);
+                placement
+                    .parts(placement.cell(cell as usize))
+                    .for_each(|(cell, weight)| count[cell] += weight);
             }
         }
     }
@@ -161,7 +163,7 @@ pub(super) fn relaxation(
 
 impl Acceleration {
     /// Returns the largest number of passes of the next extrapolation, before its error is known.
-    pub(super) fn most(&self, bounds: &Bounds, before: &Jump) -> usize {
+    pub(super) fn most(&self, bounds: &Bounds, before: &LastExtrapolation) -> usize {
         let [plastic, worn] = bounds.volumes;
         let most = if plastic > worn * before.passes as f64 {
             // Plastic flow does not repeat: the surfaces shake down first.
@@ -175,7 +177,7 @@ impl Acceleration {
 }
 
 /// Returns the mean over `passes` of sums whose change per pass since `before` continues.
-pub(super) fn extrapolated(now: &[Sums], before: &Jump, passes: usize) -> Vec<Sums> {
+pub(super) fn extrapolated(now: &[Sums], before: &LastExtrapolation, passes: usize) -> Vec<Sums> {
     let factor = 0.5 * passes as f64 / before.passes as f64;
     let mean = |(now, then): (&Field, &Field)| {
         ndarray::Zip::from(now).and(then).map_collect(|now, then| (now + factor * (now - then)).max(0.0))

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use asperity::motion::{Regime, StaticRecord};
 use asperity::study::case::Case;
-use asperity::study::{self, Existing, Given, Outcome, Results};
+use asperity::study::{self, Existing, Outcome, Results, SurfaceInput};
 use ndarray::Array3;
 
 /// A ball of 1 mm on a flat body that yields at 1.5 GPa, or does not. Yield begins at 5.5 N, at a depth of half the contact
@@ -32,12 +32,12 @@ fn record(outcome: &Outcome) -> &StaticRecord {
 fn what_does_not_yield_presses_as_an_elastic_body_to_the_last_bit() {
     let light = study::rest(
         &case("5 N", FLOWS, VOLUME.replace("increments = 4", "increments = 1").as_str()),
-        Given::default(),
+        SurfaceInput::default(),
         &(),
     )
     .unwrap();
-    let elastic = study::rest(&case("5 N", "", ""), Given::default(), &()).unwrap();
-    let pressure = |rest: &study::Rest| {
+    let elastic = study::rest(&case("5 N", "", ""), SurfaceInput::default(), &()).unwrap();
+    let pressure = |rest: &study::StaticResult| {
         rest.fields.fields.iter().find(|field| field.name == "pressure").unwrap().values.clone()
     };
     assert_eq!(pressure(&light), pressure(&elastic));
@@ -50,7 +50,7 @@ fn a_ball_that_yields_leaves_a_dent_and_residual_stress() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let heavy = case("20 N", FLOWS, VOLUME);
-    let (summary, _) = study::run(&heavy, Given::default(), &out, Existing::Keep, &()).unwrap();
+    let (summary, _) = study::run(&heavy, SurfaceInput::default(), &out, Existing::Keep, &()).unwrap();
     let record = record(&summary.outcome);
     let flow = record.flow.as_ref().unwrap();
     let left = flow.residual.as_ref().unwrap();
@@ -106,7 +106,7 @@ fn a_ball_that_yields_leaves_a_dent_and_residual_stress() {
 #[test]
 fn a_contact_that_slides_goes_on_sliding_while_its_load_is_taken_off() {
     let slides = format!("[friction]\ncoefficient = 0.2\nsliding = [3, 4]\n{VOLUME}");
-    let slid = study::rest(&case("20 N", FLOWS, &slides), Given::default(), &()).unwrap();
+    let slid = study::rest(&case("20 N", FLOWS, &slides), SurfaceInput::default(), &()).unwrap();
     let loads: Vec<f64> = slid.increments.iter().map(|increment| increment.load).collect();
     assert_eq!((loads.len(), loads[loads.len() - 1]), (8, 0.0));
     for increment in &slid.increments {
@@ -123,7 +123,7 @@ fn stages_go_in_their_own_steps() {
     let stages = "[[history]]\nload = \"8 N\"\nincrements = 2\n[[history]]\napproach = \"1.2 um\"\n";
     let staged = study::rest(
         &case("16 N", FLOWS, &format!("{VOLUME}unload = false\n{stages}")),
-        Given::default(),
+        SurfaceInput::default(),
         &(),
     )
     .unwrap();
@@ -146,16 +146,17 @@ fn a_depth_that_is_none_and_flow_that_leaves_the_volume_are_told() {
     for (shallow, told) in
         [("5 um", "'depth' is 5 µm, expected from a cell, 6 µm"), ("1 mm", "'depth' is 1 mm")]
     {
-        let error = study::rest(&case("20 N", FLOWS, &depth(shallow)), Given::default(), &()).unwrap_err();
+        let error =
+            study::rest(&case("20 N", FLOWS, &depth(shallow)), SurfaceInput::default(), &()).unwrap_err();
         assert!(error.to_string().contains(told), "{error}");
     }
-    let thin = study::rest(&case("20 N", FLOWS, &depth("18 um")), Given::default(), &()).unwrap();
+    let thin = study::rest(&case("20 N", FLOWS, &depth("18 um")), SurfaceInput::default(), &()).unwrap();
     assert!(
         thin.warnings.iter().any(|warning| warning.contains("yields in its deepest layer")),
         "{:?}",
         thin.warnings
     );
-    let whole = study::rest(&case("20 N", FLOWS, VOLUME), Given::default(), &()).unwrap();
+    let whole = study::rest(&case("20 N", FLOWS, VOLUME), SurfaceInput::default(), &()).unwrap();
     assert!(!whole.warnings.iter().any(|warning| warning.contains("deepest layer")), "{:?}", whole.warnings);
     assert!(whole.warnings.iter().any(|warning| warning.contains("more than 15 %")), "{:?}", whole.warnings);
 }
@@ -168,7 +169,8 @@ fn the_stress_below_bodies_that_flow_is_whole() {
     let volume = VOLUME.replace("unload", "") + "unload = false\n";
     let run = |plasticity: &str, name: &str, rest: &str| {
         let out = folder.path().join(name);
-        study::run(&case("20 N", plasticity, rest), Given::default(), &out, Existing::Keep, &()).unwrap();
+        study::run(&case("20 N", plasticity, rest), SurfaceInput::default(), &out, Existing::Keep, &())
+            .unwrap();
         Results::open(&out).unwrap()
     };
     let flows = run(FLOWS, "flows", &format!("{volume}{depths}"));
