@@ -2,9 +2,11 @@
 
 mod finite; // the check of all results
 mod seat;
+mod spots; // connected cells
 
 pub(crate) use finite::check_finite;
 pub use seat::Seat;
+pub(crate) use spots::Spots;
 
 use crate::error::{Error, Result};
 use crate::units::{Dimension, Metre, SquareMetre};
