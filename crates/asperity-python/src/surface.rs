@@ -42,10 +42,9 @@ pub(crate) fn surface<'py>(
     if let Some(heights) = &given {
         handed.topographies.insert("heights".to_owned(), topography(py, heights)?);
     }
-    let Made { topography, origin, findings, .. } =
-        work::run(py, 0, None, |looking| {
-            study::topography_until(&text, Path::new(""), handed, &|| looking.stop())
-        })?;
+    let Made { topography, origin, findings, .. } = work::run(py, 0, None, |looking| {
+        study::topography_until(&text, Path::new(""), handed, &|| looking.stop())
+    })?;
     let made = PyDict::new(py);
     made.set_item("pitch", topography.grid().pitch)?;
     made.set_item("underside", origin.is_some_and(|origin| origin.is_underside))?;
@@ -89,6 +88,10 @@ fn dimension(name: &str) -> PyResult<Dimension> {
         "angle" => Dimension::Angle,
         "time" => Dimension::Time,
         "stiffness" => Dimension::Stiffness,
+        "conductivity" => Dimension::Conductivity,
+        "thermal insulance" => Dimension::ThermalInsulance,
+        "electrical conductivity" => Dimension::ElectricalConductivity,
+        "electrical insulance" => Dimension::ElectricalInsulance,
         _ => return Err(PyTypeError::new_err(format!("no dimension is called {name}"))),
     })
 }

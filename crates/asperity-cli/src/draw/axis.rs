@@ -142,6 +142,10 @@ impl From<Dimension> for Unit {
             Dimension::RemovalRate => Self::Of("1/(Pa m)"),
             Dimension::Temperature => Self::Of("K"),
             Dimension::Conductivity => Self::Of("W/(m K)"),
+            Dimension::ThermalInsulance => Self::Of("m² K/W"),
+            Dimension::ElectricalConductivity => Self::Of("S/m"),
+            Dimension::Resistivity => Self::Of("Ω m"),
+            Dimension::ElectricalInsulance => Self::Of("Ω m²"),
             Dimension::HeatCapacity => Self::Of("J/(kg K)"),
             Dimension::Density => Self::Of("kg/m³"),
         }

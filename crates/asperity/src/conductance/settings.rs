@@ -1,8 +1,8 @@
 //! What conducts between the bodies.
 
 use crate::choice::choice;
-use crate::error::{Error, Result, check};
-use crate::units::Metre;
+use crate::error::{Error, Result, check_in};
+use crate::units::{Dimension, Metre};
 
 /// What passes through a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -15,6 +15,24 @@ pub enum Kind {
 }
 
 choice!(Kind: "thermal" => Thermal, "electrical" => Electrical);
+
+impl Kind {
+    /// Dimension of a conductivity.
+    pub fn conductivity(self) -> Dimension {
+        match self {
+            Self::Thermal => Dimension::Conductivity,
+            Self::Electrical => Dimension::ElectricalConductivity,
+        }
+    }
+
+    /// Dimension of the resistance of an area.
+    pub fn insulance(self) -> Dimension {
+        match self {
+            Self::Thermal => Dimension::ThermalInsulance,
+            Self::Electrical => Dimension::ElectricalInsulance,
+        }
+    }
+}
 
 /// Gas in the gap between the bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,16 +84,15 @@ impl Joint {
         let Self { kind, composite, film, gas } = *self;
         let positive = |value: f64| value > 0.0 && value.is_finite();
         let not_negative = |value: f64| value >= 0.0 && value.is_finite();
-        check("composite conductivity", composite, positive(composite), "a finite conductivity above 0")?;
-        check("film", film, not_negative(film), "a finite resistance of an area of at least 0")?;
+        let bulk = kind.conductivity();
+        let expected = "a finite conductivity above 0";
+        check_in(bulk, "composite conductivity", composite, positive(composite), expected)?;
+        let least = "a finite resistance of an area of at least 0";
+        check_in(kind.insulance(), "film", film, not_negative(film), least)?;
         let Some(Gas { conductivity, jump }) = gas else { return Ok(()) };
-        check(
-            "conductivity of the gas",
-            conductivity,
-            positive(conductivity),
-            "a finite conductivity above 0",
-        )?;
-        check("jump", jump, not_negative(jump), "a finite temperature jump distance of at least 0")?;
+        check_in(bulk, "conductivity of the gas", conductivity, positive(conductivity), expected)?;
+        let expected = "a finite temperature jump distance of at least 0";
+        check_in(Dimension::Length, "jump", jump, not_negative(jump), expected)?;
         match kind {
             Kind::Thermal => Ok(()),
             Kind::Electrical => Err(Error::Unsupported("gas conducts heat, but no current")),

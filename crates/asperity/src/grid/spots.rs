@@ -4,14 +4,14 @@
 /// x or y, across its boundary.
 pub(crate) struct Spots {
     /// The cells `[ix, iy]`, in ascending order of their flat index.
-    pub cells: Vec<[usize; 2]>,
+    pub(crate) cells: Vec<[usize; 2]>,
     /// For each of these the place in `cells` of the first cell of its spot.
-    pub first: Vec<usize>,
+    pub(crate) first: Vec<usize>,
 }
 
 impl Spots {
     /// Finds the spots of flat `cells`, in ascending order, on a grid of `shape` that is `periodic` along x or y.
-    pub fn new(cells: impl Iterator<Item = usize>, shape: [usize; 2], periodic: [bool; 2]) -> Self {
+    pub(crate) fn new(cells: impl Iterator<Item = usize>, shape: [usize; 2], periodic: [bool; 2]) -> Self {
         let [columns, width] = shape;
         let mut spots = Sets::default();
         let mut lines: Vec<Vec<(usize, usize)>> = vec![Vec::new(); columns];
@@ -44,7 +44,7 @@ impl Spots {
     }
 
     /// Number of cells of each spot at the place of its first cell in `cells`, 0 at all others.
-    pub fn counts(&self) -> Vec<usize> {
+    pub(crate) fn counts(&self) -> Vec<usize> {
         let mut counts = vec![0; self.cells.len()];
         self.first.iter().for_each(|first| counts[*first] += 1);
         counts

@@ -31,6 +31,14 @@ pub enum Dimension {
     Temperature,
     /// Watts per metre and kelvin.
     Conductivity,
+    /// Thermal resistance of an area, m² K/W.
+    ThermalInsulance,
+    /// Siemens per metre.
+    ElectricalConductivity,
+    /// Ohm metres.
+    Resistivity,
+    /// Electrical resistance of an area, Ω m².
+    ElectricalInsulance,
     /// Joules per kilogram and kelvin.
     HeatCapacity,
     /// Kilograms per cubic metre.
@@ -254,6 +262,10 @@ impl Dimension {
             Self::RemovalRate => "a rate per pressure and distance",
             Self::Temperature => "a temperature",
             Self::Conductivity => "a thermal conductivity",
+            Self::ThermalInsulance => "a thermal resistance of an area",
+            Self::ElectricalConductivity => "an electrical conductivity",
+            Self::Resistivity => "a resistivity",
+            Self::ElectricalInsulance => "an electrical resistance of an area",
             Self::HeatCapacity => "a heat capacity",
             Self::Density => "a density",
             Self::Power => "a power",
@@ -277,6 +289,10 @@ impl Dimension {
             Self::RemovalRate => "1e-11 1/(Pa m)",
             Self::Temperature => "100 °C",
             Self::Conductivity => "46 W/(m K)",
+            Self::ThermalInsulance => "1e-8 m2 K/W",
+            Self::ElectricalConductivity => "5.9e7 S/m",
+            Self::Resistivity => "1.7e-8 ohm m",
+            Self::ElectricalInsulance => "1e-12 ohm m2",
             Self::HeatCapacity => "460 J/(kg K)",
             Self::Density => "7850 kg/m3",
             Self::Power => "2 W",
@@ -294,7 +310,7 @@ impl Dimension {
     }
 
     /// All dimensions.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 21] = [
         Self::Length,
         Self::Area,
         Self::Volume,
@@ -309,6 +325,10 @@ impl Dimension {
         Self::RemovalRate,
         Self::Temperature,
         Self::Conductivity,
+        Self::ThermalInsulance,
+        Self::ElectricalConductivity,
+        Self::Resistivity,
+        Self::ElectricalInsulance,
         Self::HeatCapacity,
         Self::Density,
         Self::Power,
@@ -331,6 +351,10 @@ impl Dimension {
             Self::RemovalRate => scale(Base::Of("1/(Pa m)"), 1, 0),
             Self::Temperature => scale(Base::Of("K"), 1, 0),
             Self::Conductivity => scale(Base::Of("W/(m K)"), 1, 3),
+            Self::ThermalInsulance => scale(Base::Of("m² K/W"), 1, 0),
+            Self::ElectricalConductivity => scale(Base::Of("S/m"), 1, 6),
+            Self::Resistivity => scale(Base::Of("Ω m"), 1, 0),
+            Self::ElectricalInsulance => scale(Base::Of("Ω m²"), 1, 0),
             Self::HeatCapacity => scale(Base::Of("J/(kg K)"), 1, 0),
             Self::Density => scale(Base::Of("kg/m³"), 1, 0),
             Self::Power => scale(Base::Of("W"), 1, 12),
@@ -371,6 +395,10 @@ impl Dimension {
                 | Self::RemovalRate
                 | Self::Temperature
                 | Self::Conductivity
+                | Self::ThermalInsulance
+                | Self::ElectricalConductivity
+                | Self::Resistivity
+                | Self::ElectricalInsulance
                 | Self::HeatCapacity
                 | Self::Density
         )
@@ -410,6 +438,18 @@ impl Dimension {
             ],
             Self::RemovalRate => &[("1/Pa/m", 0, 1.0), ("1/(Pa*m)", 0, 1.0)],
             Self::Conductivity => &[("W/m/K", 0, 1.0), ("W/mK", 0, 1.0), ("W/(mK)", 0, 1.0)],
+            Self::ThermalInsulance => &[("m2 K/W", 0, 1.0), ("m^2 K/W", 0, 1.0), ("m2K/W", 0, 1.0)],
+            Self::ElectricalConductivity => &[("MS/m", 6, 1.0), ("S/cm", 2, 1.0)],
+            Self::Resistivity => &[
+                ("ohm m", 0, 1.0),
+                ("ohm*m", 0, 1.0),
+                ("ohm cm", -2, 1.0),
+                ("uohm cm", -8, 1.0),
+                ("µΩ cm", -8, 1.0),
+            ],
+            Self::ElectricalInsulance => {
+                &[("ohm m2", 0, 1.0), ("ohm m^2", 0, 1.0), ("ohm cm2", -4, 1.0), ("Ω cm²", -4, 1.0)]
+            }
             Self::HeatCapacity => {
                 &[("J/kg/K", 0, 1.0), ("J/(kgK)", 0, 1.0), ("J/kgK", 0, 1.0), ("J/(g K)", 3, 1.0)]
             }
@@ -658,6 +698,12 @@ mod tests {
             ("100 °C", Temperature, 373.15),
             ("300 K", Temperature, 300.0),
             ("46 W/(m K)", Conductivity, 46.0),
+            ("1e-8 m2 K/W", Dimension::ThermalInsulance, 1e-8),
+            ("59 MS/m", Dimension::ElectricalConductivity, 59e6),
+            ("1.7e-8 ohm m", Dimension::Resistivity, 1.7e-8),
+            ("1.7 uohm cm", Dimension::Resistivity, 1.7e-8),
+            ("1e-12 Ω m²", Dimension::ElectricalInsulance, 1e-12),
+            ("1e-8 ohm cm2", Dimension::ElectricalInsulance, 1e-12),
             ("0.46 J/(g K)", HeatCapacity, 460.0),
             ("7850 kg/m3", Density, 7850.0),
             ("7.85 g/cm3", Density, 7850.0),
