@@ -7,12 +7,14 @@ tension. The approach grows as the bodies move together.
 Surfaces are generated (:mod:`asperity.generate`, :mod:`asperity.form`), read (:func:`read`) or made from an array
 (:class:`Surface`). :func:`contact` presses two bodies together. :func:`simulate` moves them over each other, and
 :class:`Simulation` does so with custom laws. :func:`run` computes a case file, and :func:`study` many variants of one.
-:func:`open` opens results. :func:`stress` computes the stress below a surface. :mod:`asperity.reference` has closed forms, and
+:func:`open` opens results. :func:`stress` computes the stress below a surface,
+:func:`conductance` the thermal or electrical conductance of a contact. :mod:`asperity.reference` has closed forms, and
 :func:`verify` compares the program with them.
 """
 
 from . import errors, form, generate, keys, reference
 from ._core import __version__
+from ._conductance import Conductance, conductance
 from ._contact import Contact, contact, slide
 from ._flow import Flow
 from ._progress import Progress
@@ -48,6 +50,7 @@ __all__ = [
     "Check",
     "Coating",
     "Compliances",
+    "Conductance",
     "Contact",
     "Contacts",
     "Core",
@@ -81,6 +84,7 @@ __all__ = [
     "__version__",
     "channels",
     "composite_modulus",
+    "conductance",
     "contact",
     "dundurs",
     "errors",

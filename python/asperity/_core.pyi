@@ -175,6 +175,12 @@ def compliances(lower: tuple[SupportsFloat | SupportsIndex, SupportsFloat | Supp
     The compliances of a pair, 1/E*, 1/N*, 1/G*; E* and Dundurs' β of them; and the composite tangential modulus.
     """
 
+def conductance(touching: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], edges: SupportsLenAndGetItem[str], kind: str, conductivities: SupportsLenAndGetItem[SupportsFloat | SupportsIndex], film: SupportsFloat | SupportsIndex, gas: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex] | None, gap: Incomplete | None, tolerance: SupportsFloat | SupportsIndex, threads: SupportsIndex) -> dict:
+    """
+    Solves a joint: cells in contact and pitch, boundary along both axes, kind, conductivities of both bodies, film, conductivity and jump
+    distance of the gas, gap, tolerance, number of threads.
+    """
+
 def distribution(heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], slope: str | None = None, classes: SupportsIndex | None = None) -> tuple[float, float, Incomplete]:
     """
     The distribution of the heights, or of a slope, over so many classes.

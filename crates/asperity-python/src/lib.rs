@@ -6,6 +6,7 @@
 mod arrays; // conversion of matrices and records
 mod cases; // a study: many cases made from one
 mod command; // the command `asperity`
+mod conductance; // conductance of a contact
 mod contact; // a static contact
 mod describe; // description of surfaces
 mod errors; // exceptions
@@ -29,6 +30,8 @@ mod _core {
     use super::cases::CoreStudy;
     #[pymodule_export]
     use super::command::main;
+    #[pymodule_export]
+    use super::conductance::conductance;
     #[pymodule_export]
     use super::contact::rest;
     #[pymodule_export]

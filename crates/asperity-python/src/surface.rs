@@ -89,6 +89,10 @@ fn dimension(name: &str) -> PyResult<Dimension> {
         "angle" => Dimension::Angle,
         "time" => Dimension::Time,
         "stiffness" => Dimension::Stiffness,
+        "conductivity" => Dimension::Conductivity,
+        "thermal insulance" => Dimension::ThermalInsulance,
+        "electrical conductivity" => Dimension::ElectricalConductivity,
+        "electrical insulance" => Dimension::ElectricalInsulance,
         _ => return Err(PyTypeError::new_err(format!("no dimension is called {name}"))),
     })
 }

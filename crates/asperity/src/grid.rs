@@ -2,9 +2,11 @@
 
 mod finite; // the check of all results
 mod placement;
+mod spots; // connected cells
 
 pub(crate) use finite::check_finite;
 pub use placement::Placement;
+pub(crate) use spots::Spots;
 
 use crate::error::{Error, Result};
 use crate::units::{Dimension, Metre, SquareMetre};

@@ -28,6 +28,7 @@
 //! | a grid and compliances | [`operator::Operators`] | an [`operator::Operator`]: pressure in, displacement out |
 //! | an operator and a gap | [`solver::solve_normal`], [`solver::Params`] | [`solver::Solution`] with its [`solver::Stats`] |
 //! | cells in contact and their heat sources | [`temperature::FlashTemperature`], [`temperature::SteadyTemperature`] | their temperature and the heat partition |
+//! | cells in contact and conductivities | [`conductance::solve`] | [`conductance::Conductance`]: thermal or electrical |
 //! | tractions | [`subsurface::Subsurface`] | [`stress::Stress`] plane by plane, and its maximum |
 //! | plastic strain below a surface | [`plasticity::Volume`], [`plasticity::J2`] | its residual stress and displacement, and its growth |
 //! | a case file | [`study::Case`], [`study::estimate()`], [`study::run()`] | [`study::Results`], [`study::Summary`] |
@@ -102,6 +103,7 @@ pub mod surface;
 pub mod kernel;
 pub mod operator;
 pub mod solver;
+pub mod conductance;
 pub mod subsurface;
 pub mod temperature;
 pub mod plasticity;

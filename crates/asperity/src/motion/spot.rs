@@ -1,4 +1,6 @@
-//! Contact spots: connected cells in contact.
+//! The width of the largest contact spot.
+
+use crate::grid::Spots;
 
 /// Width in cells of the largest contact spot, which is the one with the most cells: its number of columns or rows,
 /// whichever is smaller; 0 without contact. A spot that goes all around a periodic axis has no end along it, and its width
@@ -11,75 +13,16 @@ pub(crate) fn largest_spot(
     shape: [usize; 2],
     periodic: [bool; 2],
 ) -> usize {
-    let [columns, width] = shape;
-    let mut spots = Spots::default();
-    let mut lines: Vec<Vec<(usize, usize)>> = vec![Vec::new(); columns];
-    let mut cells_in_order = Vec::new();
-    for cell in cells {
-        let (x, y) = (cell / width, cell % width);
-        lines[x].push((y, spots.add()));
-        cells_in_order.push([x, y]);
-    }
-    for x in 0..columns {
-        for pair in lines[x].windows(2) {
-            if pair[1].0 == pair[0].0 + 1 {
-                spots.join(pair[0].1, pair[1].1);
-            }
-        }
-        if let (true, Some(first), Some(last)) = (periodic[1], lines[x].first(), lines[x].last())
-            && first.0 == 0
-            && last.0 == width - 1
-        {
-            spots.join(first.1, last.1);
-        }
-        if x + 1 < columns {
-            join_lines(&mut spots, &lines[x], &lines[x + 1], width, periodic[1]);
-        } else if periodic[0] {
-            join_lines(&mut spots, &lines[x], &lines[0], width, periodic[1]);
-        }
-    }
-    across(&mut spots, &cells_in_order, shape, periodic)
-}
-
-/// Joins the touching cells of two neighbouring lines.
-fn join_lines(
-    spots: &mut Spots,
-    line: &[(usize, usize)],
-    next: &[(usize, usize)],
-    width: usize,
-    periodic: bool,
-) {
-    let mut from = 0;
-    for &(y, spot) in line {
-        while from < next.len() && next[from].0 + 1 < y {
-            from += 1;
-        }
-        for &(_, other) in next[from..].iter().take_while(|(other, _)| *other <= y + 1) {
-            spots.join(spot, other);
-        }
-    }
-    if !periodic {
-        return;
-    }
-    for (one, other) in [(line, next), (next, line)] {
-        if let (Some(first), Some(last)) = (one.first(), other.last())
-            && first.0 == 0
-            && last.0 == width - 1
-        {
-            spots.join(first.1, last.1);
-        }
-    }
-}
-
-/// Width of the largest spot in cells.
-fn across(spots: &mut Spots, cells: &[[usize; 2]], shape: [usize; 2], periodic: [bool; 2]) -> usize {
-    let mut counts = vec![0_usize; cells.len()];
-    for cell in 0..cells.len() {
-        counts[spots.root(cell)] += 1;
-    }
-    let Some(largest) = (0..cells.len()).rev().max_by_key(|&spot| counts[spot]) else { return 0 };
-    let members: Vec<[usize; 2]> =
-        (0..cells.len()).filter(|&cell| spots.root(cell) == largest).map(|cell| cells[cell]).collect();
+    let spots = Spots::new(cells, shape, periodic);
+    let counts = spots.counts();
+    let Some(largest) = (0..counts.len()).rev().max_by_key(|&spot| counts[spot]) else { return 0 };
+    let members: Vec<[usize; 2]> = spots
+        .cells
+        .iter()
+        .zip(&spots.first)
+        .filter(|(_, first)| **first == largest)
+        .map(|(cell, _)| *cell)
+        .collect();
     let distinct = |axis: usize| {
         let mut places: Vec<usize> = members.iter().map(|cell| cell[axis]).collect();
         places.sort_unstable();
@@ -96,35 +39,6 @@ fn narrower(widths: [usize; 2], shape: [usize; 2], periodic: [bool; 2]) -> usize
         [true, false] => widths[1],
         [false, true] => widths[0],
         _ => widths[0].min(widths[1]),
-    }
-}
-
-/// Disjoint sets of connected cells (union–find).
-#[derive(Default)]
-struct Spots {
-    parent: Vec<usize>,
-}
-
-impl Spots {
-    /// Adds a cell as a new set.
-    fn add(&mut self) -> usize {
-        self.parent.push(self.parent.len());
-        self.parent.len() - 1
-    }
-
-    /// The representative of the set of a cell.
-    fn root(&mut self, mut cell: usize) -> usize {
-        while self.parent[cell] != cell {
-            self.parent[cell] = self.parent[self.parent[cell]];
-            cell = self.parent[cell];
-        }
-        cell
-    }
-
-    /// Joins the sets of two cells.
-    fn join(&mut self, one: usize, other: usize) {
-        let (one, other) = (self.root(one), self.root(other));
-        self.parent[one.max(other)] = one.min(other);
     }
 }
 

@@ -17,6 +17,7 @@ mod site;
 mod slabs;
 mod stiffness;
 mod together;
+mod uniform;
 mod watch;
 
 pub use bounds::Bounds;
@@ -32,6 +33,7 @@ pub use residual::{Residual, residual};
 pub(crate) use site::{OwnedSite, Site, coarse_site};
 pub use stiffness::normal_stiffness;
 pub(crate) use together::solve_together;
+pub use uniform::{UniformDisplacement, displace_uniformly};
 pub use watch::Watch;
 
 use std::borrow::Cow;

@@ -1,12 +1,10 @@
 //! The normal stiffness of a contact: a flat punch on the cells that bear elastically.
 
-use ndarray::{Array2, Zip};
+use ndarray::Array2;
 
-use crate::error::{Error, Result, check};
-use crate::grid::SingleField;
+use crate::error::{Error, Result};
 use crate::operator::Operator;
-use crate::solver::preconditioner::Preconditioner;
-use crate::solver::sets::Sets;
+use crate::solver::uniform::Gradients;
 use crate::solver::{Params, Stats};
 use crate::units::NewtonPerMetre;
 
@@ -35,54 +33,24 @@ pub fn normal_stiffness(
 ) -> Result<(Option<NewtonPerMetre>, Stats)> {
     let grid = *operator.grid();
     assert_eq!(elastic.dim(), (grid.shape[0], grid.shape[1]), "shape of the elastic cells");
-    let mut stats = Stats::default();
     if operator.leaves_mean_free() && elastic.iter().all(|is_elastic| *is_elastic) {
-        return Ok((None, stats));
+        return Ok((None, Stats::default()));
     }
-    let mask = elastic.mapv(|is_elastic| f64::from(u8::from(is_elastic)));
-    let mut sets = Sets::new(grid.shape);
-    {
-        let elastic = elastic.as_standard_layout();
-        let elastic = elastic.as_slice().expect("standard layout");
-        sets.free_where(|cell| elastic[cell]);
-    }
-    let mut preconditioner = Preconditioner::new(operator);
-    preconditioner.adapt(&sets);
-    let (mut rate, mut residual) = (grid.zeros(), mask.clone());
-    let (mut direction, mut response) = (grid.zeros(), grid.zeros());
-    let [mut single, mut preconditioned] = [SingleField::zeros(grid.shape), SingleField::zeros(grid.shape)];
-    let mut product_before = f64::INFINITY;
-    // Conjugate gradients from 0: Σ p' lacks what the steps to come will add, and none of them takes from it.
+    // From 0: Σ p' lacks what the steps to come will add, and none of them takes from it.
+    let mut gradients = Gradients::new(operator, elastic);
     let mut added = [f64::INFINITY; LAST_STEPS];
-    while residual.iter().any(|r| *r != 0.0)
-        && added.iter().sum::<f64>() > ACCURACY * params.tolerance * rate.sum()
+    while gradients.max_residual() != 0.0
+        && added.iter().sum::<f64>() > ACCURACY * params.tolerance * gradients.traction.sum()
     {
-        if stats.iterations >= params.max_convolutions {
-            let Stats { iterations, .. } = stats;
-            let residual = added.iter().sum::<f64>() / rate.sum();
+        let iterations = gradients.stats.iterations;
+        if iterations >= params.max_convolutions {
+            let residual = added.iter().sum::<f64>() / gradients.traction.sum();
             return Err(Error::NotConverged { iterations, residual, tolerance: ACCURACY * params.tolerance });
         }
-        single.zip_mut_with(&residual, |single, r| *single = *r as f32);
-        let [r, z] = [&mut single, &mut preconditioned].map(|f| f.as_slice_mut().expect("standard layout"));
-        preconditioner.apply(&sets, r, z);
-        let product =
-            Zip::from(&residual).and(&preconditioned).fold(0.0, |sum, r, z| sum + r * f64::from(*z));
-        let beta = product / product_before;
-        product_before = product;
-        direction.zip_mut_with(&preconditioned, |d, z| *d = f64::from(*z) + beta * *d);
-        operator.apply(&direction, &mut response);
-        let step = product / (&direction * &response).sum();
-        check("stiffness", step, step.is_finite(), "a number in double precision")?;
-        rate.scaled_add(step, &direction);
-        Zip::from(&mut residual).and(&response).and(&mask).for_each(|r, u, inside| *r -= step * u * inside);
         added.rotate_left(1);
-        added[LAST_STEPS - 1] = step * product;
-        stats.iterations += 1;
-        stats.convolutions += 1.0;
+        added[LAST_STEPS - 1] = gradients.step(operator)?;
     }
-    // 2 Σ p' − p'ᵀC p', whose error is of the second order in the residual.
-    let sum = Zip::from(&rate).and(&residual).fold(0.0, |sum, p, r| sum + p * (1.0 + r));
-    Ok((Some(grid.cell_area() * sum), stats))
+    Ok((Some(grid.cell_area() * gradients.sum()), gradients.stats))
 }
 
 /// Last steps of conjugate gradients whose contributions to the stiffness must be small together.

@@ -31,6 +31,14 @@ pub enum Dimension {
     Temperature,
     /// Watts per metre and kelvin.
     Conductivity,
+    /// Thermal resistance of an area, m² K/W.
+    ThermalInsulance,
+    /// Siemens per metre.
+    ElectricalConductivity,
+    /// Ohm metres.
+    Resistivity,
+    /// Electrical resistance of an area, Ω m².
+    ElectricalInsulance,
     /// Joules per kilogram and kelvin.
     HeatCapacity,
     /// Kilograms per cubic metre.
@@ -45,8 +53,6 @@ pub enum Dimension {
     ThermalResistance,
     /// Ohms.
     ElectricalResistance,
-    /// Ohm metres.
-    Resistivity,
     /// Watts per kelvin.
     ThermalConductance,
     /// Siemens.
@@ -55,10 +61,6 @@ pub enum Dimension {
     ThermalConductanceOfArea,
     /// Siemens per square metre.
     ElectricalConductanceOfArea,
-    /// Square metre kelvins per watt.
-    ThermalResistanceOfArea,
-    /// Ohm square metres.
-    ElectricalResistanceOfArea,
     /// Pascal seconds.
     Viscosity,
     /// Cubic metres per second.
@@ -281,6 +283,10 @@ impl Dimension {
             Self::RemovalRate => "a rate per pressure and distance",
             Self::Temperature => "a temperature",
             Self::Conductivity => "a thermal conductivity",
+            Self::ThermalInsulance => "a thermal resistance of an area",
+            Self::ElectricalConductivity => "an electrical conductivity",
+            Self::Resistivity => "a resistivity",
+            Self::ElectricalInsulance => "an electrical resistance of an area",
             Self::HeatCapacity => "a heat capacity",
             Self::Density => "a density",
             Self::Power => "a power",
@@ -288,13 +294,10 @@ impl Dimension {
             Self::Voltage => "a voltage",
             Self::ThermalResistance => "a thermal resistance",
             Self::ElectricalResistance => "an electrical resistance",
-            Self::Resistivity => "an electrical resistivity",
             Self::ThermalConductance => "a thermal conductance",
             Self::ElectricalConductance => "an electrical conductance",
             Self::ThermalConductanceOfArea => "a thermal conductance of an area",
             Self::ElectricalConductanceOfArea => "an electrical conductance of an area",
-            Self::ThermalResistanceOfArea => "a thermal resistance of an area",
-            Self::ElectricalResistanceOfArea => "an electrical resistance of an area",
             Self::Viscosity => "a viscosity",
             Self::VolumeFlow => "a flow of volume",
         }
@@ -317,6 +320,10 @@ impl Dimension {
             Self::RemovalRate => "1e-11 1/(Pa m)",
             Self::Temperature => "100 °C",
             Self::Conductivity => "46 W/(m K)",
+            Self::ThermalInsulance => "1e-8 m2 K/W",
+            Self::ElectricalConductivity => "5.9e7 S/m",
+            Self::Resistivity => "1.7e-8 ohm m",
+            Self::ElectricalInsulance => "1e-12 ohm m2",
             Self::HeatCapacity => "460 J/(kg K)",
             Self::Density => "7850 kg/m3",
             Self::Power => "2 W",
@@ -324,13 +331,10 @@ impl Dimension {
             Self::Voltage => "0.1 V",
             Self::ThermalResistance => "20 K/W",
             Self::ElectricalResistance => "5 mohm",
-            Self::Resistivity => "1.7e-8 ohm m",
             Self::ThermalConductance => "50 mW/K",
             Self::ElectricalConductance => "200 S",
             Self::ThermalConductanceOfArea => "5 kW/(m2 K)",
             Self::ElectricalConductanceOfArea => "1e9 S/m2",
-            Self::ThermalResistanceOfArea => "1e-8 m2 K/W",
-            Self::ElectricalResistanceOfArea => "1e-12 ohm m2",
             Self::Viscosity => "80 mPa s",
             Self::VolumeFlow => "2 mm3/s",
         }
@@ -347,7 +351,7 @@ impl Dimension {
     }
 
     /// All dimensions.
-    pub const ALL: [Self; 30] = [
+    pub const ALL: [Self; 31] = [
         Self::Length,
         Self::Area,
         Self::Volume,
@@ -362,6 +366,10 @@ impl Dimension {
         Self::RemovalRate,
         Self::Temperature,
         Self::Conductivity,
+        Self::ThermalInsulance,
+        Self::ElectricalConductivity,
+        Self::Resistivity,
+        Self::ElectricalInsulance,
         Self::HeatCapacity,
         Self::Density,
         Self::Power,
@@ -369,13 +377,10 @@ impl Dimension {
         Self::Voltage,
         Self::ThermalResistance,
         Self::ElectricalResistance,
-        Self::Resistivity,
         Self::ThermalConductance,
         Self::ElectricalConductance,
         Self::ThermalConductanceOfArea,
         Self::ElectricalConductanceOfArea,
-        Self::ThermalResistanceOfArea,
-        Self::ElectricalResistanceOfArea,
         Self::Viscosity,
         Self::VolumeFlow,
     ];
@@ -397,6 +402,10 @@ impl Dimension {
             Self::RemovalRate => scale(Base::Of("1/(Pa m)"), 1, 0),
             Self::Temperature => scale(Base::Of("K"), 1, 0),
             Self::Conductivity => scale(Base::Of("W/(m K)"), 1, 3),
+            Self::ThermalInsulance => scale(Base::Of("m² K/W"), 1, 0),
+            Self::ElectricalConductivity => scale(Base::Of("S/m"), 1, 6),
+            Self::Resistivity => scale(Base::Of("Ω m"), 1, 0),
+            Self::ElectricalInsulance => scale(Base::Of("Ω m²"), 1, 0),
             Self::HeatCapacity => scale(Base::Of("J/(kg K)"), 1, 0),
             Self::Density => scale(Base::Of("kg/m³"), 1, 0),
             Self::Power => scale(Base::Of("W"), 1, 12),
@@ -404,13 +413,10 @@ impl Dimension {
             Self::Voltage => scale(Base::Of("V"), 1, 3),
             Self::ThermalResistance => scale(Base::Of("K/W"), 1, 12),
             Self::ElectricalResistance => scale(Base::Of("Ω"), 1, 12),
-            Self::Resistivity => scale(Base::Of("Ω m"), 1, 3),
             Self::ThermalConductance => scale(Base::Of("W/K"), 1, 12),
             Self::ElectricalConductance => scale(Base::Of("S"), 1, 12),
             Self::ThermalConductanceOfArea => scale(Base::Of("W/(m² K)"), 1, 12),
             Self::ElectricalConductanceOfArea => scale(Base::Of("S/m²"), 1, 12),
-            Self::ThermalResistanceOfArea => scale(Base::Of("m² K/W"), 1, 0),
-            Self::ElectricalResistanceOfArea => scale(Base::Of("Ω m²"), 1, 0),
             Self::Viscosity => scale(Base::Of("Pa s"), 1, 3),
             Self::VolumeFlow => scale(Base::CubedPerSecond, 3, 0),
         }
@@ -450,12 +456,13 @@ impl Dimension {
                 | Self::RemovalRate
                 | Self::Temperature
                 | Self::Conductivity
+                | Self::ThermalInsulance
+                | Self::ElectricalConductivity
+                | Self::Resistivity
+                | Self::ElectricalInsulance
                 | Self::HeatCapacity
                 | Self::Density
                 | Self::TemperatureDifference
-                | Self::ThermalResistanceOfArea
-                | Self::ElectricalResistanceOfArea
-                | Self::Resistivity
         )
     }
 
@@ -493,6 +500,18 @@ impl Dimension {
             ],
             Self::RemovalRate => &[("1/Pa/m", 0, 1.0), ("1/(Pa*m)", 0, 1.0)],
             Self::Conductivity => &[("W/m/K", 0, 1.0), ("W/mK", 0, 1.0), ("W/(mK)", 0, 1.0)],
+            Self::ThermalInsulance => &[("m2 K/W", 0, 1.0), ("m^2 K/W", 0, 1.0), ("m2K/W", 0, 1.0)],
+            Self::ElectricalConductivity => &[("MS/m", 6, 1.0), ("S/cm", 2, 1.0)],
+            Self::Resistivity => &[
+                ("ohm m", 0, 1.0),
+                ("ohm*m", 0, 1.0),
+                ("ohm cm", -2, 1.0),
+                ("uohm cm", -8, 1.0),
+                ("µΩ cm", -8, 1.0),
+            ],
+            Self::ElectricalInsulance => {
+                &[("ohm m2", 0, 1.0), ("ohm m^2", 0, 1.0), ("ohm cm2", -4, 1.0), ("Ω cm²", -4, 1.0)]
+            }
             Self::HeatCapacity => {
                 &[("J/kg/K", 0, 1.0), ("J/(kgK)", 0, 1.0), ("J/kgK", 0, 1.0), ("J/(g K)", 3, 1.0)]
             }
@@ -507,9 +526,6 @@ impl Dimension {
             Self::ThermalConductanceOfArea => &[("W/(m2 K)", 0, 1.0), ("kW/(m2 K)", 3, 1.0), ("W/(m^2 K)", 0, 1.0), ("W/m2/K", 0, 1.0), ("W/m2K", 0, 1.0)],
             Self::ElectricalConductanceOfArea => &[("S/m2", 0, 1.0), ("S/m^2", 0, 1.0)],
             Self::ElectricalResistance => &[("ohm", 0, 1.0), ("mohm", -3, 1.0), ("uohm", -6, 1.0), ("kohm", 3, 1.0)],
-            Self::ThermalResistanceOfArea => &[("m2 K/W", 0, 1.0), ("m^2 K/W", 0, 1.0), ("m2K/W", 0, 1.0), ("mm2 K/W", -6, 1.0), ("cm2 K/W", -4, 1.0)],
-            Self::ElectricalResistanceOfArea => &[("ohm m2", 0, 1.0), ("ohm m²", 0, 1.0), ("ohm m^2", 0, 1.0), ("Ω m2", 0, 1.0), ("ohm cm2", -4, 1.0), ("ohm mm2", -6, 1.0)],
-            Self::Resistivity => &[("ohm m", 0, 1.0), ("ohm*m", 0, 1.0), ("nohm m", -9, 1.0), ("uohm m", -6, 1.0), ("uohm cm", -8, 1.0), ("µΩ cm", -8, 1.0), ("ohm cm", -2, 1.0)],
             Self::Viscosity => &[("Pa*s", 0, 1.0), ("Pas", 0, 1.0), ("mPa*s", -3, 1.0), ("mPas", -3, 1.0), ("cP", -3, 1.0), ("P", -1, 1.0)],
             Self::VolumeFlow => &[("l/min", -3, 1.0 / 60.0), ("ml/min", -6, 1.0 / 60.0), ("ul/min", -9, 1.0 / 60.0), ("L/min", -3, 1.0 / 60.0), ("mL/min", -6, 1.0 / 60.0)],
             _ => &[],
@@ -752,6 +768,12 @@ mod tests {
             ("100 °C", Temperature, 373.15),
             ("300 K", Temperature, 300.0),
             ("46 W/(m K)", Conductivity, 46.0),
+            ("1e-8 m2 K/W", Dimension::ThermalInsulance, 1e-8),
+            ("59 MS/m", Dimension::ElectricalConductivity, 59e6),
+            ("1.7e-8 ohm m", Dimension::Resistivity, 1.7e-8),
+            ("1.7 uohm cm", Dimension::Resistivity, 1.7e-8),
+            ("1e-12 Ω m²", Dimension::ElectricalInsulance, 1e-12),
+            ("1e-8 ohm cm2", Dimension::ElectricalInsulance, 1e-12),
             ("0.46 J/(g K)", HeatCapacity, 460.0),
             ("7850 kg/m3", Density, 7850.0),
             ("7.85 g/cm3", Density, 7850.0),

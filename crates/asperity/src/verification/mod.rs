@@ -19,6 +19,7 @@
 //! contact, and steps of rolling, are of order 1.
 
 mod coated;
+mod conductance;
 mod dissimilar;
 mod heat;
 mod in_place;
@@ -160,6 +161,13 @@ pub const CASES: &[Case] = &[
     heat::HERTZIAN,
     heat::TRANSIENT,
     heat::DIVISION,
+    conductance::SPOTS,
+    conductance::PAIR,
+    conductance::LATTICE,
+    conductance::FILM,
+    conductance::GAS,
+    conductance::COATED,
+    conductance::BARBER,
     plasticity::ENERGY,
     plasticity::ONSET,
     plasticity::SPHERE,

@@ -6,6 +6,7 @@ mod case_file;
 mod circles;
 mod closed_forms;
 mod common_grid;
+mod conductance;
 mod convergence;
 mod documents;
 mod extremes;

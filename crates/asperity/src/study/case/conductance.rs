@@ -35,8 +35,8 @@ pub(super) fn conductance(table: &Table<'_>) -> Result<ConductanceSpec> {
     known_in(table)?;
     let kind = keys::KIND.of(table)?;
     let [resistance, difference] = match kind {
-        Kind::Thermal => [Dimension::ThermalResistanceOfArea, Dimension::TemperatureDifference],
-        Kind::Electrical => [Dimension::ElectricalResistanceOfArea, Dimension::Voltage],
+        Kind::Thermal => [Dimension::ThermalInsulance, Dimension::TemperatureDifference],
+        Kind::Electrical => [Dimension::ElectricalInsulance, Dimension::Voltage],
     };
     let film = keys::FILM.entry(table).map(|entry| resistance_of_film(&entry, resistance)).transpose()?;
     let drop = keys::DROP.entry(table).map(|entry| positive(&entry, difference)).transpose()?;

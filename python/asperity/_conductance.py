@@ -1,0 +1,265 @@
+"""The thermal or electrical conductance of a contact."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _case, _core
+from ._contact import Contact
+from ._keywords import Boundary
+from ._optional import need
+from ._same import Comparable
+from ._units import Pair, Quantity, lengths, number, quantity
+from .errors import bad_input
+
+if TYPE_CHECKING:
+    from xarray import DataArray
+
+Kind = Literal["thermal", "electrical"]
+"""Whether heat or current passes."""
+
+_UNITS = {"thermal": ("W/K", "W/(m² K)", "K/W"), "electrical": ("S", "S/m²", "Ω")}
+
+
+class Conductance(Comparable):
+    """Conductance of a contact.
+
+    Returned by :func:`asperity.conductance`.
+
+    Attributes
+    ----------
+    kind : str
+        ``"thermal"`` or ``"electrical"``.
+    conductance : float or None
+        Conductance G, at least 0, W/K or S; 0 if nothing conducts. ``None`` if the joint adds no resistance: all cells of a period
+        touch without a film.
+    joint_conductance : float or None
+        Conductance over the area of the grid, W/(m² K) or S/m²; ``None`` with the conductance.
+    resistance : float or None
+        1/G, K/W or Ω; ``None`` if there is none, and if nothing conducts.
+    full_resistance : float or None
+        Resistance if all cells touched without a film, K/W or Ω: the spreading from the grid into the half-spaces. ``None`` under a
+        periodic boundary, where there is none.
+    flux : ndarray or None
+        Flux of each cell per unit drop, W/(m² K) or S/m², 0 in cells that do not conduct; ``None`` with the conductance.
+    spot_share, gas_share : float
+        Shares of the flux through the cells in contact and through the gas.
+    film_share : float
+        Share of the resistance that the film takes. Above ½, the number given for the film decides.
+    spots : int
+        Number of spots: cells in contact that are connected over edges and corners.
+    median_cells : float
+        Median number of cells of a spot. Below 9, the cells are too coarse for the spots.
+    holm_greenwood : float or None
+        Resistance of the clean spots by the estimate of Holm and Greenwood, K/W or Ω; ``None`` without contact and unless the
+        boundary is free.
+    pitch : tuple of float
+        Size of a cell along x and y, m.
+    iterations : int
+        Iterations of the solution.
+    residual : float
+        Largest deviation of the drop of a cell from that of the joint, as a share of it.
+    """
+
+    kind: str
+    conductance: float | None
+    joint_conductance: float | None
+    resistance: float | None
+    full_resistance: float | None
+    flux: NDArray[np.float64] | None
+    spot_share: float
+    gas_share: float
+    film_share: float
+    spots: int
+    median_cells: float
+    holm_greenwood: float | None
+    pitch: tuple[float, float]
+    iterations: int
+    residual: float
+
+    def __init__(self, kind: str, pitch: tuple[float, float], found: dict[str, Any]) -> None:
+        self.kind = kind
+        self.pitch = pitch
+        self.spot_share, self.gas_share, self.film_share = found.pop("shares")
+        vars(self).update(found)
+
+    def __repr__(self) -> str:
+        whole, per_area, _ = _UNITS[self.kind]
+        spots = f"{self.spots} spot{'' if self.spots == 1 else 's'}"
+        if self.conductance is None or self.joint_conductance is None:
+            return f"<Conductance: no resistance, {spots}>"
+        parts = [f"{self.conductance:.4g} {whole}", f"{self.joint_conductance:.4g} {per_area}", spots]
+        if self.gas_share > 0.0:
+            parts.append(f"{100.0 * self.gas_share:.3g} % through gas")
+        if self.film_share > 0.0:
+            parts.append(f"film {100.0 * self.film_share:.3g} % of the resistance")
+        return f"<Conductance: {', '.join(parts)}>"
+
+    def to_xarray(self) -> DataArray:
+        """Return the flux as an xarray DataArray over x and y, m; its attributes are the numbers.
+
+        Raises
+        ------
+        asperity.errors.BadInput
+            If the joint has no resistance, so that no drop drives a flux.
+        """
+        xarray = need("xarray", "to_xarray()")
+        if self.flux is None:
+            raise bad_input("flux", "the joint has no resistance, so that no drop drives a flux")
+        x, y = (pitch * (np.arange(n) + 0.5) for pitch, n in zip(self.pitch, self.flux.shape))
+        coordinates = {name: (name, at, {"units": "m"}) for name, at in (("x", x), ("y", y))}
+        numbers = {key: value for key, value in vars(self).items() if isinstance(value, (int, float, str))}
+        attributes = {"units": _UNITS[self.kind][1], **numbers}
+        array: DataArray = xarray.DataArray(self.flux, coordinates, ("x", "y"), "flux", attributes)
+        return array
+
+
+def conductance(
+    contact: Contact | ArrayLike,
+    *,
+    conductivity: Quantity | Sequence[Quantity],
+    kind: Kind = "thermal",
+    pitch: Pair | None = None,
+    boundary: Boundary | Sequence[Boundary] | None = None,
+    film: Quantity | None = None,
+    gas: Quantity | None = None,
+    jump: Quantity | None = None,
+    gap: ArrayLike | None = None,
+    tolerance: float = 1e-6,
+    threads: int | None = None,
+) -> Conductance:
+    """Compute the thermal or electrical conductance of a contact.
+
+    Heat or current passes where the bodies touch, through a film on the spots, and through gas in the gap. The bodies are
+    half-spaces below their surfaces. Under a free boundary the conductance contains the spreading from the grid into them. Under a
+    periodic boundary it is that of the joint alone.
+
+    Parameters
+    ----------
+    contact : Contact or array_like
+        A contact, which provides cells in contact, gap, pitch and boundary; or a matrix ``[ix, iy]`` from anywhere, such as a mask, a
+        map of pressure or an image: cells above 0 touch.
+    conductivity : float, str or pair of them
+        Conductivity of both bodies, or of the lower and the upper one, above 0, W/(m K) or S/m. One of a pair may be ``inf``.
+    kind : str
+        ``"thermal"`` (by default) or ``"electrical"``.
+    pitch : float, str or pair of them, optional
+        Size of a cell along x and y, m.
+    boundary : str or pair of them, optional
+        The surroundings of the grid: ``"free"`` (by default) or ``"periodic"``, for both axes or for each.
+    film : float or str, optional
+        Resistance of an area of the film on the spots, at least 0, m² K/W or Ω m²; none by default.
+    gas : float or str, optional
+        Conductivity of the gas in the gap, above 0, W/(m K); none by default. It needs a `gap`.
+    jump : float or str, optional
+        Temperature jump distance of the gas at both surfaces together, at least 0, m; 0 by default.
+    gap : array_like, optional
+        Gap between the bodies, a matrix ``[ix, iy]``, m. Only open cells count.
+    tolerance : float
+        Largest deviation of the drop of a cell from that of the joint, as a share of it; 1e-6 by default. The error of the conductance
+        is about its square.
+    threads : int, optional
+        Number of threads; one for each core by default.
+
+    Returns
+    -------
+    Conductance
+
+    Raises
+    ------
+    asperity.errors.BadInput
+        If an argument is invalid.
+    asperity.errors.NotConverged
+        If the tolerance is not reached.
+
+    Examples
+    --------
+    A round spot on two half-spaces conducts 2κa:
+
+    >>> import numpy as np, asperity as asp
+    >>> x = 1e-6 * (np.arange(64) - 31.5)
+    >>> spot = np.hypot(*np.meshgrid(x, x)) < 20e-6
+    >>> found = asp.conductance(spot, pitch="1 um", conductivity="46 W/(m K)")
+    >>> found.spots, f"{found.conductance / (2 * 46 * 20e-6):.3f}"
+    (1, '0.998')
+    """
+    if kind not in _UNITS:
+        raise bad_input("kind", f"'kind' is {kind!r}, expected \"thermal\" or \"electrical\"")
+    if isinstance(contact, Contact):
+        for key, value in (("pitch", pitch), ("boundary", boundary), ("gap", gap)):
+            if value is not None:
+                raise bad_input(key, f"'{key}' is given beside a contact, which has its own")
+        pitch, boundary, gap = contact.pitch, contact.case["contact"]["boundary"], contact.gap
+        touching = np.asarray(contact.pressure > 0.0)
+    else:
+        touching = _matrix("contact", contact, None) > 0.0
+    if pitch is None:
+        raise bad_input("pitch", "'pitch' is missing: how large is a cell?")
+    size = lengths("pitch", pitch)
+    between = None if gas is None else _gas(kind, gas, jump, gap)
+    if gas is None and jump is not None:
+        raise bad_input("jump", "'jump' is given without 'gas'", "a jump of temperature is one between a body and a gas")
+    insulance = "thermal insulance" if kind == "thermal" else "electrical insulance"
+    found = _core.conductance(
+        (touching, size),
+        _edges(boundary),
+        kind,
+        _conductivities(kind, conductivity),
+        0.0 if film is None else quantity("film", film, insulance, positive=False),
+        between,
+        _matrix("gap", gap, touching.shape) if between is not None else None,
+        _tolerance(tolerance),
+        _case.threads(threads),
+    )
+    return Conductance(kind, size, found)
+
+
+def _gas(kind: str, gas: Quantity, jump: Quantity | None, gap: Any) -> tuple[float, float]:
+    if kind != "thermal":
+        raise bad_input("gas", "'gas' is given with kind \"electrical\": gas conducts heat, but no current")
+    if gap is None:
+        raise bad_input("gap", "'gap' is missing: gas conducts across the gap between the bodies")
+    distance = 0.0 if jump is None else quantity("jump", jump, "length", positive=False)
+    return quantity("gas", gas, "conductivity"), distance
+
+
+def _conductivities(kind: str, given: Any) -> list[float]:
+    dimension = "conductivity" if kind == "thermal" else "electrical conductivity"
+    one = isinstance(given, str) or np.ndim(given) == 0
+    values = [given, given] if one else list(given)
+    if len(values) != 2:
+        raise bad_input("conductivity", f"'conductivity' has {len(values)} values, expected one or two")
+    return [quantity("conductivity", value, dimension, infinite=not one) for value in values]
+
+
+def _edges(boundary: Any) -> list[str]:
+    both = ["free"] * 2 if boundary is None else [boundary] * 2 if isinstance(boundary, str) else list(boundary)
+    if len(both) != 2 or any(edge not in ("free", "periodic") for edge in both):
+        expected = 'expected "free" or "periodic", or one of them for each axis'
+        raise bad_input("boundary", f"'boundary' is {boundary!r}, {expected}")
+    return both
+
+
+def _matrix(key: str, values: Any, shape: tuple[int, ...] | None) -> NDArray[np.float64]:
+    try:
+        found = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise bad_input(key, f"'{key}' is no matrix of numbers: {error}") from error
+    if found.ndim != 2 or 0 in found.shape:
+        raise bad_input(key, f"'{key}' has the shape {found.shape}, expected a matrix [ix, iy]")
+    if shape is not None and found.shape != shape:
+        raise bad_input(key, f"'{key}' has the shape {found.shape}, expected that of the contact, {shape}")
+    if key == "contact" and np.isnan(found).any():
+        raise bad_input(key, f"'{key}' holds NaN, expected cells above 0 where the bodies touch")
+    return found
+
+
+def _tolerance(value: Any) -> float:
+    found = number("tolerance", value, "a number above 0, below 1", 0.0, 1.0)
+    if found in (0.0, 1.0):
+        raise bad_input("tolerance", f"'tolerance' is {value!r}, expected a number above 0, below 1")
+    return found
