@@ -96,6 +96,7 @@ pub mod grid;
 pub mod io;
 pub mod ranks;
 mod math;
+pub mod flow;
 pub mod stress;
 pub mod material;
 pub mod reference;

@@ -1,6 +1,7 @@
 //! The dictionary of columns: every column of a table and every number of a summary, by its name.
 
 use super::closed_form::ClosedFormRecord;
+use super::observe::{ConductanceRecord, ElectricalRecord, GapFlowRecord, ThermalRecord};
 use super::subsurface::SubsurfaceRecord;
 use super::summary::{CONVERGED, RunningIn};
 use crate::motion::{
@@ -14,7 +15,7 @@ use crate::units::Dimension;
 ///
 /// `Converged` holds the additional columns of `static` in `summary.json`. `Table` holds the columns of the table of a
 /// study other than its axes and the numbers of the records.
-pub const RECORDS: [(&str, &[Column]); 18] = [
+pub const RECORDS: [(&str, &[Column]); 22] = [
     ("StaticRecord", StaticRecord::OWN_COLUMNS),
     ("Converged", &[CONVERGED]),
     ("ShearRecord", ShearRecord::OWN_COLUMNS),
@@ -22,6 +23,10 @@ pub const RECORDS: [(&str, &[Column]); 18] = [
     ("ResidualRecord", ResidualRecord::OWN_COLUMNS),
     ("ClosedFormRecord", ClosedFormRecord::OWN_COLUMNS),
     ("SubsurfaceRecord", SubsurfaceRecord::OWN_COLUMNS),
+    ("ConductanceRecord", ConductanceRecord::OWN_COLUMNS),
+    ("ThermalRecord", ThermalRecord::OWN_COLUMNS),
+    ("ElectricalRecord", ElectricalRecord::OWN_COLUMNS),
+    ("GapFlowRecord", GapFlowRecord::OWN_COLUMNS),
     ("SweepRecord", SweepRecord::OWN_COLUMNS),
     ("IncrementRecord", IncrementRecord::OWN_COLUMNS),
     ("FlowStepRecord", FlowStepRecord::OWN_COLUMNS),

@@ -8,6 +8,7 @@ use crate::motion::{FlowRecord, Pair, UpdateRecord};
 use crate::solver::{Control, Params};
 use crate::study::case::Case;
 use crate::study::closed_form::{ClosedForm, ClosedFormRecord, ElasticContact};
+use crate::study::observe::{ConductanceRecord, GapFlowRecord};
 use crate::study::prepare::Bodies;
 use crate::study::results::Writer;
 use crate::study::subsurface::SubsurfaceRecord;
@@ -24,6 +25,25 @@ pub(super) struct Computed {
     pub(super) flow: Option<FlowRecord>,
     /// The closed form of the contact of smooth forms.
     pub(super) closed_form: Option<ClosedFormRecord>,
+    /// The conductance of the last contact, or of each pass.
+    pub(super) conductance: Vec<ConductanceRecord>,
+    /// The flow through the gap of the last contact.
+    pub(super) gap_flow: Vec<GapFlowRecord>,
+}
+
+impl Computed {
+    /// Creates results with an outcome and nothing else.
+    pub(super) fn of(outcome: Outcome) -> Self {
+        Self {
+            outcome,
+            subsurface: Vec::new(),
+            sliding: None,
+            flow: None,
+            closed_form: None,
+            conductance: Vec::new(),
+            gap_flow: Vec::new(),
+        }
+    }
 }
 
 /// Writes the results at the end of every run.
@@ -32,7 +52,7 @@ pub(super) fn conclude(
     writer: &Writer,
     resolved: Value,
     began: Instant,
-    Computed { outcome, subsurface, sliding, flow, closed_form }: Computed,
+    Computed { outcome, subsurface, sliding, flow, closed_form, conductance, gap_flow }: Computed,
     mut warnings: Vec<String>,
 ) -> Result<Summary> {
     outcome.check()?;
@@ -53,6 +73,8 @@ pub(super) fn conclude(
         case: resolved,
         outcome,
         subsurface,
+        conductance,
+        flow: gap_flow,
         warnings,
         wall_time_s: began.elapsed().as_secs_f64(),
     };

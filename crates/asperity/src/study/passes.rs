@@ -14,6 +14,7 @@ use crate::study::finish::{Computed, conclude, pair, params};
 use crate::study::flow;
 use crate::study::given::SurfaceInput;
 use crate::study::identity;
+use crate::study::observe::{self, ConductanceRecord, GapFlowRecord, Observations, Observers};
 use crate::study::prepare::{bodies_until, fresh_heights};
 use crate::study::results::{Existing, StepWriter, Writer};
 use crate::study::review;
@@ -31,6 +32,7 @@ pub struct Passes {
     represented: usize,
     writer: Writer,
     output: StepWriter,
+    observers: Observers,
     resolved: Value,
     warnings: Vec<String>,
     began: Instant,
@@ -106,7 +108,10 @@ impl Passes {
             }
         };
         let (case, done) = (case.clone(), passes.len());
-        Ok(Self { case, simulation, motion, done, represented, writer, output, resolved, warnings, began })
+        let observers = Observers::new(&case, simulation.pair(), (Some(&writer), (done > 0).then_some(done)))?;
+        let positions = simulation.positions().to_vec();
+        let simulation = simulation.keeping_gaps(|index| observers.want(index, &positions[index]));
+        Ok(Self { case, simulation, motion, done, represented, writer, output, observers, resolved, warnings, began })
     }
 
     /// Number of finished passes.
@@ -143,7 +148,8 @@ impl Passes {
     /// # Errors
     /// [`Error::File`].
     pub fn finish(&mut self, pass: SolvedPass, watch: &dyn Watch) -> Result<()> {
-        self.simulation.finish(pass, watch, &mut [&mut self.output])?;
+        // The rows of the observers are written before that of the pass, which marks it as done.
+        self.simulation.finish(pass, watch, &mut [&mut self.observers, &mut self.output])?;
         self.done += 1;
         self.represented = self.simulation.represented();
         Ok(())
@@ -166,7 +172,11 @@ impl Passes {
             Ok(FlowRecord::of_passes(&left, &steps, &passes))
         });
         let subsurface = self.output.subsurface(passes.len())?;
+        let Observations { conductance, flow: gap_flow, .. } = self.observers.finish()?;
+        self.warnings.extend(observe::warnings(&self.case, &conductance, &gap_flow));
         let outcome = Computed {
+            conductance: ConductanceRecord::means(&conductance),
+            gap_flow: GapFlowRecord::last(&gap_flow).to_vec(),
             outcome: Outcome::Passes(passes),
             subsurface,
             sliding: None,

@@ -17,6 +17,7 @@ use crate::study::fields::{NamedField, RestFields};
 use crate::study::finish::{closed_form, pair, params};
 use crate::study::flow;
 use crate::study::given::SurfaceInput;
+use crate::study::observe::{self, ConductanceRecord, GapFlowRecord, Observations, Observers};
 use crate::study::prepare::bodies_until;
 use crate::study::results::{StepWriter, Writer};
 use crate::study::review;
@@ -40,6 +41,10 @@ pub struct StaticResult {
     pub closed_form: Option<ClosedFormRecord>,
     /// The plastic state below the surfaces; `None` for other than elasto-plastic bodies.
     pub flow_result: Option<FlowResult>,
+    /// The conductance of the observed contacts, if requested.
+    pub conductance: Vec<ConductanceRecord>,
+    /// The flow through the gap of the observed contacts, if requested.
+    pub gap_flow: Vec<GapFlowRecord>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
 }
@@ -73,8 +78,21 @@ impl StaticResult {
             fields,
             closed_form: None,
             flow_result: None,
+            conductance: Vec::new(),
+            gap_flow: Vec::new(),
             warnings: Vec::new(),
         }
+    }
+
+    /// Adds what the observers have found.
+    fn seen_by(mut self, case: &Case, observers: Observers) -> Result<Self> {
+        let Observations { conductance, flow, fields } = observers.finish()?;
+        self.fields.fields.extend(fields);
+        self.warnings.extend(observe::warnings(case, &conductance, &flow));
+        if let Outcome::Sweep(points) = &self.outcome {
+            self.warnings.extend(observe::barber(case, points, &conductance));
+        }
+        Ok(Self { conductance, gap_flow: flow, ..self })
     }
 
     /// Returns the contact after checking that all its numbers are finite, as for the files of a run.
@@ -143,74 +161,90 @@ struct StaticProblem<'a> {
 impl StaticProblem<'_> {
     /// Solves in one step without friction.
     fn press(self) -> Result<StaticResult> {
+        let case = self.case;
         let StaticContact { record, solution } =
             press(&self.pair, self.boundary(), self.control, &self.params, self.watch)?;
         self.begin()?;
+        let mut observers = self.observers(None)?;
+        observers.contact(&solution)?;
         let warnings = self.review(&solution);
-        Ok(StaticResult { warnings, ..StaticResult::of(record, pressed(self.pair, solution)) })
+        StaticResult { warnings, ..StaticResult::of(record, pressed(self.pair, solution)) }.seen_by(case, observers)
     }
 
     /// Solves steady rolling.
     fn roll(self, friction: &Friction, rolling: Rolling) -> Result<StaticResult> {
+        let case = self.case;
         let (boundary, control) = (self.boundary(), self.control);
         let contact = roll(&self.pair, boundary, friction, control, rolling, &self.params, self.watch)?;
         self.begin()?;
-        Ok(self.loaded(contact))
+        let mut observers = self.observers(None)?;
+        observers.contact(contact.solution.normal())?;
+        self.loaded(contact).seen_by(case, observers)
     }
 
     /// Solves stage after stage.
     fn load_in_stages(self, stages: &[Stage]) -> Result<StaticResult> {
+        let case = self.case;
         self.begin()?;
         let increments = stages.iter().map(|stage| stage.increments).sum();
         let under_way = |writer: &Writer| writer.results().loading_under_way(&self.pair, increments);
         let left = self.writer.map(under_way).transpose()?.flatten();
         let done = left.as_ref().map_or(&[][..], |left| &left.increments);
         let mut kept = self.writer.map(|writer| writer.increments(done)).transpose()?;
-        let (boundary, outputs) = (self.boundary(), &mut outputs(&mut kept));
+        let mut observers = self.observers(done.last().map(|last| last.increment))?;
+        let (boundary, outputs) = (self.boundary(), &mut outputs(&mut observers, &mut kept));
         let contact =
             load_in_stages(&self.pair, boundary, self.law, stages, &self.params, left, self.watch, outputs)?;
-        Ok(self.loaded(contact))
+        self.loaded(contact).seen_by(case, observers)
     }
 
     /// Solves one load, or one creepage, after another.
     fn sweep(self, points: &[Point]) -> Result<StaticResult> {
+        let case = self.case;
         self.begin()?;
         let mut done = self.writer.map(|writer| writer.results().sweep()).transpose()?.unwrap_or_default();
         done.truncate(points.len().saturating_sub(1));
         let every = self.case.output.pressure_every;
         let mut kept = self.writer.map(|writer| writer.points(&done, every)).transpose()?;
-        let (boundary, outputs) = (self.boundary(), &mut outputs(&mut kept));
+        let mut observers = self.observers(done.last().map(|last| last.point))?;
+        let (boundary, outputs) = (self.boundary(), &mut outputs(&mut observers, &mut kept));
         let (points, contact) =
             sweep(&self.pair, boundary, self.law, points, &self.params, done, self.watch, outputs)?;
         let warnings = review::sweep(&points, &contact);
         let LoadedContact { solution, plastic, slip, .. } = contact;
         let fields = fields(self.pair, solution, plastic, slip);
-        Ok(StaticResult { warnings, ..StaticResult::of(Outcome::Sweep(points), fields) })
+        StaticResult { warnings, ..StaticResult::of(Outcome::Sweep(points), fields) }.seen_by(case, observers)
     }
 
     /// Solves wear in place.
     fn slide(self, slide: Slide) -> Result<StaticResult> {
+        let case = self.case;
         let friction = slide.friction;
         self.begin()?;
         let under_way = |writer: &Writer| writer.results().sliding_under_way(&self.pair);
         let left = self.writer.map(under_way).transpose()?.flatten();
         let done = left.as_ref().map_or(&[][..], |left| &left.updates);
         let mut kept = self.writer.map(|writer| writer.updates(done)).transpose()?;
+        let mut observers = self.observers(done.last().map(|last| last.update))?;
         let from = left.as_ref().map_or(&self.pair, |left| &left.pair).clone();
         let contact = self.case.wearing(WearInPlace::new(from, self.boundary(), slide, self.params)?)?;
         let state = left.map(|left| SlidingState::resumed(&contact, left.updates, left.pressure));
-        let worn = contact.run(state, self.watch, &mut outputs(&mut kept))?;
+        let worn = contact.run(state, self.watch, &mut outputs(&mut observers, &mut kept))?;
         let (record, updates) = (worn.record.clone(), worn.state.updates.clone());
         let warnings = review::worn(&worn.state.pair, self.boundary(), &worn.solution.pressure, &updates);
-        Ok(StaticResult { updates, warnings, ..StaticResult::of(record, worn_fields(worn, friction)) })
+        let result = StaticResult::of(record, worn_fields(worn, friction));
+        StaticResult { updates, warnings, ..result }.seen_by(case, observers)
     }
 
     /// Solves the stages of elasto-plastic bodies.
     fn flow(self, spec: &PlasticitySpec, stages: Vec<Stage>) -> Result<StaticResult> {
+        let case = self.case;
         let (bodies, path) = (flow::bodies(self.case, spec, &self.pair)?, flow::path(spec, stages));
         self.begin()?;
         let mut kept = self.writer.map(|writer| writer.increments(&[])).transpose()?;
-        let (pair, boundary, outputs) = (&self.pair, self.boundary(), &mut outputs(&mut kept));
+        let mut observers = self.observers(None)?;
+        let outputs = &mut outputs(&mut observers, &mut kept);
+        let (pair, boundary) = (&self.pair, self.boundary());
         let contact =
             press_elasto_plastic(pair, boundary, self.law, bodies, &path, &self.params, self.watch, outputs)?;
         let of_answer = self.review(contact.solution.normal());
@@ -219,12 +253,8 @@ impl StaticProblem<'_> {
         let nothing = self.pair.lower_grid().zeros();
         let fields = fields(flow_result.displaced(self.pair), solution, nothing, slip);
         let increments = flow_result.increments.clone();
-        Ok(StaticResult {
-            increments,
-            flow_result: Some(flow_result),
-            warnings,
-            ..StaticResult::of(record, fields)
-        })
+        let result = StaticResult::of(record, fields);
+        StaticResult { increments, flow_result: Some(flow_result), warnings, ..result }.seen_by(case, observers)
     }
 
     /// Creates the result from the end of a loading, or of rolling.
@@ -233,6 +263,11 @@ impl StaticProblem<'_> {
         let LoadedContact { record, increments, solution, plastic, slip, .. } = contact;
         let fields = fields(self.pair, solution, plastic, slip);
         StaticResult { increments, warnings, ..StaticResult::of(record, fields) }
+    }
+
+    /// Creates the observers of the case, after the steps that are `done`.
+    fn observers(&self, done: Option<usize>) -> Result<Observers> {
+        Observers::new(self.case, &self.pair, (self.writer, done))
     }
 
     fn boundary(&self) -> Boundary {
@@ -249,9 +284,10 @@ impl StaticProblem<'_> {
     }
 }
 
-/// Returns the outputs of a course.
-fn outputs(kept: &mut Option<StepWriter>) -> Vec<&mut dyn Output> {
-    kept.iter_mut().map(|kept| kept as &mut dyn Output).collect()
+/// Returns the outputs of a course: the rows of the observers are written before that of the step.
+fn outputs<'a>(observers: &'a mut Observers, kept: &'a mut Option<StepWriter>) -> Vec<&'a mut dyn Output> {
+    let kept = kept.iter_mut().map(|kept| kept as &mut dyn Output);
+    [observers as &mut dyn Output].into_iter().chain(kept).collect()
 }
 
 impl From<StaticRecord> for Outcome {

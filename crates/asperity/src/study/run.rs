@@ -12,6 +12,7 @@ use crate::study::estimate::{Estimate, estimate};
 use crate::study::finish::{Computed, conclude, pair};
 use crate::study::given::SurfaceInput;
 use crate::study::identity;
+use crate::study::observe::GapFlowRecord;
 use crate::study::passes::Passes;
 use crate::study::prepare::bodies_until;
 use crate::study::rest::{self, StaticResult};
@@ -60,7 +61,17 @@ pub(super) fn run_with(
     let pair = pair(case, bodies)?;
     let writer = Writer::enter_with(directory, &resolved, existing, lock)?;
     let rest = rest::solve(case, pair, apparent_area, Some(&writer), watch)?;
-    let StaticResult { outcome, updates, fields, flow_result, closed_form, warnings: of_answer, .. } = rest;
+    let StaticResult {
+        outcome,
+        updates,
+        fields,
+        flow_result,
+        closed_form,
+        conductance,
+        gap_flow,
+        warnings: of_answer,
+        ..
+    } = rest;
     warnings.extend(of_answer);
     let below = subsurface.map(|plan| (plan, fields.tractions()));
     writer.write_rest(fields)?;
@@ -74,7 +85,9 @@ pub(super) fn run_with(
     let stress =
         below.map(|(plan, tractions)| writer.write_subsurface(&plan, tractions, volumes)).transpose()?;
     let (subsurface, sliding) = (stress.into_iter().collect(), updates.last().cloned());
-    let computed = Computed { outcome, subsurface, sliding, flow: None, closed_form };
+    let conductance = conductance.last().cloned().into_iter().collect();
+    let gap_flow = GapFlowRecord::last(&gap_flow).to_vec();
+    let computed = Computed { outcome, subsurface, sliding, flow: None, closed_form, conductance, gap_flow };
     let summary = conclude(case, &writer, resolved, began, computed, warnings)?;
     writer.results().remove_state()?;
     Ok((summary, writer))

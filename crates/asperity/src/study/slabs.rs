@@ -145,7 +145,7 @@ pub fn run_on_ranks(
     let Some(writer) = writer else { return Ok(None) };
     index.write(directory)?;
     let closed_form = closed_form(case, slab.whole_grid().extent(), &outcome);
-    let computed = Computed { outcome, subsurface: Vec::new(), sliding: None, flow: None, closed_form };
+    let computed = Computed { closed_form, ..Computed::of(outcome) };
     conclude(case, &writer, resolved, began, computed, Vec::new()).map(Some)
 }
 
@@ -204,6 +204,8 @@ fn check(case: &Case) -> Result<()> {
         ("temperature", case.temperature.is_some()),
         ("plasticity", case.plasticity.is_some()),
         ("subsurface", case.subsurface.is_some()),
+        ("conductance", case.conductance.is_some()),
+        ("flow", case.flow.is_some()),
         ("output.paraview", case.output.paraview),
         ("contact.sweep", !case.contact.sweep.is_empty()),
         ("contact.method", matches!(case.contact.method, Method::Direct | Method::PolonskyKeer)),
@@ -536,6 +538,8 @@ mod tests {
             ("method = \"direct\"", "contact.method"),
             ("[friction]\ncoefficient = inf", "friction"),
             ("[subsurface]\nto = \"5 um\"", "subsurface"),
+            ("[conductance]", "conductance"),
+            ("[flow]\nviscosity = \"1 mPa s\"", "flow"),
             ("[output]\nparaview = true", "output.paraview"),
             ("[motion]\npasses = 1", "motion"),
         ] {

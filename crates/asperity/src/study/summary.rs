@@ -6,6 +6,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::closed_form::ClosedFormRecord;
+use super::observe::{ConductanceRecord, GapFlowRecord};
 use super::subsurface::SubsurfaceRecord;
 use crate::error::{Error, Result};
 use crate::io::{atomic, regular};
@@ -41,6 +42,12 @@ pub struct Summary {
     /// requested.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub subsurface: Vec<SubsurfaceRecord>,
+    /// The conductance of the last contact; of a motion the mean of each pass. Empty if it was not requested.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub conductance: Vec<ConductanceRecord>,
+    /// The flow through the gap of the last contact, once for each direction; empty if it was not requested.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub flow: Vec<GapFlowRecord>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
     /// Time of the whole computation.
@@ -191,6 +198,8 @@ mod tests {
                 max_shear: 1.3e9,
                 max_shear_position: [1e-6, 2e-6, 4e-7],
             }],
+            conductance: vec![],
+            flow: vec![],
             warnings: vec!["the mesh is coarse".into()],
             wall_time_s: 0.5,
         };

@@ -8,6 +8,7 @@ mod examples;
 mod loading;
 mod motion;
 mod output;
+mod passage;
 mod plasticity;
 mod running;
 mod temperature;
@@ -55,7 +56,7 @@ pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
 
 /// What does not go together in a case file, in the order in which a case is held against it.
 pub fn rules() -> impl Iterator<Item = &'static Rule> {
-    let tables: [&[Rule]; 7] = [
+    let tables: [&[Rule]; 8] = [
         bodies::RULES,
         motion::RULES,
         loading::RULES,
@@ -63,6 +64,7 @@ pub fn rules() -> impl Iterator<Item = &'static Rule> {
         running::RULES,
         temperature::RULES,
         output::RULES,
+        passage::RULES,
     ];
     tables.into_iter().flatten()
 }

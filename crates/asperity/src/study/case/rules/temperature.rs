@@ -2,7 +2,7 @@
 
 use super::super::CounterBody;
 use super::Rule;
-use super::examples::{AT_ANY_SPEED, CONDUCTS, GENERATED, MOVES, RUBS, SLIDES, UPPER_CONDUCTS, WARM, WEARS};
+use super::examples::{AT_ANY_SPEED, CONDUCTS, GENERATED, LINE, MOVES, RUBS, SLIDES, UPPER_CONDUCTS, WARM, WEARS};
 use crate::motion::PlasticUpdate;
 
 pub(super) const RULES: &[Rule] = &[
@@ -37,7 +37,10 @@ pub(super) const RULES: &[Rule] = &[
         hint: "add `[temperature]` with `bulk = \"100 °C\"`",
         at: "lower.conductivity",
         example: &[CONDUCTS, UPPER_CONDUCTS],
-        broken: |tables| tables.at("lower.conductivity").filter(|_| tables.case.temperature.is_none()),
+        broken: |tables| {
+            let is_needed = tables.case.lower.thermal.is_some() && tables.case.conductance.is_none();
+            tables.at("lower.conductivity").filter(|_| is_needed && tables.case.temperature.is_none())
+        },
     },
     Rule {
         this: "[temperature]",
@@ -90,6 +93,25 @@ pub(super) const RULES: &[Rule] = &[
         at: "temperature",
         example: &[CONDUCTS, UPPER_CONDUCTS, MOVES, WARM],
         broken: |tables| tables.flash().filter(|_| tables.case.friction.is_none()),
+    },
+    Rule {
+        this: "a flash temperature in [sliding]",
+        with: "a boundary periodic along one axis alone",
+        message: "a flash temperature in [sliding] needs a boundary that is free or periodic along both axes",
+        hint: "use \"free\" or \"periodic\", or set `every = 0`",
+        at: "contact.boundary",
+        example: &[
+            r#"lower.conductivity = "46 W/(m K)""#,
+            r#"lower.heat_capacity = "460 J/(kg K)""#,
+            r#"lower.density = "7850 kg/m3""#,
+            WEARS,
+            UPPER_CONDUCTS,
+            RUBS,
+            r#"sliding = { distance = "1 m", speed = "1 m/s" }"#,
+            WARM,
+            LINE,
+        ],
+        broken: |tables| tables.flash().filter(|_| tables.case.sliding.is_some()).and(tables.line()),
     },
     Rule {
         this: "a flash temperature in [sliding]",

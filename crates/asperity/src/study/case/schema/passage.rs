@@ -2,7 +2,7 @@
 
 use super::Bounds::{AboveZero, FromZero};
 use super::typed::{
-    DEPTH, FLAG, Optional, PRESSURE, Typed, choice, count, defaulted, optional, other, quantity, required, section,
+    DEPTH, FLAG, Optional, Typed, choice, count, defaulted, optional, other, quantity, required, section,
 };
 use crate::units::Dimension;
 
@@ -109,7 +109,7 @@ pub(in crate::study) mod flow {
         );
         OUTLET: Optional<f64> = optional(
             "outlet",
-            PRESSURE,
+            quantity(Dimension::Pressure, AboveZero),
             "with a gas: must be given",
             "\"1 bar\"",
             "absolute pressure of a gas at the outlet, to which its leakage refers",

@@ -5,11 +5,24 @@
 //! each point or pass. The rows of a step are written before the row of the step itself, which marks it as done; a resumed run removes
 //! the rows of later steps.
 
+mod conductance; // what heat or current passes
+mod flow; // what a fluid passes
+mod review; // warnings
+
+pub use conductance::{ConductanceRecord, ElectricalRecord, ThermalRecord};
+pub use flow::{FlowAxis, GapFlowRecord};
+
+pub(super) use review::{barber, warnings};
+
+use conductance::ConductanceObserver;
+use flow::FlowObserver;
 use serde::de::DeserializeOwned;
 
 use crate::error::{Error, Result};
 use crate::io::fields::FieldFile;
-use crate::motion::{ObservedContact, Position, Step};
+use crate::motion::{ObservedContact, Output, Pair, Position, Step};
+use crate::solver::Solution;
+use crate::study::case::Case;
 use crate::study::fields::NamedField;
 use crate::study::results::{Results, Writer, is_kept};
 use crate::study::tables::{self, GrowingTable, Record};
@@ -18,7 +31,7 @@ use crate::study::tables::{self, GrowingTable, Record};
 pub(super) const OBSERVERS: [&str; 2] = ["conductance", "flow"];
 
 /// Computes something from a solved contact and changes nothing.
-pub(super) trait Observer {
+trait Observer {
     /// A row of its table.
     type Record: Record + DeserializeOwned + Clone;
 
@@ -29,7 +42,7 @@ pub(super) trait Observer {
     /// the position of full overlap of each pass, or for the last contact.
     fn every(&self) -> usize;
 
-    /// Computes the row and the fields of a contact.
+    /// Computes the rows and the fields of a contact.
     ///
     /// # Errors
     /// The reason why they cannot be computed.
@@ -37,20 +50,20 @@ pub(super) trait Observer {
         &mut self,
         place: Place,
         contact: &ObservedContact<'_>,
-    ) -> Result<(Self::Record, Vec<NamedField>)>;
+    ) -> Result<(Vec<Self::Record>, Vec<NamedField>)>;
 }
 
 /// Place of a contact in its course.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Place {
+struct Place {
     /// Number of the pass, from 1; `None` for a static contact.
-    pub(super) pass: Option<usize>,
+    pass: Option<usize>,
     /// Number of the position, increment, update or point, from 1, but from 0 for updates; 1 for a contact in one step.
-    pub(super) step: usize,
+    step: usize,
 }
 
 /// An observer with what it has seen.
-pub(super) struct Observed<O: Observer> {
+struct Observed<O: Observer> {
     observer: O,
     /// The rows that are not in a file.
     records: Vec<O::Record>,
@@ -69,8 +82,22 @@ struct Files {
 }
 
 impl<O: Observer> Observed<O> {
+    /// Creates an observer that writes to files if there is a `writer`.
+    fn new(
+        observer: O,
+        writer: Option<&Writer>,
+        done: Option<usize>,
+        kept_every: usize,
+        is_motion: bool,
+    ) -> Result<Self> {
+        match writer {
+            Some(writer) => Self::in_files(observer, writer, done, kept_every, is_motion),
+            None => Ok(Self::in_memory(observer)),
+        }
+    }
+
     /// Creates an observer whose rows stay in memory.
-    pub(super) fn in_memory(observer: O) -> Self {
+    fn in_memory(observer: O) -> Self {
         Self { observer, records: Vec::new(), fields: Vec::new(), files: None }
     }
 
@@ -78,7 +105,7 @@ impl<O: Observer> Observed<O> {
     ///
     /// # Errors
     /// [`Error::File`]; [`Error::NotResumable`] if the table of the finished steps is missing.
-    pub(super) fn in_files(
+    fn in_files(
         observer: O,
         writer: &Writer,
         done: Option<usize>,
@@ -105,7 +132,7 @@ impl<O: Observer> Observed<O> {
     ///
     /// # Errors
     /// The errors of the observer, [`Error::File`], [`Error::NotFinite`].
-    pub(super) fn step(&mut self, step: &Step<'_>) -> Result<()> {
+    fn step(&mut self, step: &Step<'_>) -> Result<()> {
         let number = step.number();
         let mut rows = Vec::new();
         let mut file = None;
@@ -124,8 +151,8 @@ impl<O: Observer> Observed<O> {
             if !is_wanted {
                 continue;
             }
-            let (row, fields) = self.observer.observe(place, &contact)?;
-            rows.push(row);
+            let (new, fields) = self.observer.observe(place, &contact)?;
+            rows.extend(new);
             if let Some(files) = &self.files {
                 let is_kept = match step {
                     Step::Pass(_) => files.kept_every > 0 && contact.index.is_multiple_of(files.kept_every),
@@ -157,10 +184,10 @@ impl<O: Observer> Observed<O> {
     ///
     /// # Errors
     /// The errors of [`Observed::step`].
-    pub(super) fn contact(&mut self, contact: &ObservedContact<'_>) -> Result<()> {
-        let (row, fields) = self.observer.observe(Place { pass: None, step: 1 }, contact)?;
+    fn contact(&mut self, contact: &ObservedContact<'_>) -> Result<()> {
+        let (rows, fields) = self.observer.observe(Place { pass: None, step: 1 }, contact)?;
         self.fields = fields;
-        self.add(vec![row])
+        self.add(rows)
     }
 
     fn add(&mut self, rows: Vec<O::Record>) -> Result<()> {
@@ -175,7 +202,7 @@ impl<O: Observer> Observed<O> {
     }
 
     /// Whether it looks at a position of a pass.
-    pub(super) fn wants(&self, index: usize, position: &Position) -> bool {
+    fn wants(&self, index: usize, position: &Position) -> bool {
         wants_position(self.observer.every(), index, position)
     }
 
@@ -183,7 +210,7 @@ impl<O: Observer> Observed<O> {
     ///
     /// # Errors
     /// [`Error::File`].
-    pub(super) fn finish(self) -> Result<(Vec<O::Record>, Vec<NamedField>)> {
+    fn finish(self) -> Result<(Vec<O::Record>, Vec<NamedField>)> {
         let rows = match self.files {
             Some(files) => files.results.observed(O::NAME)?,
             None => self.records,
@@ -209,4 +236,96 @@ fn wants_position(every: usize, index: usize, position: &Position) -> bool {
 
 fn wants_step(every: usize, number: usize) -> bool {
     every > 0 && (number + every - 1).is_multiple_of(every)
+}
+
+/// The observers of a case.
+pub(super) struct Observers {
+    conductance: Option<Observed<ConductanceObserver>>,
+    flow: Option<Observed<FlowObserver>>,
+}
+
+/// What the observers of a case have found.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Observations {
+    pub(super) conductance: Vec<ConductanceRecord>,
+    pub(super) flow: Vec<GapFlowRecord>,
+    /// The fields of the last contact of a static contact.
+    pub(super) fields: Vec<NamedField>,
+}
+
+impl Observers {
+    /// Creates the observers of a `case` with these bodies. Without a `writer` their rows stay in memory; with one they go to files,
+    /// after those of the steps that are `done`.
+    ///
+    /// # Errors
+    /// The errors of the observers; [`Error::File`].
+    pub(super) fn new(
+        case: &Case,
+        pair: &Pair,
+        (writer, done): (Option<&Writer>, Option<usize>),
+    ) -> Result<Self> {
+        let every = case.output.pressure_every;
+        let is_motion = case.motion.is_some();
+        Ok(Self {
+            conductance: ConductanceObserver::of(case, pair)?
+                .map(|observer| Observed::new(observer, writer, done, every, is_motion))
+                .transpose()?,
+            flow: FlowObserver::of(case)
+                .map(|observer| Observed::new(observer, writer, done, every, is_motion))
+                .transpose()?,
+        })
+    }
+
+    /// Whether an observer looks at a position of a pass.
+    pub(super) fn want(&self, index: usize, position: &Position) -> bool {
+        self.conductance.as_ref().is_some_and(|observed| observed.wants(index, position))
+            || self.flow.as_ref().is_some_and(|observed| observed.wants(index, position))
+    }
+
+    /// Looks at a contact that is solved in one step.
+    ///
+    /// # Errors
+    /// The errors of the observers, [`Error::File`].
+    pub(super) fn contact(&mut self, solution: &Solution) -> Result<()> {
+        if self.conductance.is_none() && self.flow.is_none() {
+            return Ok(());
+        }
+        let contact = ObservedContact::at_rest(solution);
+        if let Some(observed) = &mut self.conductance {
+            observed.contact(&contact)?;
+        }
+        if let Some(observed) = &mut self.flow {
+            observed.contact(&contact)?;
+        }
+        Ok(())
+    }
+
+    /// Returns what they have found.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub(super) fn finish(self) -> Result<Observations> {
+        let mut found = Observations::default();
+        if let Some(observed) = self.conductance {
+            (found.conductance, found.fields) = observed.finish()?;
+        }
+        if let Some(observed) = self.flow {
+            let (rows, fields) = observed.finish()?;
+            found.flow = rows;
+            found.fields.extend(fields);
+        }
+        Ok(found)
+    }
+}
+
+impl Output for Observers {
+    fn step(&mut self, step: &Step<'_>) -> Result<()> {
+        if let Some(observed) = &mut self.conductance {
+            observed.step(step)?;
+        }
+        if let Some(observed) = &mut self.flow {
+            observed.step(step)?;
+        }
+        Ok(())
+    }
 }

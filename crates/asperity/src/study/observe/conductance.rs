@@ -1,0 +1,349 @@
+//! Conductance of the contacts of a case.
+
+use ndarray::Array2;
+use serde::{Deserialize, Serialize};
+
+use super::{Observer, Place};
+use crate::conductance::{self, Conductance, JointRoughness, Kind};
+use crate::error::{Error, Result};
+use crate::grid::Field;
+use crate::motion::{Column, ObservedContact, Pair, columns};
+use crate::operator::Operators;
+use crate::solver::Params;
+use crate::study::case::{Case, ConductanceSpec};
+use crate::study::fields::NamedField;
+use crate::study::finish::params;
+use crate::study::tables::Record;
+use crate::units::{
+    KelvinPerWatt, Newton, Ohm, Pascal, Siemens, SiemensPerSquareMetre, SquareMetre, Watt, WattPerKelvin,
+    WattPerSquareMetreKelvin,
+};
+
+columns! {
+    /// The conductance of a contact, a row of `conductance.csv`; in `summary.json` of the last contact, or the mean over the contacts
+    /// of each pass.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    #[non_exhaustive]
+    pub struct ConductanceRecord {
+        /// Pass of a motion, from 1; left out of a static contact.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub pass: Option<usize>,
+        /// Position in the pass, increment, point (each from 1) or update (from 0); unknown in the mean over a pass.
+        pub step: Option<usize>,
+        /// Load.
+        pub load: Newton,
+        /// Mean pressure over the apparent area.
+        pub mean_pressure: Pascal,
+        /// Real area of contact.
+        pub contact_area: SquareMetre,
+        /// Number of spots, which are connected over edges and corners of cells.
+        pub spots: f64,
+        /// Median number of cells of a spot; 0 without contact.
+        pub median_spot_cells: f64,
+        /// Share of heat or current that passes the spots.
+        pub spot_share: f64,
+        /// Share of the heat that passes the gas.
+        pub gas_share: f64,
+        /// Share of the resistance that the film on the spots has.
+        pub film_share: f64,
+        /// Heat that passes under the temperature difference `drop`; of a current, the heat that it makes. Unknown where the joint has
+        /// no resistance.
+        pub power: Option<Watt>,
+        /// Convolutions for the conductance.
+        pub convolutions: f64,
+        /// Residual of the conductance: largest relative deviation from the common temperature or potential.
+        pub residual: f64,
+        /// The conductance of heat.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub thermal: Option<ThermalRecord>,
+        /// The conductance of a current.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub electrical: Option<ElectricalRecord>,
+    }
+}
+
+columns! {
+    /// What conducts heat.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    #[non_exhaustive]
+    pub struct ThermalRecord {
+        /// Thermal conductance of the contact; unknown where it adds no resistance.
+        pub thermal_conductance: Option<WattPerKelvin>,
+        /// Thermal joint conductance h, the conductance over the apparent area.
+        pub thermal_joint_conductance: Option<WattPerSquareMetreKelvin>,
+        /// Thermal resistance; unknown where nothing conducts, and where the contact adds no resistance.
+        pub thermal_resistance: Option<KelvinPerWatt>,
+        /// Thermal resistance with all cells in contact, which the bodies beyond the grid have; unknown under a periodic boundary, and
+        /// at a position of a motion.
+        pub thermal_resistance_full: Option<KelvinPerWatt>,
+        /// Estimate of Holm and Greenwood of the thermal resistance of the spots, under a free boundary.
+        pub thermal_resistance_holm_greenwood: Option<KelvinPerWatt>,
+        /// Thermal joint conductance by the correlation of Cooper, Mikic and Yovanovich, or of Mikic for elastic bodies.
+        pub thermal_joint_correlation: Option<WattPerSquareMetreKelvin>,
+    }
+}
+
+columns! {
+    /// What conducts a current.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    #[non_exhaustive]
+    pub struct ElectricalRecord {
+        /// Electrical conductance of the contact; unknown where it adds no resistance.
+        pub electrical_conductance: Option<Siemens>,
+        /// Electrical joint conductance, the conductance over the apparent area.
+        pub electrical_joint_conductance: Option<SiemensPerSquareMetre>,
+        /// Electrical resistance; unknown where nothing conducts, and where the contact adds no resistance.
+        pub electrical_resistance: Option<Ohm>,
+        /// Electrical resistance with all cells in contact, which the bodies beyond the grid have; unknown under a periodic boundary,
+        /// and at a position of a motion.
+        pub electrical_resistance_full: Option<Ohm>,
+        /// Estimate of Holm and Greenwood of the electrical resistance of the spots, under a free boundary.
+        pub electrical_resistance_holm_greenwood: Option<Ohm>,
+        /// Electrical joint conductance by the correlation of Cooper, Mikic and Yovanovich, or of Mikic for elastic bodies.
+        pub electrical_joint_correlation: Option<SiemensPerSquareMetre>,
+    }
+}
+
+impl Record for ConductanceRecord {
+    const COLUMNS: &'static [Column] = Self::COLUMNS;
+
+    fn at(&self, error: Error) -> Error {
+        match self.pass {
+            Some(pass) => error.if_not_finite(|source| Error::AtPass { pass, source }),
+            None => error,
+        }
+    }
+}
+
+impl ConductanceRecord {
+    /// Conductance, W/K or S; `None` where the contact adds no resistance.
+    pub fn conductance(&self) -> Option<f64> {
+        match (&self.thermal, &self.electrical) {
+            (Some(thermal), _) => thermal.thermal_conductance,
+            (None, Some(electrical)) => electrical.electrical_conductance,
+            (None, None) => None,
+        }
+    }
+
+    /// Joint conductance, W/(m² K) or S/m², and that of the correlation beside it.
+    pub fn joint(&self) -> [Option<f64>; 2] {
+        match (&self.thermal, &self.electrical) {
+            (Some(thermal), _) => [thermal.thermal_joint_conductance, thermal.thermal_joint_correlation],
+            (None, Some(of)) => [of.electrical_joint_conductance, of.electrical_joint_correlation],
+            (None, None) => [None; 2],
+        }
+    }
+
+    /// Returns the mean over the contacts of each pass: at a common difference of temperature or potential the conductance has the
+    /// mean of its values, and the resistance is its reciprocal.
+    pub(in crate::study) fn means(rows: &[Self]) -> Vec<Self> {
+        rows.chunk_by(|one, other| one.pass == other.pass).map(Self::mean).collect()
+    }
+
+    fn mean(rows: &[Self]) -> Self {
+        let count = rows.len() as f64;
+        let mean = |value: &dyn Fn(&Self) -> f64| rows.iter().map(value).sum::<f64>() / count;
+        let known = |value: &dyn Fn(&Self) -> Option<f64>| {
+            rows.iter().map(value).sum::<Option<f64>>().map(|sum| sum / count)
+        };
+        let conductance = known(&Self::conductance);
+        let [joint, correlation] = [0, 1].map(|which| known(&|row: &Self| row.joint()[which]));
+        let quantities = Quantities {
+            conductance,
+            joint,
+            resistance: conductance.filter(|conductance| *conductance > 0.0).map(f64::recip),
+            full: None,
+            holm_greenwood: None,
+            correlation,
+        };
+        let kind = if rows[0].thermal.is_some() { Kind::Thermal } else { Kind::Electrical };
+        let (thermal, electrical) = quantities.of_kind(kind);
+        Self {
+            pass: rows[0].pass,
+            step: None,
+            load: mean(&|row| row.load),
+            mean_pressure: mean(&|row| row.mean_pressure),
+            contact_area: mean(&|row| row.contact_area),
+            spots: mean(&|row| row.spots),
+            median_spot_cells: mean(&|row| row.median_spot_cells),
+            spot_share: mean(&|row| row.spot_share),
+            gas_share: mean(&|row| row.gas_share),
+            film_share: mean(&|row| row.film_share),
+            power: known(&|row: &Self| row.power),
+            convolutions: mean(&|row| row.convolutions),
+            residual: rows.iter().map(|row| row.residual).fold(0.0, f64::max),
+            thermal,
+            electrical,
+        }
+    }
+}
+
+/// The quantities of either kind.
+struct Quantities {
+    conductance: Option<f64>,
+    joint: Option<f64>,
+    resistance: Option<f64>,
+    full: Option<f64>,
+    holm_greenwood: Option<f64>,
+    correlation: Option<f64>,
+}
+
+impl Quantities {
+    fn of_kind(self, kind: Kind) -> (Option<ThermalRecord>, Option<ElectricalRecord>) {
+        let Self { conductance, joint, resistance, full, holm_greenwood, correlation } = self;
+        match kind {
+            Kind::Thermal => {
+                let record = ThermalRecord {
+                    thermal_conductance: conductance,
+                    thermal_joint_conductance: joint,
+                    thermal_resistance: resistance,
+                    thermal_resistance_full: full,
+                    thermal_resistance_holm_greenwood: holm_greenwood,
+                    thermal_joint_correlation: correlation,
+                };
+                (Some(record), None)
+            }
+            Kind::Electrical => {
+                let record = ElectricalRecord {
+                    electrical_conductance: conductance,
+                    electrical_joint_conductance: joint,
+                    electrical_resistance: resistance,
+                    electrical_resistance_full: full,
+                    electrical_resistance_holm_greenwood: holm_greenwood,
+                    electrical_joint_correlation: correlation,
+                };
+                (None, Some(record))
+            }
+        }
+    }
+}
+
+/// Computes the conductance of each contact.
+pub(super) struct ConductanceObserver {
+    spec: ConductanceSpec,
+    operators: Operators,
+    /// Composite conductivity of the bodies without their coatings.
+    composite: f64,
+    params: Params,
+    /// Roughness of the undeformed gap of the bodies at full overlap, and what the correlations need besides.
+    roughness: JointRoughness,
+    hardness: Pascal,
+    modulus: Pascal,
+    /// Resistance with all cells in contact at full overlap, computed once.
+    full: Option<Option<f64>>,
+    /// Flux of the last contact, from which the next solution starts.
+    last: Option<Field>,
+}
+
+impl ConductanceObserver {
+    /// Creates the observer of a `case` with these bodies; `None` if it wants no conductance.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for conductivities without meaning.
+    pub(super) fn of(case: &Case, pair: &Pair) -> Result<Option<Self>> {
+        let Some(spec) = case.conductance else { return Ok(None) };
+        let unknown = || Error::Unsupported("a conductance needs the conductivities of both bodies");
+        let composite = case.composite_conductivity(spec.kind).ok_or_else(unknown)??;
+        let [lower, upper] = [&case.lower, &case.upper].map(|body| body.conductor(spec.kind));
+        let response = conductance::response(&lower.ok_or_else(unknown)??, &upper.ok_or_else(unknown)??)?;
+        let boundary = case.contact.boundary;
+        let largest = pair.grid(pair.lower_grid().shape[0].min(pair.upper_grid().shape[0]));
+        let flush = Array2::from_shape_fn(largest.shape, |(i, j)| {
+            pair.upper.heights[[i, j]] - pair.lower.heights[[i, j]]
+        });
+        Ok(Some(Self {
+            spec,
+            operators: Operators::new(largest, response, boundary),
+            composite,
+            params: params(case),
+            roughness: JointRoughness::new(&largest, &flush, [0, 1].map(|axis| boundary.repeats(axis))),
+            hardness: pair.min_hardness(),
+            modulus: pair.modulus(),
+            full: None,
+            last: None,
+        }))
+    }
+
+    /// Returns the resistance with all cells in contact at full overlap.
+    fn full(&mut self, shape: [usize; 2]) -> Result<Option<f64>> {
+        if let Some(full) = self.full {
+            return Ok(full);
+        }
+        let full = conductance::full_resistance(self.operators.on(shape).as_mut(), &self.params)?;
+        self.full = Some(full);
+        Ok(full)
+    }
+
+    /// Returns the joint conductance by a correlation.
+    fn correlation(&self, pressure: Pascal) -> Option<f64> {
+        match self.hardness.is_finite() {
+            true => self.roughness.cooper_mikic_yovanovich(self.composite, pressure, self.hardness),
+            false => self.roughness.mikic(self.composite, pressure, self.modulus),
+        }
+    }
+}
+
+impl Observer for ConductanceObserver {
+    type Record = ConductanceRecord;
+
+    const NAME: &'static str = "conductance";
+
+    fn every(&self) -> usize {
+        self.spec.every
+    }
+
+    fn observe(
+        &mut self,
+        place: Place,
+        contact: &ObservedContact<'_>,
+    ) -> Result<(Vec<ConductanceRecord>, Vec<NamedField>)> {
+        let shape = contact.grid.shape;
+        let joint = self.spec.joint(self.composite);
+        let start = self.last.take().filter(|last| last.dim() == (shape[0], shape[1]));
+        let start = start.as_ref().unwrap_or(&contact.pressure);
+        let mut operator = self.operators.on(shape);
+        let gap = joint.gas.map(|_| &contact.gap);
+        let found =
+            conductance::solve(operator.as_mut(), &contact.touching, gap, &joint, Some(start), &self.params)?;
+        drop(operator);
+        let full = if place.pass.is_none() { self.full(shape)? } else { None };
+        let touching = contact.touching.iter().filter(|touches| **touches).count();
+        let mean_pressure = contact.load / contact.grid.area();
+        let quantities = Quantities {
+            conductance: found.conductance,
+            joint: found.joint_conductance(),
+            resistance: found.resistance(),
+            full,
+            holm_greenwood: found.holm_greenwood,
+            correlation: self.correlation(mean_pressure).filter(|_| touching > 0),
+        };
+        let (thermal, electrical) = quantities.of_kind(self.spec.kind);
+        let record = ConductanceRecord {
+            pass: place.pass,
+            step: Some(place.step),
+            load: contact.load,
+            mean_pressure,
+            contact_area: contact.grid.cell_area() * touching as f64,
+            spots: found.spots.count() as f64,
+            median_spot_cells: found.spots.median_cells,
+            spot_share: found.shares.spots,
+            gas_share: found.shares.gas,
+            film_share: found.shares.film,
+            power: found.power(&joint, self.spec.drop),
+            convolutions: found.stats.convolutions,
+            residual: found.residual,
+            thermal,
+            electrical,
+        };
+        let Conductance { flux, .. } = found;
+        let unit = match self.spec.kind {
+            Kind::Thermal => "W/m²",
+            Kind::Electrical => "A/m²",
+        };
+        let fields = flux.iter().map(|flux| NamedField { name: "flux", unit, values: flux * self.spec.drop });
+        let fields = fields.collect();
+        // A start where nothing conducts would be none.
+        self.last = flux.filter(|flux| flux.iter().any(|q| *q > 0.0));
+        Ok((vec![record], fields))
+    }
+}

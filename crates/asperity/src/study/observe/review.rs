@@ -1,0 +1,135 @@
+//! Warnings about what observers have found.
+
+use super::{ConductanceRecord, FlowAxis, GapFlowRecord};
+use crate::conductance::Bracket;
+use crate::flow::Ends;
+use crate::motion::SweepRecord;
+use crate::study::case::Case;
+use crate::units::{self, Dimension, format_number};
+
+/// A spot with fewer cells than this conducts with an error of some percent.
+const FEW_CELLS: f64 = 9.0;
+/// A constriction with fewer open cells than this across the flow is not resolved.
+const NARROW: usize = 3;
+/// Largest estimate of the error of the permeability without a warning.
+const ESTIMATE: f64 = 0.1;
+/// Largest pressure of the fluid without a warning, over the mean pressure of the contact.
+const FLUID_PRESSURE: f64 = 0.1;
+/// Largest flow that the moving bodies drag along without a warning, over that of the pressure difference.
+const DRAGGED: f64 = 0.1;
+/// Relative deviation from Barber's bracket without a warning: the load of a sweep is met to about this.
+const BRACKET: f64 = 1e-3;
+
+/// Returns the warnings about the conductance and the flow of a case.
+pub(in crate::study) fn warnings(
+    case: &Case,
+    conductance: &[ConductanceRecord],
+    flow: &[GapFlowRecord],
+) -> Vec<String> {
+    of_conductance(conductance).into_iter().chain(of_flow(case, flow)).collect()
+}
+
+fn of_conductance(rows: &[ConductanceRecord]) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let touching = || rows.iter().filter(|row| row.spots > 0.0);
+    let fewest = touching().map(|row| row.median_spot_cells).fold(f64::INFINITY, f64::min);
+    if fewest < FEW_CELLS {
+        warnings.push(format!(
+            "the median spot of contact has {} cells: the conductance of so small spots is off by some percent, a finer grid resolves them",
+            format_number(fewest),
+        ));
+    }
+    let film = touching().map(|row| row.film_share).fold(0.0, f64::max);
+    if film > 0.5 {
+        let share = format_number((100.0 * film).round());
+        warnings.push(format!("the film makes {share} % of the resistance: its number decides the conductance"));
+    }
+    warnings
+}
+
+fn of_flow(case: &Case, rows: &[GapFlowRecord]) -> Vec<String> {
+    let Some(spec) = &case.flow else { return Vec::new() };
+    let mut warnings = Vec::new();
+    let pressure = |value| units::format(value, Dimension::Pressure);
+    let least = rows.iter().map(|row| row.mean_pressure).filter(|p| *p > 0.0).fold(f64::INFINITY, f64::min);
+    if spec.pressure > FLUID_PRESSURE * least {
+        warnings.push(format!(
+            "the pressure difference of the fluid is {}, the mean pressure of the contact {}: the fluid would lift the bodies, which is \
+             left out",
+            pressure(spec.pressure),
+            pressure(least),
+        ));
+    }
+    let open = || rows.iter().filter(|row| row.critical_cells > 0 && row.contact_area > 0.0);
+    let narrow = open().map(|row| row.critical_cells).min().filter(|cells| *cells < NARROW);
+    if let Some(cells) = narrow {
+        let cells = if cells == 1 { "one cell".to_owned() } else { format!("{cells} cells") };
+        warnings.push(format!("the critical constriction is {cells} wide: the leakage depends on the grid, a finer one resolves it"));
+    }
+    let estimate = rows.iter().map(|row| row.estimate).fold(0.0, f64::max);
+    if estimate > ESTIMATE {
+        warnings.push(format!(
+            "the permeability is uncertain by about {} %: two ways to average the gap of neighbouring cells differ by so much, a finer grid \
+             reduces it",
+            format_number((100.0 * estimate).round()),
+        ));
+    }
+    let at_rim = |row: &GapFlowRecord| {
+        let axis = if row.along == FlowAxis::X { 0 } else { 1 };
+        spec.ends == Ends::Reservoirs && !case.contact.boundary.repeats(axis)
+    };
+    if rows.iter().any(at_rim) {
+        warnings.push(
+            "the reservoirs are at free edges of the grid, where the surfaces end: the gap near them is not that of the middle of larger \
+             bodies"
+                .to_owned(),
+        );
+    }
+    warnings.extend(of_sliding(case, rows));
+    warnings
+}
+
+/// Returns a warning if the bodies drag along more fluid than a small part of the leakage.
+fn of_sliding(case: &Case, rows: &[GapFlowRecord]) -> Option<String> {
+    let spec = case.flow.as_ref()?;
+    let speed = case.motion.and_then(|motion| motion.speed).or(case.sliding.and_then(|sliding| sliding.speed))?;
+    // 6 η U L/(ḡ² ΔP)
+    let dragged = |row: &GapFlowRecord| {
+        6.0 * spec.viscosity * speed * row.length / (row.mean_gap * row.mean_gap * spec.pressure)
+    };
+    let along_x = rows.iter().filter(|row| row.along == FlowAxis::X && row.mean_gap > 0.0);
+    let dragged = along_x.map(dragged).fold(0.0, f64::max);
+    (dragged > DRAGGED).then(|| {
+        let times = if dragged.is_finite() { format_number(dragged) } else { "many".to_owned() };
+        format!(
+            "the moving bodies drag along {times} times the fluid that the pressure difference drives: dragged and squeezed fluid is left \
+             out"
+        )
+    })
+}
+
+/// Returns a warning if the conductance of a point of an elastic sweep lies outside Barber's bracket.
+pub(in crate::study) fn barber(
+    case: &Case,
+    points: &[SweepRecord],
+    rows: &[ConductanceRecord],
+) -> Option<String> {
+    let spec = case.conductance.filter(|spec| spec.film.is_none() && spec.gas.is_none())?;
+    let is_elastic = points.iter().all(|point| point.plastic_area == 0.0);
+    let is_coated = [&case.lower, &case.upper].iter().any(|body| body.material.coating.is_some());
+    let composite = case.composite_conductivity(spec.kind)?.ok()?;
+    let modulus = crate::material::Compliances::new(&case.lower.material, &case.upper.material).ok()?.modulus();
+    if !is_elastic || is_coated || rows.len() != points.len() {
+        return None;
+    }
+    let loads: Vec<_> = points.iter().map(|point| (point.load, point.approach)).collect();
+    let brackets = Bracket::of_sweep(&loads, composite, modulus);
+    let outside = |(row, bracket): &(&ConductanceRecord, &Bracket)| {
+        row.conductance().is_some_and(|conductance| !bracket.holds(conductance, BRACKET))
+    };
+    let (row, _) = rows.iter().zip(&brackets).find(outside)?;
+    Some(format!(
+        "the conductance of point {} lies outside Barber's bracket from load and approach: the grid or the tolerance is too coarse",
+        row.step.unwrap_or_default()
+    ))
+}
