@@ -116,7 +116,8 @@ impl Solver<'_> {
             }
             let sliding = self.motion.sliding(position.stroke);
             let solution = contact.solution().expect("a contact at the position");
-            let here = Contact::new(*position, sliding.as_ref(), solution).with_gap(solution, self.gaps[index]);
+            let here =
+                Contact::new(*position, sliding.as_ref(), solution).with_gap(solution, self.gaps[index]);
             let (solved, load) = (index + 1, here.load);
             course.contacts.push(here);
             course.add(&increments, &mut contact, pair, position, volumes.boundary);

@@ -108,10 +108,23 @@ impl Passes {
             }
         };
         let (case, done) = (case.clone(), passes.len());
-        let observers = Observers::new(&case, simulation.pair(), (Some(&writer), (done > 0).then_some(done)))?;
+        let observers =
+            Observers::new(&case, simulation.pair(), (Some(&writer), (done > 0).then_some(done)))?;
         let positions = simulation.positions().to_vec();
         let simulation = simulation.keeping_gaps(|index| observers.want(index, &positions[index]));
-        Ok(Self { case, simulation, motion, done, represented, writer, output, observers, resolved, warnings, began })
+        Ok(Self {
+            case,
+            simulation,
+            motion,
+            done,
+            represented,
+            writer,
+            output,
+            observers,
+            resolved,
+            warnings,
+            began,
+        })
     }
 
     /// Number of finished passes.

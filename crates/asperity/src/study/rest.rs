@@ -168,7 +168,8 @@ impl StaticProblem<'_> {
         let mut observers = self.observers(None)?;
         observers.contact(&solution)?;
         let warnings = self.review(&solution);
-        StaticResult { warnings, ..StaticResult::of(record, pressed(self.pair, solution)) }.seen_by(case, observers)
+        StaticResult { warnings, ..StaticResult::of(record, pressed(self.pair, solution)) }
+            .seen_by(case, observers)
     }
 
     /// Solves steady rolling.
@@ -254,7 +255,8 @@ impl StaticProblem<'_> {
         let fields = fields(flow_result.displaced(self.pair), solution, nothing, slip);
         let increments = flow_result.increments.clone();
         let result = StaticResult::of(record, fields);
-        StaticResult { increments, flow_result: Some(flow_result), warnings, ..result }.seen_by(case, observers)
+        StaticResult { increments, flow_result: Some(flow_result), warnings, ..result }
+            .seen_by(case, observers)
     }
 
     /// Creates the result from the end of a loading, or of rolling.

@@ -117,7 +117,9 @@ pub fn parse(text: &str, expected: Dimension) -> Result<f64, UnitError> {
     let bare = trimmed.strip_prefix(['+', '-']).unwrap_or(trimmed);
     if bare == "inf" || bare == "nan" {
         return match trimmed {
-            "inf" | "+inf" if matches!(expected, Dimension::Pressure | Dimension::Conductivity) => Ok(f64::INFINITY),
+            "inf" | "+inf" if matches!(expected, Dimension::Pressure | Dimension::Conductivity) => {
+                Ok(f64::INFINITY)
+            }
             _ => Err(UnitError::NotFinite { text: text.to_owned(), expected }),
         };
     }
@@ -523,11 +525,32 @@ impl Dimension {
                 ("g/cm^3", 3, 1.0),
             ],
             Self::Temperature => &[("°C", 0, 1.0), ("degC", 0, 1.0), ("C", 0, 1.0)],
-            Self::ThermalConductanceOfArea => &[("W/(m2 K)", 0, 1.0), ("kW/(m2 K)", 3, 1.0), ("W/(m^2 K)", 0, 1.0), ("W/m2/K", 0, 1.0), ("W/m2K", 0, 1.0)],
+            Self::ThermalConductanceOfArea => &[
+                ("W/(m2 K)", 0, 1.0),
+                ("kW/(m2 K)", 3, 1.0),
+                ("W/(m^2 K)", 0, 1.0),
+                ("W/m2/K", 0, 1.0),
+                ("W/m2K", 0, 1.0),
+            ],
             Self::ElectricalConductanceOfArea => &[("S/m2", 0, 1.0), ("S/m^2", 0, 1.0)],
-            Self::ElectricalResistance => &[("ohm", 0, 1.0), ("mohm", -3, 1.0), ("uohm", -6, 1.0), ("kohm", 3, 1.0)],
-            Self::Viscosity => &[("Pa*s", 0, 1.0), ("Pas", 0, 1.0), ("mPa*s", -3, 1.0), ("mPas", -3, 1.0), ("cP", -3, 1.0), ("P", -1, 1.0)],
-            Self::VolumeFlow => &[("l/min", -3, 1.0 / 60.0), ("ml/min", -6, 1.0 / 60.0), ("ul/min", -9, 1.0 / 60.0), ("L/min", -3, 1.0 / 60.0), ("mL/min", -6, 1.0 / 60.0)],
+            Self::ElectricalResistance => {
+                &[("ohm", 0, 1.0), ("mohm", -3, 1.0), ("uohm", -6, 1.0), ("kohm", 3, 1.0)]
+            }
+            Self::Viscosity => &[
+                ("Pa*s", 0, 1.0),
+                ("Pas", 0, 1.0),
+                ("mPa*s", -3, 1.0),
+                ("mPas", -3, 1.0),
+                ("cP", -3, 1.0),
+                ("P", -1, 1.0),
+            ],
+            Self::VolumeFlow => &[
+                ("l/min", -3, 1.0 / 60.0),
+                ("ml/min", -6, 1.0 / 60.0),
+                ("ul/min", -9, 1.0 / 60.0),
+                ("L/min", -3, 1.0 / 60.0),
+                ("mL/min", -6, 1.0 / 60.0),
+            ],
             _ => &[],
         }
     }
@@ -545,7 +568,9 @@ impl Dimension {
                 (length, 1.0 / Self::Time.unit(time).filter(|(exponent, _)| *exponent == 0)?.1)
             }
             Base::Squared => (["²", "^2", "2"].iter().find_map(|end| unit.strip_suffix(end))?, 1.0),
-            Base::CubedPerSecond => (["³/s", "^3/s", "3/s"].iter().find_map(|end| unit.strip_suffix(end))?, 1.0),
+            Base::CubedPerSecond => {
+                (["³/s", "^3/s", "3/s"].iter().find_map(|end| unit.strip_suffix(end))?, 1.0)
+            }
             Base::Cubed => (["³", "^3", "3"].iter().find_map(|end| unit.strip_suffix(end))?, 1.0),
         };
         let prefix = stem.strip_suffix(base.symbol())?;

@@ -23,6 +23,7 @@ mod messages;
 mod module_order;
 mod motion;
 mod moving_surfaces;
+mod passage;
 mod random_motions;
 mod random_rolling;
 mod real_surface;

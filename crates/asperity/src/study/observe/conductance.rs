@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 use super::{Observer, Place};
 use crate::conductance::{self, Conductance, JointRoughness, Kind};
 use crate::error::{Error, Result};
-use crate::grid::Field;
 use crate::motion::{Column, ObservedContact, Pair, columns};
 use crate::operator::Operators;
 use crate::solver::Params;
@@ -231,8 +230,6 @@ pub(super) struct ConductanceObserver {
     modulus: Pascal,
     /// Resistance with all cells in contact at full overlap, computed once.
     full: Option<Option<f64>>,
-    /// Flux of the last contact, from which the next solution starts.
-    last: Option<Field>,
 }
 
 impl ConductanceObserver {
@@ -260,7 +257,6 @@ impl ConductanceObserver {
             hardness: pair.min_hardness(),
             modulus: pair.modulus(),
             full: None,
-            last: None,
         }))
     }
 
@@ -299,12 +295,12 @@ impl Observer for ConductanceObserver {
     ) -> Result<(Vec<ConductanceRecord>, Vec<NamedField>)> {
         let shape = contact.grid.shape;
         let joint = self.spec.joint(self.composite);
-        let start = self.last.take().filter(|last| last.dim() == (shape[0], shape[1]));
-        let start = start.as_ref().unwrap_or(&contact.pressure);
+        // A flux of the contact before would be nearer, but a resumed run does not know it.
+        let start = Some(contact.pressure.as_ref());
         let mut operator = self.operators.on(shape);
         let gap = joint.gas.map(|_| &contact.gap);
         let found =
-            conductance::solve(operator.as_mut(), &contact.touching, gap, &joint, Some(start), &self.params)?;
+            conductance::solve(operator.as_mut(), &contact.touching, gap, &joint, start, &self.params)?;
         drop(operator);
         let full = if place.pass.is_none() { self.full(shape)? } else { None };
         let touching = contact.touching.iter().filter(|touches| **touches).count();
@@ -340,10 +336,7 @@ impl Observer for ConductanceObserver {
             Kind::Thermal => "W/m²",
             Kind::Electrical => "A/m²",
         };
-        let fields = flux.iter().map(|flux| NamedField { name: "flux", unit, values: flux * self.spec.drop });
-        let fields = fields.collect();
-        // A start where nothing conducts would be none.
-        self.last = flux.filter(|flux| flux.iter().any(|q| *q > 0.0));
-        Ok((vec![record], fields))
+        let flux = flux.map(|flux| NamedField { name: "flux", unit, values: flux * self.spec.drop });
+        Ok((vec![record], flux.into_iter().collect()))
     }
 }

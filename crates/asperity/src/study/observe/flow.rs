@@ -88,7 +88,7 @@ impl Record for GapFlowRecord {
 
 impl GapFlowRecord {
     /// Returns the rows of the last contact, one for each direction.
-    pub(in crate::study) fn last(rows: &[Self]) -> &[Self] {
+    pub fn last(rows: &[Self]) -> &[Self] {
         let last = rows.last().map(|row| (row.pass, row.step));
         let of_last = rows.iter().rev().take_while(|row| Some((row.pass, row.step)) == last).count();
         &rows[rows.len() - of_last..]
@@ -147,9 +147,8 @@ impl Observer for FlowObserver {
         for (axis, along) in found.along.iter().enumerate() {
             let Some(along) = along else { continue };
             let critical = along.critical_cell;
-            let [x, y] = [0, 1].map(|axis| {
-                critical.map(|cell| contact.corner[axis] + grid.centre(axis, cell[axis]))
-            });
+            let [x, y] =
+                [0, 1].map(|axis| critical.map(|cell| contact.corner[axis] + grid.centre(axis, cell[axis])));
             rows.push(GapFlowRecord {
                 pass: place.pass,
                 step: place.step,
@@ -202,6 +201,7 @@ fn width(contact: &ObservedContact<'_>, cell: [usize; 2], axis: usize, sides: Si
     if after + 1 == count {
         return count;
     }
-    let before = (1..count).take_while(|k| (wraps || *k <= from) && is_open((from + count - k) % count)).count();
+    let before =
+        (1..count).take_while(|k| (wraps || *k <= from) && is_open((from + count - k) % count)).count();
     (1 + before + after).min(count)
 }

@@ -160,7 +160,8 @@ impl<O: Observer> Observed<O> {
                     _ => false,
                 };
                 if is_kept {
-                    let file = file.get_or_insert_with(|| files.field_file(O::NAME, number, step.pass().is_some()));
+                    let file =
+                        file.get_or_insert_with(|| files.field_file(O::NAME, number, step.pass().is_some()));
                     for NamedField { name, values, unit } in &fields {
                         let name = match place.pass {
                             Some(_) => format!("{name}_{:05}", place.step),

@@ -42,7 +42,8 @@ fn of_conductance(rows: &[ConductanceRecord]) -> Vec<String> {
     let film = touching().map(|row| row.film_share).fold(0.0, f64::max);
     if film > 0.5 {
         let share = format_number((100.0 * film).round());
-        warnings.push(format!("the film makes {share} % of the resistance: its number decides the conductance"));
+        warnings
+            .push(format!("the film makes {share} % of the resistance: its number decides the conductance"));
     }
     warnings
 }
@@ -92,7 +93,8 @@ fn of_flow(case: &Case, rows: &[GapFlowRecord]) -> Vec<String> {
 /// Returns a warning if the bodies drag along more fluid than a small part of the leakage.
 fn of_sliding(case: &Case, rows: &[GapFlowRecord]) -> Option<String> {
     let spec = case.flow.as_ref()?;
-    let speed = case.motion.and_then(|motion| motion.speed).or(case.sliding.and_then(|sliding| sliding.speed))?;
+    let speed =
+        case.motion.and_then(|motion| motion.speed).or(case.sliding.and_then(|sliding| sliding.speed))?;
     // 6 η U L/(ḡ² ΔP)
     let dragged = |row: &GapFlowRecord| {
         6.0 * spec.viscosity * speed * row.length / (row.mean_gap * row.mean_gap * spec.pressure)
@@ -118,7 +120,8 @@ pub(in crate::study) fn barber(
     let is_elastic = points.iter().all(|point| point.plastic_area == 0.0);
     let is_coated = [&case.lower, &case.upper].iter().any(|body| body.material.coating.is_some());
     let composite = case.composite_conductivity(spec.kind)?.ok()?;
-    let modulus = crate::material::Compliances::new(&case.lower.material, &case.upper.material).ok()?.modulus();
+    let modulus =
+        crate::material::Compliances::new(&case.lower.material, &case.upper.material).ok()?.modulus();
     if !is_elastic || is_coated || rows.len() != points.len() {
         return None;
     }

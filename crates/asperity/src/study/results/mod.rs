@@ -11,6 +11,9 @@
 //!     fields.h5            a static contact
 //!     increments.csv       with friction or a history, a row per increment of its loading
 //!     updates.csv          a contact that wears in place: a row per update
+//!     conductance.csv      a row per observed contact, if requested
+//!     flow.csv             a row per observed contact and direction, if requested
+//!     fields/flow-0001.h5  fields of the observers at the positions or points kept
 //!     sweep.csv            a load sweep: a row per point; `fields.h5` is that of the last
 //!     fields/point-0001.h5 the pressure and the gap of the points kept
 //!     subsurface.h5        the stress under its surface, if requested
@@ -56,6 +59,7 @@ use crate::motion::{
 };
 use crate::plasticity::{PlasticState, TensorField, VolumeField};
 use crate::stress::Component;
+use crate::study::observe::{ConductanceRecord, GapFlowRecord};
 use crate::study::summary::{Outcome, Summary};
 use crate::surface::Topography;
 
@@ -334,6 +338,30 @@ impl Results {
     /// Path of the fields of an observer in a pass, or at a point.
     pub(in crate::study) fn observer_fields(&self, name: &str, step: usize) -> PathBuf {
         self.fields_folder().join(format!("{name}-{step:04}.h5"))
+    }
+
+    /// Reads the conductance of the observed contacts; empty if it was not requested.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn conductance(&self) -> Result<Vec<ConductanceRecord>> {
+        self.observed("conductance")
+    }
+
+    /// Reads the flow through the gap of the observed contacts, a row for each direction; empty if it was not requested.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn flow(&self) -> Result<Vec<GapFlowRecord>> {
+        self.observed("flow")
+    }
+
+    /// Opens the fields of the conductance, or of the flow (`name`), of the positions of a pass or at a point that are kept.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn observed_fields(&self, name: &str, step: usize) -> Result<Fields> {
+        Fields::open(&self.observer_fields(name, step))
     }
 
     /// Reads the rows of an observer; empty if there are none.

@@ -21,7 +21,8 @@ pub(super) const RULES: &[Rule] = &[
         example: &[HEAT, CONDUCTIVITIES[0]],
         broken: |tables| {
             let case = tables.case;
-            let known = |kind| [&case.lower, &case.upper].iter().all(|body| body.conductivity_of(kind).is_some());
+            let known =
+                |kind| [&case.lower, &case.upper].iter().all(|body| body.conductivity_of(kind).is_some());
             let kind = case.conductance?.kind;
             tables.at("conductance").filter(|_| kind == Kind::Thermal && !known(kind))
         },
@@ -35,7 +36,8 @@ pub(super) const RULES: &[Rule] = &[
         example: &[r#"conductance = { kind = "electrical" }"#, CONDUCTIVITIES[0], CONDUCTIVITIES[1]],
         broken: |tables| {
             let case = tables.case;
-            let known = |kind| [&case.lower, &case.upper].iter().all(|body| body.conductivity_of(kind).is_some());
+            let known =
+                |kind| [&case.lower, &case.upper].iter().all(|body| body.conductivity_of(kind).is_some());
             let kind = case.conductance?.kind;
             tables.at("conductance.kind").filter(|_| kind == Kind::Electrical && !known(kind))
         },

@@ -2,7 +2,9 @@
 
 use super::super::CounterBody;
 use super::Rule;
-use super::examples::{AT_ANY_SPEED, CONDUCTS, GENERATED, LINE, MOVES, RUBS, SLIDES, UPPER_CONDUCTS, WARM, WEARS};
+use super::examples::{
+    AT_ANY_SPEED, CONDUCTS, GENERATED, LINE, MOVES, RUBS, SLIDES, UPPER_CONDUCTS, WARM, WEARS,
+};
 use crate::motion::PlasticUpdate;
 
 pub(super) const RULES: &[Rule] = &[
