@@ -42,9 +42,10 @@ pub(crate) fn surface<'py>(
     if let Some(heights) = &given {
         handed.topographies.insert("heights".to_owned(), topography(py, heights)?);
     }
-    let Made { topography, origin, findings, .. } = work::run(py, 0, None, |looking| {
-        study::topography_until(&text, Path::new(""), handed, &|| looking.stop())
-    })?;
+    let Made { topography, origin, findings, .. } =
+        work::run(py, 0, None, |looking| {
+            study::topography_until(&text, Path::new(""), handed, &|| looking.stop())
+        })?;
     let made = PyDict::new(py);
     made.set_item("pitch", topography.grid().pitch)?;
     made.set_item("underside", origin.is_some_and(|origin| origin.is_underside))?;

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use ndarray::Array2;
 
-use super::{Case, Check, Expected, relative, study};
+use super::{Case, Expected, relative, study};
 use crate::conductance::{
     Bracket, Conductor, Gas, Joint, Kind, composite_conductivity, full_resistance, response, solve,
 };
