@@ -178,7 +178,8 @@ fn shares(flux: &Field, touching: &Array2<bool>, film: f64) -> Shares {
             sums[1] += film * q * q;
         }
     });
-    let [spots, film] = sums.map(|sum| if total > 0.0 { sum / total } else { 0.0 });
+    // Rounding must not take them out of 0 … 1.
+    let [spots, film] = sums.map(|sum| if total > 0.0 { (sum / total).clamp(0.0, 1.0) } else { 0.0 });
     Shares { spots, gas: if total > 0.0 { 1.0 - spots } else { 0.0 }, film }
 }
 

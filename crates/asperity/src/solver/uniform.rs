@@ -70,6 +70,7 @@ pub fn displace_uniformly(
     if let Some(start) = start.or(uniform.as_ref()) {
         gradients.begin(&mut compliant, start);
     }
+    let mut renewed = f64::INFINITY;
     loop {
         while gradients.max_residual() > params.tolerance {
             if gradients.stats.iterations >= params.max_convolutions {
@@ -79,17 +80,17 @@ pub fn displace_uniformly(
             }
             gradients.step(&mut compliant)?;
         }
-        let promised = gradients.max_residual();
         gradients.renew(&mut compliant);
         let residual = gradients.max_residual();
         if residual <= params.tolerance {
             break;
         }
-        // Rounding in the true residual, which more steps would not take away.
-        if promised > 0.5 * residual || gradients.stats.iterations >= params.max_convolutions {
+        // What steps do not take away is rounding.
+        if residual > 0.5 * renewed {
             let Stats { iterations, .. } = gradients.stats;
             return Err(Error::NotConverged { iterations, residual, tolerance: params.tolerance });
         }
+        renewed = residual;
     }
     let (sum, residual) = (gradients.sum(), gradients.max_residual());
     let Gradients { traction, residual: left, stats, .. } = gradients;
