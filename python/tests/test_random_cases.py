@@ -30,7 +30,7 @@ COMMAND = os.environ.get("ASPERITY", f"{sys.executable} -m asperity").split()
 
 # What a case may rightly come to in place of results.
 NO_ANSWER = re.compile(
-    r"closes the whole periodic gap|plastic limit|holds? at most|is at most|cannot carry|full contact|a single pass wears so much"
+    r"closes the whole periodic gap|plastic limit|holds? at most|is at most|cannot carry|full contact|a single pass wears so much|what friction holds"
 )
 # Cells of these columns may be empty.
 OPTIONAL = {
@@ -43,6 +43,8 @@ def test_a_random_case_holds_the_laws_of_every_result(seed: int, tmp_path: pathl
     case = RandomCase(seed)
     path = case.write(tmp_path / "case")
     checked = command("check", path)
+    if checked.returncode == 1 and NO_ANSWER.search(checked.stderr):
+        pytest.skip(checked.stderr.splitlines()[0])
     assert checked.returncode == 0, checked.stderr
     out = tmp_path / "results"
     ran = command("run", path, "--out", out, "--threads", 1, "--quiet")
@@ -221,8 +223,8 @@ def hold_rolling(case: RandomCase, results: Results) -> None:
         pair = lambda key: point.get(key) or [point.get(f"{key}_x"), point.get(f"{key}_y")]  # noqa: E731
         power = np.dot(pair("creepage"), pair("tangential_force")) + (point.get("spin") or 0) * (point.get("moment") or 0)
         size = case.pitch[0] * point["load"] * np.linalg.norm(pair("creepage")) * mu
-        assert point["dissipation"] >= -1e-6 * size
         # Between dissimilar bodies the pressure does work, too; a sweep has no column for the moment.
+        assert point["dissipation"] >= -1e-6 * size or not case.similar
         if case.similar and (static or not case.tables["friction"].get("spin")):
             assert point["dissipation"] == pytest.approx(power * case.pitch[0], rel=1e-6, abs=1e-6 * size)
 
