@@ -28,6 +28,7 @@
 //! | a grid and compliances | [`operator::Operators`] | an [`operator::Operator`]: pressure in, displacement out |
 //! | an operator and a gap | [`solver::solve_normal`], [`solver::Params`] | [`solver::Solution`] with its [`solver::Stats`] |
 //! | cells in contact and their heat sources | [`temperature::FlashTemperature`], [`temperature::SteadyTemperature`] | their temperature and the heat partition |
+//! | the deformed gap of a contact | [`flow::solve()`] | its permeability, leakage and critical constriction |
 //! | tractions | [`subsurface::Subsurface`] | [`stress::Stress`] plane by plane, and its maximum |
 //! | plastic strain below a surface | [`plasticity::Volume`], [`plasticity::J2`] | its residual stress and displacement, and its growth |
 //! | a case file | [`study::Case`], [`study::estimate()`], [`study::run()`] | [`study::Results`], [`study::Summary`] |
@@ -95,6 +96,7 @@ pub mod grid;
 pub mod io;
 pub mod ranks;
 mod math;
+pub mod flow;
 pub mod stress;
 pub mod material;
 pub mod reference;

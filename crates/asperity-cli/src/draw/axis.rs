@@ -144,6 +144,7 @@ impl From<Dimension> for Unit {
             Dimension::Conductivity => Self::Of("W/(m K)"),
             Dimension::HeatCapacity => Self::Of("J/(kg K)"),
             Dimension::Density => Self::Of("kg/m³"),
+            Dimension::Viscosity => Self::Of("Pa s"),
         }
     }
 }

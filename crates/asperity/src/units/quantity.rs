@@ -37,6 +37,8 @@ pub enum Dimension {
     Density,
     /// Watts.
     Power,
+    /// Pascal seconds: a dynamic viscosity.
+    Viscosity,
 }
 
 /// Reason why a text is not a quantity of the expected dimension.
@@ -257,6 +259,7 @@ impl Dimension {
             Self::HeatCapacity => "a heat capacity",
             Self::Density => "a density",
             Self::Power => "a power",
+            Self::Viscosity => "a viscosity",
         }
     }
 
@@ -280,6 +283,7 @@ impl Dimension {
             Self::HeatCapacity => "460 J/(kg K)",
             Self::Density => "7850 kg/m3",
             Self::Power => "2 W",
+            Self::Viscosity => "80 mPa s",
         }
     }
 
@@ -294,7 +298,7 @@ impl Dimension {
     }
 
     /// All dimensions.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::Length,
         Self::Area,
         Self::Volume,
@@ -312,6 +316,7 @@ impl Dimension {
         Self::HeatCapacity,
         Self::Density,
         Self::Power,
+        Self::Viscosity,
     ];
 
     fn scale(self) -> Scale {
@@ -334,6 +339,7 @@ impl Dimension {
             Self::HeatCapacity => scale(Base::Of("J/(kg K)"), 1, 0),
             Self::Density => scale(Base::Of("kg/m³"), 1, 0),
             Self::Power => scale(Base::Of("W"), 1, 12),
+            Self::Viscosity => scale(Base::Of("Pa s"), 1, 12),
         }
     }
 
@@ -420,6 +426,9 @@ impl Dimension {
                 ("g/cm³", 3, 1.0),
                 ("g/cm^3", 3, 1.0),
             ],
+            Self::Viscosity => {
+                &[("Pa*s", 0, 1.0), ("Pa·s", 0, 1.0), ("mPa*s", -3, 1.0), ("mPa·s", -3, 1.0), ("cP", -3, 1.0)]
+            }
             Self::Temperature => &[("°C", 0, 1.0), ("degC", 0, 1.0), ("C", 0, 1.0)],
             _ => &[],
         }
@@ -591,7 +600,7 @@ fn decimal(value: f64, digits: usize) -> String {
 mod tests {
     use super::Dimension::{
         Angle, Area, Conductivity, Density, Energy, Force, HeatCapacity, Length, Pressure, RemovalRate,
-        Speed, Temperature, Time, Volume, WearCoefficient,
+        Speed, Temperature, Time, Viscosity, Volume, WearCoefficient,
     };
     use super::*;
 
@@ -661,6 +670,8 @@ mod tests {
             ("0.46 J/(g K)", HeatCapacity, 460.0),
             ("7850 kg/m3", Density, 7850.0),
             ("7.85 g/cm3", Density, 7850.0),
+            ("80 mPa s", Viscosity, 0.08),
+            ("1 cP", Viscosity, 1e-3),
         ] {
             assert_eq!(parse(text, dimension), Ok(value), "{text}");
         }

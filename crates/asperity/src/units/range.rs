@@ -43,6 +43,7 @@ impl Dimension {
             Self::HeatCapacity => (1e-3, 1e9, "J/(kg K)"),
             Self::Density => (1e-3, 1e6, "kg/m³"),
             Self::Power => (1e-18, 1e15, "W"),
+            Self::Viscosity => (1e-9, 1e9, "Pa s"),
         };
         Range { least, most, unit }
     }

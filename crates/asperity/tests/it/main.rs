@@ -9,6 +9,7 @@ mod common_grid;
 mod convergence;
 mod documents;
 mod extremes;
+mod flow;
 mod flowing;
 mod friction;
 mod good_inputs;
