@@ -20,6 +20,7 @@
 
 mod coated;
 mod dissimilar;
+mod flow;
 mod heat;
 mod in_place;
 mod operators;
@@ -114,7 +115,7 @@ impl Check {
     }
 }
 
-/// All cases: operators first, then solutions without and with friction, and last frictional heating.
+/// All cases: operators first, then solutions without and with friction, frictional heating, flow through a gap, plastic flow and wear.
 pub const CASES: &[Case] = &[
     operators::LOADED_RECTANGLE,
     operators::FREE_TRANSFORM,
@@ -160,6 +161,13 @@ pub const CASES: &[Case] = &[
     heat::HERTZIAN,
     heat::TRANSIENT,
     heat::DIVISION,
+    flow::PLATES,
+    flow::CORRUGATION,
+    flow::SMALL,
+    flow::DISCS,
+    flow::RIM,
+    flow::CHECKERBOARD,
+    flow::CONSERVATION,
     plasticity::ENERGY,
     plasticity::ONSET,
     plasticity::SPHERE,
