@@ -7,7 +7,8 @@ tension. The approach grows as the bodies move together.
 Surfaces are generated (:mod:`asperity.generate`, :mod:`asperity.form`), read (:func:`read`) or made from an array
 (:class:`Surface`). :func:`contact` presses two bodies together. :func:`simulate` moves them over each other, and
 :class:`Simulation` does so with custom laws. :func:`run` computes a case file, and :func:`study` many variants of one.
-:func:`open` opens results. :func:`stress` computes the stress below a surface. :mod:`asperity.reference` has closed forms, and
+:func:`open` opens results. :func:`stress` computes the stress below a surface,
+:func:`flow` the leakage through a gap. :mod:`asperity.reference` has closed forms, and
 :func:`verify` compares the program with them.
 """
 
@@ -15,6 +16,7 @@ from . import errors, form, generate, keys, reference
 from ._core import __version__
 from ._contact import Contact, contact, slide
 from ._flow import Flow
+from ._gap_flow import GapFlow, flow
 from ._progress import Progress
 from ._run import Run, open, run
 from ._stress import Extreme, Stress, SubsurfaceStress, stress
@@ -57,6 +59,7 @@ __all__ = [
     "Field",
     "Fields",
     "Flow",
+    "GapFlow",
     "GreenwoodWilliamson",
     "Material",
     "Parameter",
@@ -84,6 +87,7 @@ __all__ = [
     "contact",
     "dundurs",
     "errors",
+    "flow",
     "form",
     "generate",
     "keys",

@@ -89,6 +89,7 @@ fn dimension(name: &str) -> PyResult<Dimension> {
         "angle" => Dimension::Angle,
         "time" => Dimension::Time,
         "stiffness" => Dimension::Stiffness,
+        "viscosity" => Dimension::Viscosity,
         _ => return Err(PyTypeError::new_err(format!("no dimension is called {name}"))),
     })
 }
