@@ -18,12 +18,12 @@ ENDS = ("reservoirs", "periodic")
 def gap_of(side, seed, load):
     """Gap over the side of the surface, 0 in contact."""
     rough = asp.generate.self_affine(
-        (side, side), pitch=1.0 / side, hurst=0.8, sdq=1e-3, seed=seed, long_cutoff=0.25, short_cutoff=1 / 16
+        (side, side), pitch=1.0 / side, hurst=0.8, sdq=1e-3, seed=seed, rolloff=0.25, shortest=1 / 16
     )
     flat = asp.form.flat((side, side), pitch=1.0 / side)
     steel = asp.Material("210 GPa", 0.3)
     pressure = load * asp.composite_modulus(steel, steel) * 1e-3
-    contact = asp.contact(flat, rough, steel, steel, pressure=pressure, boundary="periodic", progress=False)
+    contact = asp.contact(flat, rough, steel, steel, mean_pressure=pressure, boundary="periodic", progress=False)
     return np.where(contact.pressure > 0.0, 0.0, contact.gap), (contact.pressure > 0.0).mean()
 
 

@@ -68,7 +68,7 @@ class GapFlow(Comparable):
     closed_share : float
         Share of the cells in contact.
     effective_medium : float
-        Permeability of an isotropic effective medium (Bruggeman) with the same gaps, m³. It is a comparison, too large for rough contacts.
+        Permeability of an isotropic effective medium (Bruggeman) with the same gaps, m³. It is a comparison only.
     """
 
     permeability: NDArray[np.float64]

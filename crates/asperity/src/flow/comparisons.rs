@@ -5,7 +5,7 @@ use crate::units::{CubicMetre, Metre};
 
 /// Permeability of an isotropic effective medium with the gaps of these cells, m³; closed cells count with k = 0.
 ///
-/// Σ (k − K)/(k + K) = 0 with k = g³ over all cells. It is 0 if half of the cells or more are closed. For rough contacts it is too large,
+/// Σ (k − K)/(k + K) = 0 with k = g³ over all cells. It is 0 if half of the cells or more are closed. On the mean over rough contacts it is too large,
 /// by a factor of 1.1 at 1 % contact that grows to 2 at 29 %, since narrow places of a contact are not distributed at random.
 /// Bruggeman, Ann. Phys. 416, 636 (1935).
 pub fn effective_medium(gap: &Field) -> CubicMetre {

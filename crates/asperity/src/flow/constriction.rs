@@ -21,9 +21,9 @@ pub(super) fn constrictions<const N: usize>(
     for cell in order.into_iter().map(|cell| cell as usize) {
         added[cell] = true;
         let mut marks = 0;
-        for axis in 0..2 {
+        for (axis, closed) in closed.into_iter().enumerate() {
             for (first, second, seam) in pairs(shape, cell, axis) {
-                if added[first] && added[second] && !(seam && closed[axis]) {
+                if added[first] && added[second] && !(seam && closed) {
                     marks |= components.join(first, second, axis, seam);
                 }
             }

@@ -98,11 +98,6 @@ impl Factor {
             right[*cell as usize] = x;
         }
     }
-
-    /// Number of stored conductances.
-    pub(super) fn entries(&self) -> usize {
-        self.rows.iter().map(Vec::len).sum()
-    }
 }
 
 /// Conductances of the network, of each cell to those with larger numbers.

@@ -112,14 +112,14 @@ impl State<'_> {
         let mut flux = [vec![0.0; cells], vec![0.0; cells]];
         let mut ends = [Vec::new(), Vec::new()];
         let mut imbalance = vec![0.0; cells];
-        for direction in 0..2 {
+        for (direction, flux) in flux.iter_mut().enumerate() {
             let drive = if direction == axis && network.ends.is_none() { 1.0 } else { 0.0 };
             for (cell, &face) in network.faces[direction].iter().enumerate() {
                 if face > 0.0 && self.flowing[cell] {
                     let (before, _) = network.before(cell, direction);
                     let drop = ((coarse[before] - coarse[cell]) + drive) + (fine[before] - fine[cell]);
                     let through = face * drop;
-                    flux[direction][cell] = through;
+                    flux[cell] = through;
                     imbalance[before] -= through;
                     imbalance[cell] += through;
                 }
