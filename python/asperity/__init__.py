@@ -8,7 +8,8 @@ Surfaces are generated (:mod:`asperity.generate`, :mod:`asperity.form`), read (:
 (:class:`Surface`). :func:`contact` presses two bodies together. :func:`simulate` moves them over each other, and
 :class:`Simulation` does so with custom laws. :func:`run` computes a case file, and :func:`study` many variants of one.
 :func:`open` opens results. :func:`stress` computes the stress below a surface,
-:func:`conductance` the thermal or electrical conductance of a contact. :mod:`asperity.reference` has closed forms, and
+:func:`conductance` the thermal or electrical conductance of a contact, and :func:`flow` the leakage through a gap.
+:mod:`asperity.reference` has closed forms, and
 :func:`verify` compares the program with them.
 """
 
@@ -17,6 +18,7 @@ from ._core import __version__
 from ._conductance import Conductance, conductance
 from ._contact import Contact, contact, slide
 from ._flow import Flow
+from ._gap_flow import GapFlow, flow
 from ._progress import Progress
 from ._run import Run, open, run
 from ._stress import Extreme, Stress, SubsurfaceStress, stress
@@ -60,6 +62,7 @@ __all__ = [
     "Field",
     "Fields",
     "Flow",
+    "GapFlow",
     "GreenwoodWilliamson",
     "Material",
     "Parameter",
@@ -88,6 +91,7 @@ __all__ = [
     "contact",
     "dundurs",
     "errors",
+    "flow",
     "form",
     "generate",
     "keys",

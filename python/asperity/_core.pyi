@@ -196,6 +196,11 @@ def format(value: SupportsFloat | SupportsIndex, dimension: str) -> str:
     A quantity as people write it.
     """
 
+def flow(gap: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], ends: str, sides: str, faces: str, fluid: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex | None] | None, threads: SupportsIndex) -> tuple[list[tuple[str, float]], float | None, list[tuple[list[tuple[str, float]], list[float], list[int] | None, float | None, Incomplete, list[Incomplete], Incomplete]]]:
+    """
+    Solves for the flow through a gap along both axes. Returns numbers of the gap, the coupling of both directions, and the flow along each.
+    """
+
 def height_differences(heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], axis: str) -> list[tuple[float, float]]:
     """
     Lags along an axis and the mean square differences of the heights there.

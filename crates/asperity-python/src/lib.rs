@@ -10,6 +10,7 @@ mod conductance; // conductance of a contact
 mod contact; // a static contact
 mod describe; // description of surfaces
 mod errors; // exceptions
+mod flow; // flow through a gap
 mod passes; // a motion, pass after pass
 mod reference; // closed forms
 mod results; // reading of a results directory
@@ -40,6 +41,8 @@ mod _core {
         height_differences, line_heights, line_parameters, moments_by_differences, parameters, profile,
         profile_parameters, segments, self_affinity_of_differences, summits,
     };
+    #[pymodule_export]
+    use super::flow::flow;
     #[pymodule_export]
     use super::passes::{CorePasses, run};
     #[pymodule_export]

@@ -93,6 +93,7 @@ fn dimension(name: &str) -> PyResult<Dimension> {
         "thermal insulance" => Dimension::ThermalInsulance,
         "electrical conductivity" => Dimension::ElectricalConductivity,
         "electrical insulance" => Dimension::ElectricalInsulance,
+        "viscosity" => Dimension::Viscosity,
         _ => return Err(PyTypeError::new_err(format!("no dimension is called {name}"))),
     })
 }

@@ -29,6 +29,7 @@
 //! | an operator and a gap | [`solver::solve_normal`], [`solver::Params`] | [`solver::Solution`] with its [`solver::Stats`] |
 //! | cells in contact and their heat sources | [`temperature::FlashTemperature`], [`temperature::SteadyTemperature`] | their temperature and the heat partition |
 //! | cells in contact and conductivities | [`conductance::solve`] | [`conductance::Conductance`]: thermal or electrical |
+//! | the deformed gap of a contact | [`flow::solve()`] | its permeability, leakage and critical constriction |
 //! | tractions | [`subsurface::Subsurface`] | [`stress::Stress`] plane by plane, and its maximum |
 //! | plastic strain below a surface | [`plasticity::Volume`], [`plasticity::J2`] | its residual stress and displacement, and its growth |
 //! | a case file | [`study::Case`], [`study::estimate()`], [`study::run()`] | [`study::Results`], [`study::Summary`] |

@@ -37,6 +37,8 @@ pub type Second = f64;
 pub type PerPascal = f64;
 /// Absolute temperature or temperature rise in kelvins.
 pub type Kelvin = f64;
+/// Dynamic viscosity in pascal seconds.
+pub type PascalSecond = f64;
 /// Heat flow in watts.
 pub type Watt = f64;
 /// Voltage in volts.

@@ -21,6 +21,7 @@
 mod coated;
 mod conductance;
 mod dissimilar;
+mod flow;
 mod heat;
 mod in_place;
 mod operators;
@@ -115,7 +116,7 @@ impl Check {
     }
 }
 
-/// All cases: operators first, then solutions without and with friction, and last frictional heating.
+/// All cases: operators first, then solutions without and with friction, frictional heating, flow through a gap, plastic flow and wear.
 pub const CASES: &[Case] = &[
     operators::LOADED_RECTANGLE,
     operators::FREE_TRANSFORM,
@@ -168,6 +169,13 @@ pub const CASES: &[Case] = &[
     conductance::GAS,
     conductance::COATED,
     conductance::BARBER,
+    flow::PLATES,
+    flow::CORRUGATION,
+    flow::SMALL,
+    flow::DISCS,
+    flow::RIM,
+    flow::CHECKERBOARD,
+    flow::CONSERVATION,
     plasticity::ENERGY,
     plasticity::ONSET,
     plasticity::SPHERE,

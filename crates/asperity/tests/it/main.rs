@@ -11,6 +11,7 @@ mod convergence;
 mod documents;
 mod extremes;
 mod elasto_plastic;
+mod flow;
 mod friction;
 mod good_inputs;
 mod hardness;

@@ -1,0 +1,220 @@
+"""The flow of a fluid through the gap of a contact."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _case, _core
+from ._contact import Contact
+from ._same import Comparable
+from ._units import Pair, Quantity, lengths, quantity, written
+from .errors import bad_input
+
+Ends = Literal["periodic", "reservoirs"]
+"""What lies beyond the ends of the gap along the pressure gradient."""
+
+Sides = Literal["periodic", "closed"]
+"""What lies beyond its sides."""
+
+Faces = Literal["linear", "harmonic"]
+"""Rule for the conductance between two cells."""
+
+
+class GapFlow(Comparable):
+    """The flow of a fluid through a gap, under a pressure gradient along x and under one along y.
+
+    An attribute with one value for each direction of the gradient is an array ``[along x, along y]``. Without an open path along an
+    axis its numbers are 0.
+
+    Attributes
+    ----------
+    permeability : ndarray
+        Permeability K of the whole gap, 2 × 2, m³: the mean flux per width is −K ∇P/12η. Between reservoirs or closed sides the
+        elements off the diagonal are not defined, and 0.
+    leakage : ndarray or None
+        Volume that leaks in a unit of time along each axis, m³/s; of a gas, at the pressure of the outlet. None without a fluid.
+    hydraulic_gap : ndarray
+        Gap between parallel plates of the same permeability, m.
+    flow_factor : ndarray
+        Permeability over the cube of the mean gap.
+    critical_gap : ndarray
+        Critical constriction: the largest gap that all cells of some path reach, m.
+    critical_cell : list of tuple or None
+        Cell ``(ix, iy)`` of the critical constriction; None without a path.
+    flowing_share : ndarray
+        Share of the cells that are part of a path, with their dead ends.
+    trapped_volume : ndarray
+        Volume from which no path leads out, m³.
+    estimate : ndarray
+        Estimate of the relative error of the permeability, from the other rule for `faces`.
+    other_faces : ndarray
+        Lower and upper bound of the permeability with the other rule for `faces`, ``[direction, bound]``, m³.
+    residual : ndarray
+        Largest relative difference of the flux through a section from the mean of all sections.
+    dissipation : ndarray
+        Relative difference of the dissipated work from that of the mean flux.
+    pressure : ndarray
+        Pressure of the fluid over its drop, ``[direction, ix, iy]``: 1 at the start of the axis, 0 at its end. 0 in contact and where no path
+        leads to an end.
+    flux : ndarray
+        Flux per width over the mean gradient and 1/12η, ``[direction, component, ix, iy]``, m³; its mean is the permeability.
+    flowing : ndarray
+        Whether a cell is part of a path, ``[direction, ix, iy]``.
+    mean_gap : float
+        Mean gap over all cells, m.
+    closed_share : float
+        Share of the cells in contact.
+    effective_medium : float
+        Permeability of an isotropic effective medium (Bruggeman) with the same gaps, m³. It is a comparison only.
+    """
+
+    permeability: NDArray[np.float64]
+    leakage: NDArray[np.float64] | None
+    hydraulic_gap: NDArray[np.float64]
+    flow_factor: NDArray[np.float64]
+    critical_gap: NDArray[np.float64]
+    critical_cell: list[tuple[int, int] | None]
+    flowing_share: NDArray[np.float64]
+    trapped_volume: NDArray[np.float64]
+    estimate: NDArray[np.float64]
+    other_faces: NDArray[np.float64]
+    residual: NDArray[np.float64]
+    dissipation: NDArray[np.float64]
+    pressure: NDArray[np.float64]
+    flux: NDArray[np.float64]
+    flowing: NDArray[np.bool_]
+    mean_gap: float
+    closed_share: float
+    effective_medium: float
+
+    def __init__(self, found: tuple[Any, Any, Any]) -> None:
+        numbers, coupling, along = found
+        for name, value in numbers:
+            setattr(self, name, value)
+        of_axes, bounds, cells, leakage, pressure, flux, flowing = zip(*along)
+        for name in dict(of_axes[0]):
+            setattr(self, name, np.array([dict(of_axis)[name] for of_axis in of_axes]))
+        off = 0.0 if coupling is None else coupling
+        own = self.permeability
+        self.permeability = np.array([[own[0], off], [off, own[1]]])
+        self.leakage = None if None in leakage else np.array(leakage)
+        self.critical_cell = [None if cell is None else (cell[0], cell[1]) for cell in cells]
+        self.other_faces = np.array(bounds)
+        self.pressure = np.array(pressure)
+        self.flux = np.array(flux)
+        self.flowing = np.array(flowing)
+
+    def __repr__(self) -> str:
+        def both(values: NDArray[np.float64]) -> str:
+            return f"{values[0]:.3g} and {values[1]:.3g}"
+
+        nx, ny = self.flowing.shape[1:]
+        leakage = "" if self.leakage is None else f", leakage {both(self.leakage)} m³/s"
+        return (
+            f"<GapFlow: {nx} × {ny} cells, along x and y: permeability {both(np.diag(self.permeability))} m³"
+            f"{leakage}, critical gap {both(self.critical_gap)} m>"
+        )
+
+
+def flow(
+    source: Contact | ArrayLike,
+    *,
+    pitch: Pair | None = None,
+    viscosity: Quantity | None = None,
+    pressure: Quantity | None = None,
+    outlet: Quantity | None = None,
+    ends: Ends = "periodic",
+    sides: Sides = "periodic",
+    faces: Faces = "linear",
+    threads: int | None = None,
+) -> GapFlow:
+    """Compute the flow of a fluid through a gap, along x and along y.
+
+    The flow is slow and thin, and its viscosity is constant (Reynolds' equation). The pressure of the fluid does not deform the bodies.
+
+    Parameters
+    ----------
+    source : Contact or array_like
+        A contact, which provides its gap and its pitch; or the gap of each cell, a matrix ``[ix, iy]``, m. A cell whose gap is not
+        positive is in contact, and closed.
+    pitch : float, str or pair of them, optional
+        Size of a cell along x and y, m.
+    viscosity : float or str, optional
+        Dynamic viscosity of the fluid, Pa s or a text such as ``"80 mPa s"``; needed for the leakage.
+    pressure : float or str, optional
+        Drop of the pressure over the length of the gap, Pa; needed for the leakage.
+    outlet : float or str, optional
+        Absolute pressure at the outlet of an ideal gas of constant temperature, Pa. Without it the fluid is a liquid.
+    ends : str
+        ``"periodic"``: a mean gradient on a gap that repeats itself; or ``"reservoirs"`` at both ends.
+    sides : str
+        ``"periodic"`` or ``"closed"``.
+    faces : str
+        Conductance between two cells: ``"linear"``, for a gap that is linear between their centres, or ``"harmonic"``.
+    threads : int, optional
+        Number of threads; one for each core by default. The answer does not depend on it.
+
+    Returns
+    -------
+    GapFlow
+
+    Raises
+    ------
+    asperity.errors.BadInput
+        If an argument is invalid.
+    asperity.errors.NotFinite
+        If a gap is NaN or infinite.
+    asperity.errors.Memory
+        If the computation needs more memory than is available.
+
+    Examples
+    --------
+    >>> import numpy as np, asperity as asp
+    >>> gap = np.full((32, 32), 1e-6)
+    >>> gap[:8, :8] = 0.0
+    >>> f = asp.flow(gap, pitch="2 um", viscosity="80 mPa s", pressure="1 bar")
+    >>> f"{f.flow_factor[0]:.3f}", f"{f.leakage[0]:.2e} m³/s"
+    ('1.054', '9.16e-14 m³/s')
+    """
+    if isinstance(source, Contact):
+        if pitch is not None:
+            raise bad_input("pitch", "'pitch' is given beside a contact, which has its own")
+        gap, size = np.where(source.pressure > 0.0, 0.0, source.gap), source.pitch
+    else:
+        if pitch is None:
+            raise bad_input("pitch", "'pitch' is missing: how far apart are the cells of the gap?")
+        gap, size = _gap(source), lengths("pitch", pitch)
+    for key, word, words in (
+        ("ends", ends, ("periodic", "reservoirs")), ("sides", sides, ("periodic", "closed")), ("faces", faces, ("linear", "harmonic")),
+    ):  # fmt: skip
+        if word not in words:
+            raise bad_input(key, f"'{key}' is {word!r}, expected \"{words[0]}\" or \"{words[1]}\"")
+    fluid = _fluid(viscosity, pressure, outlet)
+    return GapFlow(_core.flow((gap, size), ends, sides, faces, fluid, _case.threads(threads)))
+
+
+def _gap(source: Any) -> NDArray[np.float64]:
+    try:
+        gap = np.asarray(source, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise bad_input("gap", f"'gap' is no matrix of numbers: {error}") from error
+    if gap.ndim != 2 or 0 in gap.shape:
+        raise bad_input("gap", f"'gap' has the shape {gap.shape}, expected a matrix [ix, iy]")
+    return gap
+
+
+def _fluid(viscosity: Any, pressure: Any, outlet: Any) -> tuple[float, float, float | None] | None:
+    if viscosity is None and pressure is None and outlet is None:
+        return None
+    for key, value in (("viscosity", viscosity), ("pressure", pressure)):
+        if value is None:
+            raise bad_input(key, f"'{key}' is missing: the leakage needs 'viscosity' and 'pressure'")
+    drop = quantity("pressure", pressure, "pressure", positive=False)
+    if drop < 0.0:
+        text = written(drop, "pressure")
+        raise bad_input("pressure", f"'pressure' is {text}, expected a drop of at least 0")
+    absolute = None if outlet is None else quantity("outlet", outlet, "pressure")
+    return quantity("viscosity", viscosity, "viscosity"), drop, absolute
