@@ -26,8 +26,6 @@ pub(super) struct Ordering {
     pub(super) cells: Vec<u32>,
     /// Fronts, children before their parents.
     pub(super) fronts: Vec<Front>,
-    /// Fronts that are nobody's children.
-    pub(super) roots: Vec<usize>,
 }
 
 impl Ordering {
@@ -45,7 +43,7 @@ impl Ordering {
         });
         let mut dissection = Dissection { shape, origin, wanted, cells: Vec::new(), fronts: Vec::new() };
         let part = [0, 1].map(|axis| usize::from(periodic[axis])..shape[axis]);
-        let mut roots = dissection.dissect(part);
+        let roots = dissection.dissect(part);
         // The rows at the origin of the periodic axes close the rings.
         let [nx, ny] = shape;
         let first = dissection.cells.len();
@@ -55,10 +53,10 @@ impl Ordering {
         if periodic[0] {
             dissection.push(0..1, 0..ny);
         }
-        roots = dissection.front(first, roots);
+        dissection.front(first, roots);
         let Dissection { cells, mut fronts, .. } = dissection;
         find_borders(network, &cells, &mut fronts);
-        Self { cells, fronts, roots }
+        Self { cells, fronts }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The dictionary of columns: every column of a table and every number of a summary, by its name.
 
 use super::closed_form::ClosedFormRecord;
-use super::observe::{ConductanceRecord, ElectricalRecord, GapFlowRecord, ThermalRecord};
+use super::observed::{ConductanceRecord, ElectricalRecord, GapFlowRecord, ThermalRecord};
 use super::subsurface::SubsurfaceRecord;
 use super::summary::{CONVERGED, RunningIn};
 use crate::motion::{

@@ -8,7 +8,7 @@ use crate::motion::{FlowRecord, Pair, UpdateRecord};
 use crate::solver::{Control, Params};
 use crate::study::case::Case;
 use crate::study::closed_form::{ClosedForm, ClosedFormRecord, ElasticContact};
-use crate::study::observe::{ConductanceRecord, GapFlowRecord};
+use crate::study::observed::{ConductanceRecord, GapFlowRecord};
 use crate::study::prepare::Bodies;
 use crate::study::results::Writer;
 use crate::study::subsurface::SubsurfaceRecord;

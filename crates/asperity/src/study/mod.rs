@@ -16,6 +16,7 @@ mod json; // records as JSON
 mod columns; // the dictionary of columns and numbers
 pub mod many; // many cases made from one, each in its folder
 mod observe; // observers of solved contacts
+mod observed; // records of what they have found
 mod passes; // a motion, pass after pass
 mod prepare; // from a case to its two surfaces
 mod rest; // a static contact
@@ -40,7 +41,7 @@ pub use estimate::{Demand, Estimate, demand, estimate};
 pub use fields::{NamedField, RestFields};
 pub use given::SurfaceInput;
 pub use identity::resolved;
-pub use observe::{ConductanceRecord, ElectricalRecord, FlowAxis, GapFlowRecord, ThermalRecord};
+pub use observed::{ConductanceRecord, ElectricalRecord, FlowAxis, GapFlowRecord, ThermalRecord};
 pub use passes::Passes;
 pub use prepare::{
     Bodies, MountedSurface, Origin, PreparedTopography, bodies, bodies_until, exact_pitch, grids, topography,

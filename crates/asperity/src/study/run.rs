@@ -12,7 +12,7 @@ use crate::study::estimate::{Estimate, estimate};
 use crate::study::finish::{Computed, conclude, pair};
 use crate::study::given::SurfaceInput;
 use crate::study::identity;
-use crate::study::observe::GapFlowRecord;
+use crate::study::observed::GapFlowRecord;
 use crate::study::passes::Passes;
 use crate::study::prepare::bodies_until;
 use crate::study::rest::{self, StaticResult};

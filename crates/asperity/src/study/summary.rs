@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::closed_form::ClosedFormRecord;
-use super::observe::{ConductanceRecord, GapFlowRecord};
+use super::observed::{ConductanceRecord, GapFlowRecord};
 use super::subsurface::SubsurfaceRecord;
 use crate::error::{Error, Result};
 use crate::io::{atomic, regular};

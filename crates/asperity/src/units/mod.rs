@@ -55,8 +55,6 @@ pub type SiemensPerSquareMetre = f64;
 pub type KelvinPerWatt = f64;
 /// Electrical resistance in ohms.
 pub type Ohm = f64;
-/// Viscosity in pascal seconds.
-pub type PascalSecond = f64;
 /// Flow of volume in cubic metres per second.
 pub type CubicMetrePerSecond = f64;
 /// Heat flux in watts per square metre.

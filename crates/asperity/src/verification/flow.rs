@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::{Case, Check, Expected, relative, study};
+use super::{Case, Expected, relative, study};
 use crate::error::Result;
 use crate::flow::{Along, Ends, Faces, Flow, Settings, Sides, solve};
 use crate::grid::{Field, Grid};

@@ -64,7 +64,7 @@ fn courses() -> Vec<(&'static str, Case, usize)> {
             case(
                 "plasticity = { yield_stress = \"1 GPa\" }",
                 free,
-                "[plasticity]\ndepth = \"6 um\"\nlayers = 6\nincrements = 2\nunloading = 1",
+                "[plasticity]\ndepth = \"6 um\"\nlayers = 6\nincrements = 2\nunload = true",
             ),
             2,
         ),
@@ -98,7 +98,7 @@ fn conducts(grid: Grid, boundary: Boundary, pressure: &Field, gap: &Field) -> f6
         .with_film(2e-8)
         .with_gas(conductance::Gas { conductivity: 0.026, jump: 0.3e-6 });
     let touching = pressure.mapv(|p| p > 0.0);
-    let params = Params { tolerance: 1e-9, ..Params::default() };
+    let params = Params::default().with_tolerance(1e-9);
     conductance::solve(operator.as_mut(), &touching, Some(gap), &joint, None, &params)
         .unwrap()
         .conductance

@@ -9,9 +9,6 @@ mod conductance; // what heat or current passes
 mod flow; // what a fluid passes
 mod review; // warnings
 
-pub use conductance::{ConductanceRecord, ElectricalRecord, ThermalRecord};
-pub use flow::{FlowAxis, GapFlowRecord};
-
 pub(super) use review::{barber, warnings};
 
 use conductance::ConductanceObserver;
@@ -24,11 +21,9 @@ use crate::motion::{ObservedContact, Output, Pair, Position, Step};
 use crate::solver::Solution;
 use crate::study::case::Case;
 use crate::study::fields::NamedField;
+use crate::study::observed::{ConductanceRecord, GapFlowRecord};
 use crate::study::results::{Results, Writer, is_kept};
 use crate::study::tables::{self, GrowingTable, Record};
-
-/// Names of all observers.
-pub(super) const OBSERVERS: [&str; 2] = ["conductance", "flow"];
 
 /// Computes something from a solved contact and changes nothing.
 trait Observer {

@@ -1,10 +1,10 @@
 //! Warnings about what observers have found.
 
-use super::{ConductanceRecord, FlowAxis, GapFlowRecord};
 use crate::conductance::Bracket;
 use crate::flow::Ends;
 use crate::motion::SweepRecord;
 use crate::study::case::Case;
+use crate::study::observed::{ConductanceRecord, FlowAxis, GapFlowRecord};
 use crate::units::{self, Dimension, format_number};
 
 /// A spot with fewer cells than this conducts with an error of some percent.

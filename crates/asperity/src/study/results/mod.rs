@@ -59,7 +59,7 @@ use crate::motion::{
 };
 use crate::plasticity::{PlasticState, TensorField, VolumeField};
 use crate::stress::Component;
-use crate::study::observe::{ConductanceRecord, GapFlowRecord};
+use crate::study::observed::{ConductanceRecord, GapFlowRecord};
 use crate::study::summary::{Outcome, Summary};
 use crate::surface::Topography;
 

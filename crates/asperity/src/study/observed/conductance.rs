@@ -1,0 +1,212 @@
+//! The conductance of a contact.
+
+use serde::{Deserialize, Serialize};
+
+use crate::conductance::Kind;
+use crate::error::Error;
+use crate::motion::{Column, columns};
+use crate::study::tables::Record;
+use crate::units::{
+    KelvinPerWatt, Newton, Ohm, Pascal, Siemens, SiemensPerSquareMetre, SquareMetre, Watt, WattPerKelvin,
+    WattPerSquareMetreKelvin,
+};
+
+columns! {
+    /// The conductance of a contact, a row of `conductance.csv`; in `summary.json` of the last contact, or the mean over the contacts
+    /// of each pass.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    #[non_exhaustive]
+    pub struct ConductanceRecord {
+        /// Pass of a motion, from 1; left out of a static contact.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub pass: Option<usize>,
+        /// Position in the pass, increment, point (each from 1) or update (from 0); unknown in the mean over a pass.
+        pub step: Option<usize>,
+        /// Load.
+        pub load: Newton,
+        /// Mean pressure over the apparent area.
+        pub mean_pressure: Pascal,
+        /// Real area of contact.
+        pub contact_area: SquareMetre,
+        /// Number of spots, which are connected over edges and corners of cells.
+        pub spots: f64,
+        /// Median number of cells of a spot; 0 without contact.
+        pub median_spot_cells: f64,
+        /// Share of heat or current that passes the spots.
+        pub spot_share: f64,
+        /// Share of the heat that passes the gas.
+        pub gas_share: f64,
+        /// Share of the resistance that the film on the spots has.
+        pub film_share: f64,
+        /// Heat that passes under the temperature difference `drop`; of a current, the heat that it makes. Unknown where the joint has
+        /// no resistance.
+        pub power: Option<Watt>,
+        /// Convolutions for the conductance.
+        pub convolutions: f64,
+        /// Residual of the conductance: largest relative deviation from the common temperature or potential.
+        pub residual: f64,
+        /// The conductance of heat.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub thermal: Option<ThermalRecord>,
+        /// The conductance of a current.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub electrical: Option<ElectricalRecord>,
+    }
+}
+
+columns! {
+    /// What conducts heat.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    #[non_exhaustive]
+    pub struct ThermalRecord {
+        /// Thermal conductance of the contact; unknown where it adds no resistance.
+        pub thermal_conductance: Option<WattPerKelvin>,
+        /// Thermal joint conductance h, the conductance over the apparent area.
+        pub thermal_joint_conductance: Option<WattPerSquareMetreKelvin>,
+        /// Thermal resistance; unknown where nothing conducts, and where the contact adds no resistance.
+        pub thermal_resistance: Option<KelvinPerWatt>,
+        /// Thermal resistance with all cells in contact, which the bodies beyond the grid have; unknown under a periodic boundary, and
+        /// at a position of a motion.
+        pub thermal_resistance_full: Option<KelvinPerWatt>,
+        /// Estimate of Holm and Greenwood of the thermal resistance of the spots, under a free boundary.
+        pub thermal_resistance_holm_greenwood: Option<KelvinPerWatt>,
+        /// Thermal joint conductance by the correlation of Cooper, Mikic and Yovanovich, or of Mikic for elastic bodies.
+        pub thermal_joint_correlation: Option<WattPerSquareMetreKelvin>,
+    }
+}
+
+columns! {
+    /// What conducts a current.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    #[non_exhaustive]
+    pub struct ElectricalRecord {
+        /// Electrical conductance of the contact; unknown where it adds no resistance.
+        pub electrical_conductance: Option<Siemens>,
+        /// Electrical joint conductance, the conductance over the apparent area.
+        pub electrical_joint_conductance: Option<SiemensPerSquareMetre>,
+        /// Electrical resistance; unknown where nothing conducts, and where the contact adds no resistance.
+        pub electrical_resistance: Option<Ohm>,
+        /// Electrical resistance with all cells in contact, which the bodies beyond the grid have; unknown under a periodic boundary,
+        /// and at a position of a motion.
+        pub electrical_resistance_full: Option<Ohm>,
+        /// Estimate of Holm and Greenwood of the electrical resistance of the spots, under a free boundary.
+        pub electrical_resistance_holm_greenwood: Option<Ohm>,
+        /// Electrical joint conductance by the correlation of Cooper, Mikic and Yovanovich, or of Mikic for elastic bodies.
+        pub electrical_joint_correlation: Option<SiemensPerSquareMetre>,
+    }
+}
+
+impl Record for ConductanceRecord {
+    const COLUMNS: &'static [Column] = Self::COLUMNS;
+
+    fn at(&self, error: Error) -> Error {
+        match self.pass {
+            Some(pass) => error.if_not_finite(|source| Error::AtPass { pass, source }),
+            None => error,
+        }
+    }
+}
+
+impl ConductanceRecord {
+    /// Conductance, W/K or S; `None` where the contact adds no resistance.
+    pub fn conductance(&self) -> Option<f64> {
+        match (&self.thermal, &self.electrical) {
+            (Some(thermal), _) => thermal.thermal_conductance,
+            (None, Some(electrical)) => electrical.electrical_conductance,
+            (None, None) => None,
+        }
+    }
+
+    /// Joint conductance, W/(m² K) or S/m², and that of the correlation beside it.
+    pub fn joint(&self) -> [Option<f64>; 2] {
+        match (&self.thermal, &self.electrical) {
+            (Some(thermal), _) => [thermal.thermal_joint_conductance, thermal.thermal_joint_correlation],
+            (None, Some(of)) => [of.electrical_joint_conductance, of.electrical_joint_correlation],
+            (None, None) => [None; 2],
+        }
+    }
+
+    /// Returns the mean over the contacts of each pass: at a common difference of temperature or potential the conductance has the
+    /// mean of its values, and the resistance is its reciprocal.
+    pub(in crate::study) fn means(rows: &[Self]) -> Vec<Self> {
+        rows.chunk_by(|one, other| one.pass == other.pass).map(Self::mean).collect()
+    }
+
+    fn mean(rows: &[Self]) -> Self {
+        let count = rows.len() as f64;
+        let mean = |value: &dyn Fn(&Self) -> f64| rows.iter().map(value).sum::<f64>() / count;
+        let known = |value: &dyn Fn(&Self) -> Option<f64>| {
+            rows.iter().map(value).sum::<Option<f64>>().map(|sum| sum / count)
+        };
+        let conductance = known(&Self::conductance);
+        let [joint, correlation] = [0, 1].map(|which| known(&|row: &Self| row.joint()[which]));
+        let quantities = Quantities {
+            conductance,
+            joint,
+            resistance: conductance.filter(|conductance| *conductance > 0.0).map(f64::recip),
+            full: None,
+            holm_greenwood: None,
+            correlation,
+        };
+        let kind = if rows[0].thermal.is_some() { Kind::Thermal } else { Kind::Electrical };
+        let (thermal, electrical) = quantities.of_kind(kind);
+        Self {
+            pass: rows[0].pass,
+            step: None,
+            load: mean(&|row| row.load),
+            mean_pressure: mean(&|row| row.mean_pressure),
+            contact_area: mean(&|row| row.contact_area),
+            spots: mean(&|row| row.spots),
+            median_spot_cells: mean(&|row| row.median_spot_cells),
+            spot_share: mean(&|row| row.spot_share),
+            gas_share: mean(&|row| row.gas_share),
+            film_share: mean(&|row| row.film_share),
+            power: known(&|row: &Self| row.power),
+            convolutions: mean(&|row| row.convolutions),
+            residual: rows.iter().map(|row| row.residual).fold(0.0, f64::max),
+            thermal,
+            electrical,
+        }
+    }
+}
+
+/// The quantities of either kind.
+pub(in crate::study) struct Quantities {
+    pub(in crate::study) conductance: Option<f64>,
+    pub(in crate::study) joint: Option<f64>,
+    pub(in crate::study) resistance: Option<f64>,
+    pub(in crate::study) full: Option<f64>,
+    pub(in crate::study) holm_greenwood: Option<f64>,
+    pub(in crate::study) correlation: Option<f64>,
+}
+
+impl Quantities {
+    /// Returns the record of a kind.
+    pub(in crate::study) fn of_kind(self, kind: Kind) -> (Option<ThermalRecord>, Option<ElectricalRecord>) {
+        let Self { conductance, joint, resistance, full, holm_greenwood, correlation } = self;
+        match kind {
+            Kind::Thermal => {
+                let record = ThermalRecord {
+                    thermal_conductance: conductance,
+                    thermal_joint_conductance: joint,
+                    thermal_resistance: resistance,
+                    thermal_resistance_full: full,
+                    thermal_resistance_holm_greenwood: holm_greenwood,
+                    thermal_joint_correlation: correlation,
+                };
+                (Some(record), None)
+            }
+            Kind::Electrical => {
+                let record = ElectricalRecord {
+                    electrical_conductance: conductance,
+                    electrical_joint_conductance: joint,
+                    electrical_resistance: resistance,
+                    electrical_resistance_full: full,
+                    electrical_resistance_holm_greenwood: holm_greenwood,
+                    electrical_joint_correlation: correlation,
+                };
+                (None, Some(record))
+            }
+        }
+    }
+}
