@@ -10,6 +10,7 @@ mod machine;
 mod numbers;
 mod page;
 mod paper;
+mod passage;
 mod place;
 mod plot;
 mod report;

@@ -13,6 +13,7 @@ mod running;
 mod sheet;
 mod sliding;
 mod stored;
+mod passage;
 mod subsurface;
 mod surfaces;
 mod sweep;
@@ -35,6 +36,7 @@ pub(crate) use rest::{approach, open_gap, profile as profile_at_rest};
 pub(crate) use rolling::curves as of_rolling;
 pub(crate) use sliding::curves as of_sliding;
 pub(crate) use stored::{Cap, StoredArray, in_frame_of};
+pub(crate) use passage::curves as passage_curves;
 pub(crate) use subsurface::columns as stress_columns;
 pub(crate) use surfaces::{as_measured, changed, curves as of_surfaces};
 pub(crate) use sweep::curves as of_sweep;
@@ -115,6 +117,9 @@ fn gather<'a>(
     if case.subsurface.is_some() {
         let fields = results.subsurface_fields(passes.last().map(|pass| pass.pass))?;
         subsurface::draw(&fields, &of, &mut sheet)?;
+    }
+    if case.conductance.is_some() || case.flow.is_some() {
+        passage::draw(results, &of, &mut sheet)?;
     }
     Ok(sheet)
 }

@@ -18,6 +18,7 @@ mod html;
 mod live;
 mod numbers;
 mod packed;
+mod passage;
 mod plane;
 mod study;
 mod table;
@@ -96,8 +97,9 @@ fn page(results: &Results) -> asperity::Result<(String, Vec<String>)> {
         "diverging": palette(Colours::Signed),
     }});
     let mut charts = Vec::new();
-    let sections: [Section; 6] = [
+    let sections: [Section; 7] = [
         ("contact", "Contact", contact::section(&mut found, &mut data, &mut charts)),
+        ("passage", "Heat, current, fluid", passage::section(&mut found, &mut data, &mut charts)),
         ("below", "Below the surface", below::section(&mut found, &mut data, &mut charts)),
         ("flow", "Plastic flow", flow::section(&mut found, &mut data, &mut charts)),
         ("bodies", "Bodies", bodies::section(&mut found, &mut data, &mut charts)),

@@ -5,7 +5,7 @@ use asperity::study::{Case, ClosedFormRecord, Outcome, SubsurfaceRecord, Summary
 use asperity::units::{Dimension, format, format_number};
 
 use super::rows::planes;
-use crate::closed_form;
+use crate::{closed_form, passage};
 
 /// Describes a static contact and the largest stress below the surface, a line for each number. The rows of passes and points are
 /// printed as they come.
@@ -16,7 +16,10 @@ pub fn text(case: &Case, summary: &Summary) -> String {
     };
     let theory = summary.closed_form.as_ref().map_or(String::new(), theory_lines);
     let flow = summary.plasticity.as_ref().map_or(String::new(), flow_line);
-    contact + &theory + &flow + &summary.subsurface.iter().map(stress_line).collect::<String>()
+    let passes = |rows: Vec<(String, String)>| rows.iter().map(|(name, value)| line(name, value)).collect::<String>();
+    let conductance = summary.conductance.last().map_or(String::new(), |row| passes(passage::conductance(row)));
+    let leakage: String = summary.flow.iter().map(|row| passes(passage::flow(row))).collect();
+    contact + &theory + &flow + &conductance + &leakage + &summary.subsurface.iter().map(stress_line).collect::<String>()
 }
 
 /// The closed form of the contact, and the deviation of the computed contact from it.

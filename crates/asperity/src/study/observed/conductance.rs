@@ -128,7 +128,7 @@ impl ConductanceRecord {
 
     /// Returns the mean over the contacts of each pass: at a common difference of temperature or potential the conductance has the
     /// mean of its values, and the resistance is its reciprocal.
-    pub(in crate::study) fn means(rows: &[Self]) -> Vec<Self> {
+    pub fn means(rows: &[Self]) -> Vec<Self> {
         rows.chunk_by(|one, other| one.pass == other.pass).map(Self::mean).collect()
     }
 
