@@ -1,4 +1,4 @@
-//! The cascade: a first guess of the pressure from coarser and coarser grids.
+//! The cascade: an initial guess of the pressure from successively coarser grids.
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
@@ -8,22 +8,22 @@ use crate::solver::site::Site;
 use crate::solver::watch::InnerWatch;
 use crate::solver::{Residual, Settings, attraction};
 
-/// Tolerance of the coarse grids: of std(u), or of the displacement of a cell by itself at the largest upper bound where that
-/// is less, for φ never exceeds it.
+/// Tolerance of the coarse grids, relative to std(u). If smaller, the scale is the displacement of a cell by its own
+/// pressure at the largest upper bound, which φ never exceeds.
 const COARSE_TOLERANCE: f64 = 1e-2;
-/// Convolutions after which a coarse grid is given up.
+/// Largest number of convolutions on a coarse grid.
 const MAX_COARSE_CONVOLUTIONS: usize = 100;
-/// Grids are not coarsened where none has as many cells as this along both axes.
+/// Grids with fewer cells along each axis are not coarsened.
 const MIN_CELLS: usize = 64;
 
-/// The compliance, as a multiple of the self-influence, by which the sets are first predicted from a start that is given:
-/// unlike a guess from coarse grids, which is wrong smoothly, the answer at another approach or of another geometry is wrong
-/// at single cells, and so are the sets that these predict.
+/// Compliance for the first prediction of the sets from a given start, as a multiple of the self-influence. A guess
+/// from coarse grids has smooth errors. The solution at another approach or of another geometry has errors at single
+/// cells, and so have the sets predicted from it.
 const COMPLIANCE_FACTOR: f64 = 2.0;
 
-/// Solves from the `start` of each contact; where there is none, on a cascade of grids, each with twice the pitch of the
-/// one above it, from the coarsest upwards, the pressure of each the first guess of the next. `tolerance` gives the η at
-/// which a state is accepted.
+/// Solves from the `start` of each contact. Without a start it solves on a cascade of grids, from the coarsest to the
+/// finest. Each grid has twice the pitch of the next, and its pressure is the initial guess of the next. `tolerance`
+/// is the η at which a state is accepted.
 pub(super) fn solve(
     sites: &[&dyn Site],
     terms: &Settings,
@@ -40,8 +40,8 @@ pub(super) fn solve(
     Ok(found)
 }
 
-/// The pressures of the next coarser grids, prolonged, and their cost in convolutions of these grids; none where the grids
-/// are small, or the coarse ones cannot bear the load.
+/// Returns the prolonged pressures of the next coarser grids, and their cost in convolutions of these grids. Returns
+/// none for small grids, or if the coarse grids cannot carry the load.
 fn first_guess(
     sites: &[&dyn Site],
     terms: &Settings,
@@ -82,14 +82,14 @@ fn first_guess(
             let spent = share * (spent + found.stats.convolutions);
             Ok((Some(prolonged.collect()), spent))
         }
-        // A guess that cannot be had is no guess.
+        // Without a solution on the coarse grids there is no guess.
         Err(Error::NotConverged { .. }) => Ok((None, share * (spent + MAX_COARSE_CONVOLUTIONS as f64))),
         Err(other) => Err(other),
     }
 }
 
-/// Prolongs a field that begins at the row `first` of the coarse grid: each of its values on the cells of the `fine` slab that
-/// it covers.
+/// Prolongs a field that begins at the row `first` of the coarse grid: copies each value to the cells of the `fine`
+/// slab that it covers.
 fn prolong(coarse: &Field, first: usize, fine: &Slab) -> Field {
     let offset = fine.rows().start;
     Field::from_shape_fn(fine.grid().shape, |(i, j)| coarse[[(offset + i) / 2 - first, j / 2]])

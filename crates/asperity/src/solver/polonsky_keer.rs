@@ -7,18 +7,19 @@ use crate::solver::feasible::{Bounded, make_feasible};
 use crate::solver::watch::go_on;
 use crate::solver::{Answer, Control, Params, Problem, Stats, finite};
 
-/// Share of its upper bound below which a pressure differs from it by rounding alone.
+/// Relative distance from its upper bound below which a pressure differs from it only by rounding.
 const ROUNDING: f64 = 1e-12;
-/// Convolutions without a new least residual after which steps are damped: the printed ones, cut off at two bounds, may go
-/// back and forth for ever.
+/// Number of convolutions without a new smallest residual after which steps are damped. The published steps, clipped
+/// at two bounds, may oscillate forever.
 const MAX_STAGNATION: f64 = 100.0;
-/// The factor by which steps are damped then.
+/// The damping factor of these steps.
 const DAMPING: f64 = 0.5;
-/// Share of the interference of a cell that its first pressure closes under approach control, as if it were alone.
+/// Fraction of the interference of a cell that its first pressure closes under approach control, as if the cell were
+/// alone.
 const FIRST_PRESSURE: f64 = 0.3;
 
-/// Solves by the method as printed in Wear 231, 206 (1999): two operator calls an iteration. Cells at their upper bound
-/// leave the conjugate directions as those at their lower one do.
+/// Solves by the method of Wear 231, 206 (1999), with two operator calls per iteration. Cells at their upper bound
+/// leave the conjugate directions in the same way as cells at their lower bound.
 pub(super) fn solve(
     operator: &mut dyn Operator,
     problem: &Problem,
@@ -49,7 +50,7 @@ pub(super) fn solve(
         terms.watch.iteration(state.eta, params.tolerance);
         go_on(terms.watch)?;
         if state.eta < params.tolerance {
-            // A cell that only rounding has taken off its upper bound is at it.
+            // A cell that differs from its upper bound only by rounding is at the bound.
             for (cell, p) in pressure.iter_mut().enumerate() {
                 let upper = bounds.at(cell).upper;
                 *p = if upper - *p < ROUNDING * upper { upper } else { *p };
@@ -78,7 +79,7 @@ pub(super) fn solve(
         let is_free: Vec<bool> =
             pressure.iter().enumerate().map(|(cell, p)| bounds.at(cell).is_free(*p)).collect();
         if !is_free.contains(&true) {
-            // Every cell at a bound and not in equilibrium: one damped diagonal step along the gap frees some.
+            // All cells are at bounds, but not in equilibrium: one damped diagonal step along the gap frees some.
             ndarray::Zip::from(&mut pressure).and(&displacement).and(initial_gap).for_each(|p, u, h| {
                 *p += 0.5 * damping * (state.approach - h - u) / terms.self_influence;
             });
@@ -123,7 +124,7 @@ pub(super) fn solve(
     }
 }
 
-/// Mean of `values` over the free cells.
+/// Returns the mean of `values` over the free cells.
 fn mean_where(values: &Field, is_free: &[bool]) -> f64 {
     let (mut sum, mut count) = (0.0, 0usize);
     for (v, free) in values.iter().zip(is_free) {
