@@ -40,10 +40,14 @@ pub(in crate::study::case) fn curve(entry: &Entry<'_>) -> Result<Vec<(f64, Pasca
         ));
     }
     if points.windows(2).any(|pair| pair[1].0 <= pair[0].0) {
-        return Err(entry.error("the strains of 'curve' do not increase from point to point".to_owned(), None));
+        return Err(
+            entry.error("the strains of 'curve' do not increase from point to point".to_owned(), None)
+        );
     }
     if points.windows(2).any(|pair| pair[1].1 < pair[0].1) {
-        let softens = hint("a falling curve localises strain in bands whose width depends on the grid: make the curve constant there");
+        let softens = hint(
+            "a falling curve localises strain in bands whose width depends on the grid: make the curve constant there",
+        );
         return Err(entry.error("the stresses of 'curve' fall".to_owned(), softens));
     }
     Ok(points)
