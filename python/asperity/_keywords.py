@@ -44,11 +44,11 @@ class Common(TypedDict, total=False):
 class Rest(TypedDict, total=False):
     """Keywords of a static contact."""
 
-    loads: Annotated[Sequence[Quantity] | None, "contact", "Loads of a sweep in place of `load`, each on the original bodies, N."]
+    loads: Annotated[Sequence[Quantity] | None, "contact", "Loads of a sweep in place of `load`, each on virgin bodies, N."]
     mean_pressures: Annotated[Sequence[Quantity] | None, "contact",
-        "Mean pressures of a sweep in place of `mean_pressure`, each on the original bodies, Pa."]
+        "Mean pressures of a sweep in place of `mean_pressure`, each on virgin bodies, Pa."]
     approaches: Annotated[Sequence[Quantity] | None, "contact",
-        "Approaches of a sweep in place of `approach`, each on the original bodies, m."]
+        "Approaches of a sweep in place of `approach`, each on virgin bodies, m."]
     history: Annotated[Sequence[keys.Stage] | None, "",
         "Stages of the loading after the first. Quantities that a stage does not name do not change."]
     plasticity: Annotated[keys.Plasticity | None, "",

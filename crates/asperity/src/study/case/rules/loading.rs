@@ -97,7 +97,7 @@ pub(super) const RULES: &[Rule] = &[
         this: "a sweep",
         with: "[[history]]",
         message: "'{key}' and [[history]] are both given, expected one of them",
-        hint: "each value of a list presses the original bodies; the stages of a [[history]] follow each other",
+        hint: "each value of a list presses virgin bodies; the stages of a [[history]] follow each other",
         at: "contact.mean_pressures",
         example: &[r#"contact = { mean_pressures = ["1 MPa", "2 MPa"] }"#, r#"history = [{ load = "1 N" }]"#],
         broken: |tables| tables.at("history").and(tables.sweep()),
