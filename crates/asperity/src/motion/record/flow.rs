@@ -94,7 +94,7 @@ columns! {
         pub plastic_work_lower: Joule,
         /// Plastic work in the upper body in the pass.
         pub plastic_work_upper: Joule,
-        /// Fraction of the plastic work below the two columns at either end of the overlap; 0 if the boundary is periodic along x.
+        /// Plastic work below the two columns at either end of the overlap, a part of the plastic work; 0 if the boundary is periodic along x.
         pub plastic_work_rim: Joule,
         /// Displacement of the surface of the lower body along +x relative to its depths in the pass, averaged over the surface.
         pub surface_shift_lower: Metre,

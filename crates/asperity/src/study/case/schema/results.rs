@@ -84,7 +84,7 @@ pub(in crate::study) mod output {
             FLAG,
             "false",
             "true",
-            "whether all fields, and the stress under the surface as a volume, are also written as VTK image data (`.vti`); see \
+            "whether all fields, and the stress below the surface as a volume, are also written as VTK image data (`.vti`); see \
              [results](results.md#for-paraview)",
         );
     }

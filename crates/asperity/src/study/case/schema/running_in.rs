@@ -38,8 +38,8 @@ pub(in crate::study) mod wear {
             RATE,
             "the coefficient of the bare body",
             "\"1e-8 mm3/(N m)\"",
-            "coefficient under the thickest film, in the unit of `coefficient` or `energy`, also beside `dimensionless`, at most \
-             that of the bare body; in between it falls in proportion to the thickness; the body needs a film",
+            "coefficient under the thickest film, in the unit of `coefficient` or `energy`, also with `dimensionless`, at most \
+             the coefficient of the bare body; it decreases linearly with the thickness; the body needs a film",
         );
     }
 }
@@ -206,8 +206,8 @@ pub(in crate::study) mod temperature {
             "1 with thermal constants, else 0",
             "10",
             "computes the flash temperature at each position of every n-th computed pass, from the first on, for films and results; \
-             between them cells are as warm as they were in the mean over their contacts of the last. It needs the thermal constants \
-             of both bodies, [friction] and a speed. 0: the surfaces are as warm as the bodies",
+             in other passes each cell has its mean temperature over the contacts of the last of these. It requires the thermal constants \
+             of both bodies, [friction] and a speed. 0: the surfaces have the temperatures of the bodies",
         );
     }
 }

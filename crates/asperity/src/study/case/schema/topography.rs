@@ -120,8 +120,8 @@ pub(in crate::study) mod file {
             other(Some(Dimension::Length), "unit, or length > 0", |_, entry| entry.unit(Dimension::Length)),
             "metres; required for integers in tiff",
             "\"nm\"",
-            "unit of the numbers in a file without units: the heights of npy, text, csv, tiff, HDF5, NetCDF and ibw, x and y of a \
-             table of points too; an error for a file that has its own",
+            "unit of the numbers in a file without units: heights of npy, text, csv, tiff, HDF5, NetCDF and ibw, and x and y of a \
+             table of points; an error for a file with its own unit",
         );
         DESPIKE: Optional<f64> = optional(
             "despike",
