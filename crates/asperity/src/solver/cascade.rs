@@ -26,16 +26,16 @@ const COMPLIANCE_FACTOR: f64 = 2.0;
 /// is the η at which a state is accepted.
 pub(super) fn solve(
     sites: &[&dyn Site],
-    terms: &Settings,
+    settings: &Settings,
     start: Option<Vec<Field>>,
     tolerance: &dyn Fn(&Residual) -> f64,
     max_convolutions: usize,
 ) -> Result<Answer> {
     if start.is_some() {
-        return active_set::solve(sites, terms, start, COMPLIANCE_FACTOR, tolerance, max_convolutions);
+        return active_set::solve(sites, settings, start, COMPLIANCE_FACTOR, tolerance, max_convolutions);
     }
-    let (guess, spent) = first_guess(sites, terms, tolerance)?;
-    let mut found = active_set::solve(sites, terms, guess, 1.0, tolerance, max_convolutions)?;
+    let (guess, spent) = first_guess(sites, settings, tolerance)?;
+    let mut found = active_set::solve(sites, settings, guess, 1.0, tolerance, max_convolutions)?;
     found.stats.convolutions += spent;
     Ok(found)
 }
@@ -44,7 +44,7 @@ pub(super) fn solve(
 /// none for small grids, or if the coarse grids cannot carry the load.
 fn first_guess(
     sites: &[&dyn Site],
-    terms: &Settings,
+    settings: &Settings,
     tolerance: &dyn Fn(&Residual) -> f64,
 ) -> Result<(Option<Vec<Field>>, f64)> {
     let large = |site: &&dyn Site| site.slab().whole_grid().shape.iter().all(|n| *n >= MIN_CELLS);
@@ -57,24 +57,25 @@ fn first_guess(
         |sites: &[&dyn Site]| sites.iter().map(|site| site.slab().whole_grid().cells()).sum::<usize>() as f64;
     let slab = coarse[0].slab();
     let share = cells(&coarse) / cells(sites);
-    let within = InnerWatch(terms.watch);
-    let mut coarse_terms = Settings { cell_area: coarse[0].grid().cell_area(), watch: &within, ..*terms };
-    coarse[0].with_operator(&mut |operator| coarse_terms.self_influence = operator.influence(0, 0));
+    let within = InnerWatch(settings.watch);
+    let mut coarse_settings =
+        Settings { cell_area: coarse[0].grid().cell_area(), watch: &within, ..*settings };
+    coarse[0].with_operator(&mut |operator| coarse_settings.self_influence = operator.influence(0, 0));
     let [bearable, attraction] = slab.merged(coarse.iter().fold([0.0; 2], |[bearable, attracted], site| {
         let (bounds, cells) = (site.bounds(), site.grid().cells());
         [bearable + bounds.upper().sum(cells), attracted + attraction(&bounds, cells)]
     }));
-    if coarse_terms.pressure_sum().is_some_and(|wanted| bearable <= wanted) {
+    if coarse_settings.pressure_sum().is_some_and(|wanted| bearable <= wanted) {
         return Ok((None, 0.0));
     }
-    coarse_terms.attraction = attraction;
-    let (guess, spent) = first_guess(&coarse, &coarse_terms, tolerance)?;
+    coarse_settings.attraction = attraction;
+    let (guess, spent) = first_guess(&coarse, &coarse_settings, tolerance)?;
     let Largest(most) =
         slab.merged(Largest(coarse.iter().map(|site| site.bounds().upper().max()).fold(0.0, f64::max)));
-    let saturation = coarse_terms.self_influence * most;
+    let saturation = coarse_settings.self_influence * most;
     let loose =
         |state: &Residual| tolerance(state).max(COARSE_TOLERANCE * (saturation / state.scale).min(1.0));
-    match active_set::solve(&coarse, &coarse_terms, guess, 1.0, &loose, MAX_COARSE_CONVOLUTIONS) {
+    match active_set::solve(&coarse, &coarse_settings, guess, 1.0, &loose, MAX_COARSE_CONVOLUTIONS) {
         Ok(found) => {
             let coarse = found.fields.iter().zip(sites);
             let prolonged =

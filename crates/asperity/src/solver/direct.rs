@@ -8,7 +8,7 @@ use crate::math::Cholesky;
 use crate::operator::Operator;
 use crate::solver::feasible::{Bounded, make_feasible};
 use crate::solver::sets::Set;
-use crate::solver::watch::go_on;
+use crate::solver::watch::check_stop;
 use crate::solver::{Answer, Control, Params, Problem, Settings, Stats};
 use crate::units::Metre;
 
@@ -26,17 +26,17 @@ pub(super) fn solve(
 ) -> Result<Answer> {
     let mut pivoting = Pivoting::new(operator, problem);
     let sets = start.map(|start| problem.sets_of(start));
-    let (mut answer, approach) = match problem.terms.control {
+    let (mut answer, approach) = match problem.settings.control {
         Control::Approach(approach) => {
             let first = sets.unwrap_or_else(|| problem.sets_at(approach));
             (pivoting.solve(approach, first)?, approach)
         }
-        Control::Load(load) => pivoting.solve_load(load / problem.terms.cell_area, sets)?,
+        Control::Load(load) => pivoting.solve_load(load / problem.settings.cell_area, sets)?,
     };
-    if !problem.terms.bears_the_load(answer.pressure.sum()) {
+    if !problem.settings.carries_the_load(answer.pressure.sum()) {
         // The bracket is at the rounding of double precision.
         let mut cells = Bounded { pressure: &mut answer.pressure, bounds: problem.bounds };
-        make_feasible(&mut cells, &problem.terms);
+        make_feasible(&mut cells, &problem.settings);
         pivoting.convolve(&answer.pressure, &mut answer.displacement);
     }
     let stats = Stats {
@@ -61,8 +61,8 @@ pub(super) fn solve(
 impl Problem<'_> {
     /// Computes the residual η at a known approach, also under load control.
     fn residual_at(&self, pressure: &Field, displacement: &Field, approach: Metre) -> f64 {
-        let terms = Settings { control: Control::Approach(approach), ..self.terms };
-        let problem = Problem { terms, ..*self };
+        let settings = Settings { control: Control::Approach(approach), ..self.settings };
+        let problem = Problem { settings, ..*self };
         problem.residual(pressure, displacement).eta
     }
 
@@ -115,7 +115,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
     fn new(operator: &'a mut dyn Operator, problem: &'a Problem<'b>) -> Self {
         let shape = operator.grid().shape;
         let influence = Field::from_shape_fn(shape, |(i, j)| operator.influence(i, j));
-        let load_controlled = matches!(problem.terms.control, Control::Load(_));
+        let load_controlled = matches!(problem.settings.control, Control::Load(_));
         let free_mean = operator.leaves_mean_free() && load_controlled;
         let stiffening = if free_mean { stiffening(operator, problem) } else { 0.0 };
         let self_influence = operator.self_influence();
@@ -127,7 +127,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         let mut displacement = Field::zeros(sets.raw_dim());
         let mut pivots = 0;
         loop {
-            go_on(self.problem.terms.watch)?;
+            check_stop(self.problem.settings.watch)?;
             self.anchor(approach, &mut sets)?;
             let (pressure, slope) = self.between_bounds(approach, &sets)?;
             self.convolve(&pressure, &mut displacement);
@@ -269,8 +269,8 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         wanted: f64,
         mut sets: Option<Array2<Set>>,
     ) -> Result<(SolutionAtApproach, Metre)> {
-        let Settings { self_influence, .. } = self.problem.terms;
-        let scale = self.problem.terms.sum_scale(wanted);
+        let Settings { self_influence, .. } = self.problem.settings;
+        let scale = self.problem.settings.sum_scale(wanted);
         let lowest = self.first_touch();
         // A single cell under the whole load gives an upper start; the slope then leads back.
         let mut approach = lowest
@@ -290,7 +290,8 @@ impl<'a, 'b> Pivoting<'a, 'b> {
             }
             let newton = approach - excess / answer.slope;
             let exhausted = high.is_finite() && high - low <= BRACKET_ROUNDING * high.abs().max(low.abs());
-            if excess.abs() <= self.problem.terms.sum_accuracy(wanted) || exhausted || trials == MAX_TRIALS {
+            if excess.abs() <= self.problem.settings.sum_accuracy(wanted) || exhausted || trials == MAX_TRIALS
+            {
                 return Ok((answer, approach));
             }
             approach = if answer.slope > 0.0 && low < newton && newton < high {
@@ -308,7 +309,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
     fn first_touch(&mut self) -> Metre {
         let gap = self.problem.initial_gap;
         let lowest = |touch: &Field| touch.iter().copied().fold(f64::INFINITY, f64::min);
-        if self.problem.terms.attraction == 0.0 {
+        if self.problem.settings.attraction == 0.0 {
             return lowest(gap);
         }
         let pressure = self.problem.pressure_at_bounds(&gap.mapv(|_| Set::Lower));
@@ -321,7 +322,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
 
 /// Returns the factor s of s 1 1ᵀ for which the compliance of the mean is comparable to those of the waves.
 fn stiffening(operator: &dyn Operator, problem: &Problem) -> f64 {
-    problem.terms.self_influence / (operator.grid().cells() as f64).sqrt()
+    problem.settings.self_influence / (operator.grid().cells() as f64).sqrt()
 }
 
 /// Largest number of pivoting steps at one approach.

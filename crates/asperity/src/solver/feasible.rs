@@ -86,7 +86,7 @@ pub(super) fn extremes<T: Copy + Into<f64>>(values: &[T]) -> [f64; 2] {
 
 impl Settings<'_> {
     /// Whether pressures with this sum carry the prescribed load, if there is one.
-    pub(super) fn bears_the_load(&self, sum: f64) -> bool {
+    pub(super) fn carries_the_load(&self, sum: f64) -> bool {
         self.pressure_sum()
             .is_none_or(|wanted| (sum - wanted).abs() <= LOAD_ACCURACY * self.sum_scale(wanted))
     }
@@ -105,10 +105,10 @@ impl Settings<'_> {
 /// Brings pressures into their bounds and, under load control, to the load. It first scales the pressures above the
 /// lower bounds of the cells below their upper bounds. If these cells cannot carry the load, it adds the same offset
 /// to all cells.
-pub(super) fn make_feasible(cells: &mut impl Cells, terms: &Settings) {
+pub(super) fn make_feasible(cells: &mut impl Cells, settings: &Settings) {
     cells.map(|p, bounds| bounds.clamp(p));
-    let Some(wanted) = terms.pressure_sum() else { return };
-    let accuracy = terms.sum_accuracy(wanted);
+    let Some(wanted) = settings.pressure_sum() else { return };
+    let accuracy = settings.sum_accuracy(wanted);
     for _ in 0..MAX_SCALINGS {
         let [sum, between] =
             cells.sum(|p, bounds| [p, if p < bounds.upper { p - bounds.lower } else { 0.0 }]);
@@ -247,7 +247,7 @@ mod tests {
     use super::*;
     use crate::solver::Control;
 
-    fn terms(sum: f64, attraction: f64) -> Settings<'static> {
+    fn settings(sum: f64, attraction: f64) -> Settings<'static> {
         Settings { control: Control::Load(sum), self_influence: 1.0, cell_area: 1.0, attraction, watch: &() }
     }
 
@@ -282,11 +282,15 @@ mod tests {
             };
             let most = if upper.sum().is_finite() { upper.sum() } else { 20.0 };
             let wanted = lower.sum() + number(0.01, 0.99)? * (most - lower.sum());
-            let terms = terms(wanted, -lower.sum());
-            make_feasible(&mut Bounded { pressure: &mut pressure, bounds: &bounds }, &terms);
+            let settings = settings(wanted, -lower.sum());
+            make_feasible(&mut Bounded { pressure: &mut pressure, bounds: &bounds }, &settings);
             let inside = pressure.iter().zip(&lower).zip(&upper).all(|((p, l), u)| l <= p && p <= u);
             assert!(inside, "{pressure} not in {bounds:?}");
-            assert!(terms.bears_the_load(pressure.sum()), "{wanted}, not {}: {bounds:?}", pressure.sum());
+            assert!(
+                settings.carries_the_load(pressure.sum()),
+                "{wanted}, not {}: {bounds:?}",
+                pressure.sum()
+            );
             Ok(())
         });
     }

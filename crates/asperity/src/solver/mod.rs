@@ -237,7 +237,7 @@ struct Problem<'a> {
     /// The bounds of the pressure.
     bounds: &'a Bounds,
     /// Control and constants.
-    terms: Settings<'a>,
+    settings: Settings<'a>,
     /// The rows of the grid that this rank holds.
     slab: &'a Slab,
 }
@@ -343,8 +343,8 @@ pub(crate) fn solve_normal_watched(
     validate(operator, &slab, initial_gap, bounds, control, params)?;
     let self_influence = self_influence(operator);
     let [attraction] = slab.merged([attraction(bounds, grid.cells())]);
-    let terms = Settings { control, self_influence, cell_area: grid.cell_area(), attraction, watch };
-    let problem = Problem { initial_gap, bounds, terms, slab: &slab };
+    let settings = Settings { control, self_influence, cell_area: grid.cell_area(), attraction, watch };
+    let problem = Problem { initial_gap, bounds, settings, slab: &slab };
     let answer = match far_datum(&problem) {
         None => solve_as_given(operator, &problem, start, params)?,
         Some(datum) => {
@@ -353,8 +353,8 @@ pub(crate) fn solve_normal_watched(
                 Control::Approach(approach) => Control::Approach(approach - datum),
                 load => load,
             };
-            let terms = Settings { control: nearer, ..terms };
-            let near = Problem { initial_gap: &near, bounds, terms, slab: &slab };
+            let settings = Settings { control: nearer, ..settings };
+            let near = Problem { initial_gap: &near, bounds, settings, slab: &slab };
             let answer = solve_as_given(operator, &near, start, params)?;
             Answer { approach: control.approach().unwrap_or(answer.approach + datum), ..answer }
         }
@@ -378,7 +378,7 @@ fn solve_as_given(
     if let Some(answer) = no_contact(problem) {
         return Ok(answer);
     }
-    let Problem { initial_gap, bounds, terms, slab } = *problem;
+    let Problem { initial_gap, bounds, settings, slab } = *problem;
     let answer = match params.method {
         Method::Direct | Method::PolonskyKeer if !slab.is_whole() => {
             Err(Error::Unsupported("only the active set solves a contact on several ranks"))
@@ -392,13 +392,13 @@ fn solve_as_given(
             let site = OwnedSite::new(operator, Cow::Borrowed(initial_gap), Cow::Borrowed(bounds));
             let start = start.map(|pressure| vec![pressure.clone()]);
             let found =
-                cascade::solve(&[&site], &terms, start, &|_| params.tolerance, params.max_convolutions)?;
+                cascade::solve(&[&site], &settings, start, &|_| params.tolerance, params.max_convolutions)?;
             let (pressure, displacement) = found.fields.into_iter().next().expect("one contact");
             let Residual { eta, approach, .. } = found.residual;
             Ok(Answer { pressure, displacement, approach, residual: eta, stats: found.stats })
         }
     }?;
-    terms.check_load(&answer, slab)?;
+    settings.check_load(&answer, slab)?;
     Ok(answer)
 }
 
@@ -414,19 +414,19 @@ fn self_influence(operator: &dyn Operator) -> f64 {
 /// Returns the lowest height if the heights are far from zero compared with their range or with the depth of the
 /// contact, so that h + u would lose digits of u. Heights are then measured from the lowest one without loss.
 fn far_datum(problem: &Problem) -> Option<Metre> {
-    let Problem { initial_gap, bounds, terms, slab } = problem;
+    let Problem { initial_gap, bounds, settings, slab } = problem;
     let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
     for h in *initial_gap {
         (lowest, highest) = (lowest.min(*h), highest.max(*h));
     }
     let most = |value: f64| slab.merged(Largest(value)).0;
     (lowest, highest) = (-most(-lowest), most(highest));
-    let depth = match terms.control {
+    let depth = match settings.control {
         Control::Approach(approach) => (approach - lowest).max(0.0),
         // The depth is at most the displacement of a single cell under the whole load.
         Control::Load(load) => {
-            terms.self_influence
-                * (load.abs() / terms.cell_area + terms.attraction).min(most(bounds.upper().max()))
+            settings.self_influence
+                * (load.abs() / settings.cell_area + settings.attraction).min(most(bounds.upper().max()))
         }
     };
     let far = lowest.abs() > FAR_DATUM * depth.min(highest - lowest);
@@ -506,7 +506,7 @@ fn validate(
 
 /// Returns the solution of bodies that neither touch nor attract each other.
 fn no_contact(problem: &Problem) -> Option<Answer> {
-    let Control::Approach(approach) = problem.terms.control else { return None };
+    let Control::Approach(approach) = problem.settings.control else { return None };
     let attracts = problem.bounds.lower().min() < 0.0;
     let together = attracts || problem.initial_gap.iter().any(|h| *h < approach);
     (!problem.slab.merged(together)).then(|| Answer {

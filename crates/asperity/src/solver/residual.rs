@@ -80,7 +80,7 @@ pub(super) struct Cell {
 impl Problem<'_> {
     /// Computes the [`residual`] of a pressure and its displacement in this problem.
     pub(super) fn residual(&self, pressure: &Field, displacement: &Field) -> Residual {
-        let Settings { self_influence, control, .. } = self.terms;
+        let Settings { self_influence, control, .. } = self.settings;
         residual(pressure, displacement, self.initial_gap, self.bounds, self_influence, control.approach())
     }
 }

@@ -34,15 +34,15 @@ pub(crate) fn solve_together(
     max_convolutions: usize,
     watch: &dyn Watch,
 ) -> Result<JointSolution> {
-    let mut terms = Settings {
+    let mut settings = Settings {
         control: Control::Load(load),
         self_influence: 0.0,
         cell_area: sites[0].grid().cell_area(),
         attraction: sites.iter().map(|site| attraction(&site.bounds(), site.grid().cells())).sum(),
         watch,
     };
-    sites[0].with_operator(&mut |operator| terms.self_influence = super::self_influence(operator));
-    let found = cascade::solve(sites, &terms, start, tolerance, max_convolutions)?;
+    sites[0].with_operator(&mut |operator| settings.self_influence = super::self_influence(operator));
+    let found = cascade::solve(sites, &settings, start, tolerance, max_convolutions)?;
     let contacts = found.fields.into_iter().zip(sites);
     let pressures = contacts.map(|((pressure, _), site)| bearing(&pressure, &site.bounds())).collect();
     Ok(JointSolution { approach: found.residual.approach, pressures, stats: found.stats })

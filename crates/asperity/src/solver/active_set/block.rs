@@ -323,9 +323,9 @@ impl<'a> Block<'a> {
     }
 
     /// Returns the sums of this contact for the residual at an approach.
-    pub(super) fn residual_sums(&self, approach: Metre, terms: &Settings) -> ResidualSums {
+    pub(super) fn residual_sums(&self, approach: Metre, settings: &Settings) -> ResidualSums {
         let (gap, bounds) = (self.site.initial_gap(), self.site.bounds());
-        let self_influence = terms.self_influence;
+        let self_influence = settings.self_influence;
         let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));
         let bands = bands.zip(self.bands.cut(flat(&gap))).enumerate();
         let parts = parallel::map(bands, |(band, ((pressure, touch), gap))| {
@@ -567,9 +567,9 @@ impl<'a> Block<'a> {
         &mut self,
         step: f64,
         datum: Metre,
-        terms: &Settings,
+        settings: &Settings,
     ) -> ResidualNorms {
-        let c0 = terms.self_influence;
+        let c0 = settings.self_influence;
         let (bands, bounds) = (self.bands, self.site.bounds());
         let parts = bands.cut(self.sets.of()).zip(bands.cut(flat(&self.direction)));
         let parts = parts.zip(bands.cut(flat(&self.response)));

@@ -14,7 +14,7 @@ use crate::solver::bounds::Interval;
 use crate::solver::feasible::{Cells, Range, make_feasible, offset_for_sum};
 use crate::solver::residual::Residual;
 use crate::solver::site::Site;
-use crate::solver::watch::go_on;
+use crate::solver::watch::check_stop;
 use crate::solver::{Control, Settings, Stats, TOLERANCE_REDUCTION, finite};
 use crate::units::{Metre, Pascal};
 
@@ -81,24 +81,24 @@ pub(super) struct Answer {
 /// self-influence.
 pub(super) fn solve(
     sites: &[&dyn Site],
-    terms: &Settings,
+    settings: &Settings,
     start: Option<Vec<Field>>,
     compliance_factor: f64,
     tolerance: &dyn Fn(&Residual) -> f64,
     max_convolutions: usize,
 ) -> Result<Answer> {
-    let mut iteration = Iteration::new(sites, terms, start, compliance_factor);
+    let mut iteration = Iteration::new(sites, settings, start, compliance_factor);
     let mut tightening = 1.0;
     let mut state = iteration.residual();
-    if let Some(pressure) = terms.pressure_sum() {
+    if let Some(pressure) = settings.pressure_sum() {
         // The periodic displacement of a uniform pressure is no scale for later displacements.
         let cells: usize = sites.iter().map(|site| site.slab().whole_grid().cells()).sum();
-        state.scale = state.scale.max(terms.self_influence * terms.sum_scale(pressure) / cells as f64);
+        state.scale = state.scale.max(settings.self_influence * settings.sum_scale(pressure) / cells as f64);
     }
     loop {
         let mut wanted = tolerance(&state);
-        terms.watch.iteration(state.eta, wanted);
-        go_on(terms.watch)?;
+        settings.watch.iteration(state.eta, wanted);
+        check_stop(settings.watch)?;
         // A feasible solution without significant rounding is returned unchanged.
         let exact = state.eta < wanted && iteration.rounding() == 0.0 && iteration.is_feasible();
         if exact || state.eta < tightening * wanted {
@@ -131,7 +131,7 @@ pub(super) fn solve(
 }
 
 struct Iteration<'a> {
-    terms: Settings<'a>,
+    settings: Settings<'a>,
     blocks: Vec<Block<'a>>,
     /// The slab of the first block, if its grid is divided among ranks. Several blocks are whole grids.
     slab: Slab,
@@ -156,26 +156,26 @@ struct Iteration<'a> {
 impl<'a> Iteration<'a> {
     fn new(
         sites: &[&'a dyn Site],
-        terms: &Settings<'a>,
+        settings: &Settings<'a>,
         start: Option<Vec<Field>>,
         compliance_factor: f64,
     ) -> Self {
         let cells: usize = sites.iter().map(|site| site.slab().whole_grid().cells()).sum();
         let far = start.is_none();
         let pressures = start.unwrap_or_else(|| {
-            let guess = |site: &&dyn Site| match terms.control {
+            let guess = |site: &&dyn Site| match settings.control {
                 Control::Load(load) => {
-                    Field::from_elem(site.grid().shape, load / terms.cell_area / cells as f64)
+                    Field::from_elem(site.grid().shape, load / settings.cell_area / cells as f64)
                 }
                 Control::Approach(approach) => {
-                    site.initial_gap().mapv(|h| FIRST_PRESSURE * (approach - h) / terms.self_influence)
+                    site.initial_gap().mapv(|h| FIRST_PRESSURE * (approach - h) / settings.self_influence)
                 }
             };
             sites.iter().map(guess).collect()
         });
         let blocks = parallel::tasks(pressures.into_iter().zip(sites), |(p, site)| Block::new(*site, p));
         let mut iteration = Self {
-            terms: *terms,
+            settings: *settings,
             blocks,
             slab: sites[0].slab(),
             free_cells: 0.0,
@@ -188,9 +188,9 @@ impl<'a> Iteration<'a> {
             iterations: 0,
             restarts: 0,
         };
-        make_feasible(&mut iteration, terms);
+        make_feasible(&mut iteration, settings);
         iteration.each(Block::convolve_in_single);
-        if let (true, Control::Approach(approach)) = (far, terms.control) {
+        if let (true, Control::Approach(approach)) = (far, settings.control) {
             iteration.scale_to_least_energy(approach);
         }
         iteration.each(Block::keep_feasible);
@@ -234,7 +234,7 @@ impl<'a> Iteration<'a> {
     /// Returns the mean over the free cells of values with this sum. Under load control a direction without this
     /// mean preserves the load. Returns 0 under approach control.
     fn mean(&self, sum: f64) -> f64 {
-        match self.terms.control {
+        match self.settings.control {
             Control::Load(_) => sum / self.free_cells,
             Control::Approach(_) => 0.0,
         }
@@ -257,13 +257,13 @@ impl<'a> Iteration<'a> {
 
     /// Returns the residual of all blocks, at the prescribed approach or at the multiplier of the load.
     fn residual(&mut self) -> Residual {
-        let terms = self.terms;
-        let approach = match terms.control {
+        let settings = self.settings;
+        let approach = match settings.control {
             Control::Approach(approach) => approach,
             Control::Load(_) => self.merged(|block| block.multiplier()).approach(),
         };
-        let sums = self.merged(|block| block.residual_sums(approach, &terms));
-        sums.residual(approach, terms.self_influence)
+        let sums = self.merged(|block| block.residual_sums(approach, &settings));
+        sums.residual(approach, settings.self_influence)
     }
 
     /// Whether all pressures are within their bounds and carry the load.
@@ -272,14 +272,14 @@ impl<'a> Iteration<'a> {
             return false;
         }
         let [sum] = self.sum(|p, _| [p]);
-        self.terms.bears_the_load(sum)
+        self.settings.carries_the_load(sum)
     }
 
     /// Moves to the nearest feasible pressure, with one convolution. It is in single precision if its error is
     /// below `max_rounding`.
     fn become_feasible(&mut self, max_rounding: Metre) {
-        let terms = self.terms;
-        make_feasible(self, &terms);
+        let settings = self.settings;
+        make_feasible(self, &settings);
         let Largest(rounding) = self.merged(|block| Largest(block.rounding_in_single()));
         if rounding < max_rounding {
             self.each(Block::convolve_in_single);
@@ -327,7 +327,7 @@ impl<'a> Iteration<'a> {
 
     /// Performs one diagonal step along the gap, to a feasible pressure.
     fn step_along_gap(&mut self, approach: Metre) {
-        let compliance = 2.0 * self.terms.self_influence;
+        let compliance = 2.0 * self.settings.self_influence;
         self.each(|block| block.step_along_gap(approach, compliance));
         self.become_feasible(0.0);
     }
@@ -335,12 +335,12 @@ impl<'a> Iteration<'a> {
     /// Predicts the sets by one diagonal Newton step: a cell whose proposed pressure is beyond a bound belongs to
     /// it. Under load control the approach is chosen so that the clipped proposed pressures carry the load.
     fn predict_sets(&mut self, approach: Metre) {
-        let stiffness = 1.0 / (self.compliance_factor * self.terms.self_influence);
-        let terms = self.terms;
-        let offset = match terms.pressure_sum() {
+        let stiffness = 1.0 / (self.compliance_factor * self.settings.self_influence);
+        let settings = self.settings;
+        let offset = match settings.pressure_sum() {
             Some(wanted) => {
                 let range = self.merged(|block| block.propose(approach, stiffness));
-                offset_for_sum(range, wanted, terms.sum_accuracy(wanted), |offset| {
+                offset_for_sum(range, wanted, settings.sum_accuracy(wanted), |offset| {
                     self.merged(|block| block.proposed_sum(offset))
                 })
             }
@@ -367,7 +367,7 @@ impl<'a> Iteration<'a> {
         });
         let (mean, damping) = (self.mean(sum), self.damping);
         let [added, borne] = self.merged(|block| block.direct_free_cells(mean, damping));
-        if let Control::Load(_) = self.terms.control {
+        if let Control::Load(_) = self.settings.control {
             // The load does not change: the free cells take the difference in proportion to their pressures.
             let (each, per_pressure) =
                 if borne > 0.0 { (0.0, added / borne) } else { (added / self.free_cells, 0.0) };
@@ -384,7 +384,7 @@ impl<'a> Iteration<'a> {
     /// Restores the load exactly. The rounding of the directions causes errors of the same order in the load as
     /// in the displacement.
     fn restore_the_sum(&mut self) {
-        let Some(wanted) = self.terms.pressure_sum() else { return };
+        let Some(wanted) = self.settings.pressure_sum() else { return };
         let [sum] = self.sum(|p, _| [p]);
         let pressure = (wanted - sum) / self.free_cells;
         self.each(|block| block.add_to_free_cells(pressure));
@@ -394,14 +394,14 @@ impl<'a> Iteration<'a> {
     /// the residual. Returns both norms.
     fn conjugate_gradients(&mut self, state: Residual, wanted: f64) -> ResidualNorms {
         let [sum] = self.merged(|block| [block.reset_direction()]);
-        let mut datum = match self.terms.control {
+        let mut datum = match self.settings.control {
             Control::Approach(approach) => approach,
             Control::Load(_) => self.mean(sum),
         };
         let mut left = self.step_along_direction(0.0, datum);
         let mut product_before = f64::INFINITY;
         for _ in 0..MAX_CG_STEPS {
-            if self.terms.watch.stop() {
+            if self.settings.watch.stop() {
                 break;
             }
             let [sum, drift, product] = self.merged(Block::precondition);
@@ -430,8 +430,8 @@ impl<'a> Iteration<'a> {
 
     /// Moves along the direction. Returns the norms of residual and violation: roots of the sums of squares.
     fn step_along_direction(&mut self, step: f64, datum: Metre) -> ResidualNorms {
-        let terms = self.terms;
-        let sums = self.merged(|block| block.step_along_direction(step, datum, &terms));
+        let settings = self.settings;
+        let sums = self.merged(|block| block.step_along_direction(step, datum, &settings));
         ResidualNorms { residual: sums.residual.sqrt(), violation: sums.violation.sqrt(), ..sums }
     }
 
@@ -473,7 +473,7 @@ impl<'a> Iteration<'a> {
 
     /// Returns the step in [0, 1] from the last feasible pressure to the present one with the least energy.
     fn line_search(&mut self, approach: Metre) -> f64 {
-        let datum = match self.terms.control {
+        let datum = match self.settings.control {
             Control::Load(_) => 0.0,
             Control::Approach(_) => approach,
         };

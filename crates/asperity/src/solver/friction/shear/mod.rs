@@ -9,7 +9,7 @@ use crate::grid::Field;
 use crate::operator::CoupledOperator;
 use crate::solver::friction::disc::{Vector, add, dot, length, minus, times};
 use crate::solver::friction::transport::History;
-use crate::solver::watch::go_on;
+use crate::solver::watch::check_stop;
 use crate::solver::{Stats, TOLERANCE_REDUCTION, Watch};
 use crate::units::{Metre, SquareMetre};
 
@@ -148,7 +148,7 @@ impl Method for ShearSolver {
         let (mut best, mut stagnations, mut factor, mut tightening): (f64, usize, f64, f64) =
             (f64::INFINITY, 0, COMPLIANCE_FACTOR, 1.0);
         loop {
-            go_on(watch)?;
+            check_stop(watch)?;
             state.find_rigid_displacement(self.influence.compliance);
             let mut residual = state.residual(self.influence.compliance) / task.scale;
             let feasible = residual < tightening * task.tolerance;

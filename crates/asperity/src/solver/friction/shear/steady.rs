@@ -10,7 +10,7 @@ use crate::solver::friction::shear::influence::{Influence, at};
 use crate::solver::friction::shear::state::{Freedom, State};
 use crate::solver::friction::shear::{Answer, Method, PROGRESS, Task};
 use crate::solver::friction::transport::{ShiftByCell, SteadyMethod};
-use crate::solver::watch::go_on;
+use crate::solver::watch::check_stop;
 use crate::solver::{Stats, TOLERANCE_REDUCTION, Watch};
 use crate::units::SquareMetre;
 
@@ -159,7 +159,7 @@ impl SteadySolver {
         self.mark_unyielding(&mut state);
         let (mut best, mut last, mut stagnations, mut tightening) = (f64::INFINITY, f64::INFINITY, 0, 1.0);
         loop {
-            go_on(contact.watch)?;
+            check_stop(contact.watch)?;
             let mut residual = state.relative_residual(compliance);
             if residual < tightening * task.tolerance {
                 if state.project() {
@@ -266,7 +266,7 @@ impl SteadySolver {
         let before = state.clone();
         let (mut best, mut stagnations) = (state.relative_residual(compliance), 0);
         while stagnations <= MAX_STAGNATIONS && !self.has_cost_too_much(contact) {
-            go_on(contact.watch)?;
+            check_stop(contact.watch)?;
             if !self.newton_step(operator, state, &contact.coming, PROXIMAL_NEWTON_REDUCTION) {
                 break;
             }
@@ -285,7 +285,7 @@ impl SteadySolver {
             return Ok(false);
         }
         for _ in 0..MAX_PROJECTED_STEPS {
-            go_on(contact.watch)?;
+            check_stop(contact.watch)?;
             state.take_projected(compliance);
             self.respond(operator, state);
             state.find_rigid_displacement(compliance);
