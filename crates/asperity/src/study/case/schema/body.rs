@@ -22,10 +22,10 @@ pub(in crate::study) mod both {
             "young",
             quantity(Dimension::Pressure, AboveZeroOrInfinite("a rigid body")),
             "\"210 GPa\"",
-            "Young's modulus; of a coated body, that of the material under the coating; at most one body without a coating is rigid",
+            "Young's modulus; for a coated body, the modulus below the coating; at most one uncoated body may be rigid",
         );
         POISSON: Typed<f64> =
-            required("poisson", RATIO, "0.3", "Poisson's ratio; of a coated body, that of the material under the coating");
+            required("poisson", RATIO, "0.3", "Poisson's ratio; for a coated body, the ratio below the coating");
         HARDNESS: Typed<Hardness> = super::super::typed::defaulted(
             "hardness",
             other(
@@ -38,32 +38,32 @@ pub(in crate::study) mod both {
             "largest pressure of the body, or a map of it",
         );
         COATING: Nested =
-            table("coating", Absent("none"), "an elastic layer that covers it, see [below](#lowercoating-and-uppercoating)");
+            table("coating", Absent("none"), "elastic surface layer, see [below](#lowercoating-and-uppercoating)");
         TOPOGRAPHY: Nested = table("topography", Required, "its surface");
-        WEAR: Nested = table("wear", Absent("none"), "how it wears, see [below](#running-in)");
-        FILM: Nested = table("film", Absent("none"), "the tribofilm that grows on it, see [below](#running-in)");
+        WEAR: Nested = table("wear", Absent("none"), "wear law, see [below](#running-in)");
+        FILM: Nested = table("film", Absent("none"), "growing tribofilm, see [below](#running-in)");
         PLASTICITY: Nested =
-            table("plasticity", Absent("elastic"), "how it deforms plastically below its surface, see [below](#plasticity)");
+            table("plasticity", Absent("elastic"), "plastic deformation below the surface, see [below](#plasticity)");
         CONDUCTIVITY: Optional<f64> = optional(
             "conductivity",
             quantity(Dimension::Conductivity, AboveZero),
-            "not known",
+            "unknown",
             "\"46 W/(m K)\"",
-            "thermal conductivity, for a flash temperature; of both bodies",
+            "thermal conductivity, for the flash temperature; give it for both bodies",
         );
         HEAT_CAPACITY: Optional<f64> = optional(
             "heat_capacity",
             quantity(Dimension::HeatCapacity, AboveZero),
-            "not known",
+            "unknown",
             "\"460 J/(kg K)\"",
-            "heat capacity, beside `conductivity`",
+            "heat capacity; required with `conductivity`",
         );
         DENSITY: Optional<f64> = optional(
             "density",
             quantity(Dimension::Density, AboveZero),
-            "not known",
+            "unknown",
             "\"7850 kg/m3\"",
-            "density, beside `conductivity`",
+            "density; required with `conductivity`",
         );
     }
 }
@@ -77,7 +77,7 @@ pub(in crate::study) mod upper {
         MOUNT: Optional<Mount> = optional(
             "mount",
             choice::<Mount>(),
-            "`\"turned-over\"`; `\"as-is\"` of an underside",
+            "`\"turned-over\"`; `\"as-is\"` for an underside",
             "\"as-is\"",
             "`[upper]` only: orientation of its heights",
         );
@@ -90,7 +90,7 @@ pub(in crate::study) mod coating {
 
     section! { &["lower.coating", "upper.coating"], "";
         THICKNESS: Typed<f64> = required("thickness", LENGTH, "\"2 um\"", "thickness of the layer");
-        YOUNG: Typed<f64> = required("young", PRESSURE, "\"300 GPa\"", "its Young's modulus");
-        POISSON: Typed<f64> = required("poisson", RATIO, "0.3", "its Poisson's ratio");
+        YOUNG: Typed<f64> = required("young", PRESSURE, "\"300 GPa\"", "Young's modulus of the layer");
+        POISSON: Typed<f64> = required("poisson", RATIO, "0.3", "Poisson's ratio of the layer");
     }
 }
