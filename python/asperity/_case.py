@@ -53,7 +53,7 @@ def threads(count: int | None) -> int:
 
 
 def execution(options: Mapping[str, Any]) -> tuple[int, str]:
-    """Number of threads, and what becomes of results that are there already."""
+    """Number of threads, and the treatment of existing results."""
     count = threads(options["threads"])
     if options["resume"] and options["overwrite"]:
         raise bad_input("resume", "'resume' and 'overwrite' are both given, expected one of them")

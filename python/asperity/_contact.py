@@ -67,7 +67,7 @@ class Contact(Comparable):
     tangential_force : list of float
         Tangential force of the upper body on the lower one along x and y, N.
     tangential_displacement : list of float
-        Tangential displacement of the upper body against the lower one along x and y, m.
+        Tangential displacement of the upper body relative to the lower one along x and y, m.
     force_ratio : float
         Magnitude of the tangential force over the load.
     friction_coefficient : float or None
@@ -196,7 +196,7 @@ class Contact(Comparable):
 
     @property
     def displacement(self) -> NDArray[np.float64]:
-        """Sum of the normal displacements of both bodies, positive where it opens the gap, m."""
+        """Sum of the normal displacements of both bodies, positive if it opens the gap, m."""
         return self.fields["displacement"].values
 
     @property
@@ -378,7 +378,7 @@ def slide(
     upper_material: Material | None = None,
     **options: Unpack[SlideKeywords],
 ) -> Contact:
-    """Slide and wear two bodies in place: the same cells stay in contact, as of a ball on a disc or a punch.
+    """Slide and wear two bodies in place: the same cells stay in contact, as for a ball on a disc or a punch.
 
     Parameters
     ----------
@@ -419,7 +419,7 @@ def _solved(pair: tuple[Body, Body], keywords: Any, options: Mapping[str, Any]) 
         written = {key: options.get(key) for key in ("subsurface", "paraview")}
         for key, value in {**written, "resume": options["resume"] or None}.items():
             if value is not None:
-                message = f"'{key}' is given without 'out', the directory for what it writes"
+                message = f"'{key}' needs 'out', the directory for its files"
                 raise bad_input(key, message)
         with Teller(options["progress"]) as tell:
             found = _core.rest(case, handed.given, count, tell)

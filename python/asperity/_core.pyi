@@ -259,7 +259,7 @@ def quantity(key: str, value: Any, dimension: str, positive: bool = True, infini
 
 def rest(source: dict | str | PathLike[str], handed: Incomplete, threads: SupportsIndex, progress: Any | None) -> dict:
     """
-    Computes a contact at rest.
+    Computes a static contact.
     """
 
 def run(source: dict | str | PathLike[str], handed: Incomplete, directory: str | PathLike[str], existing: str, threads: SupportsIndex, progress: Any | None) -> None:

@@ -30,7 +30,7 @@ _COLOURS = {
 """Nine colours of each map, at even distances."""
 
 _MAX_FAILURES = 5
-"""Failures of a study that are told."""
+"""Largest number of failures of a study that are shown."""
 
 _SIDE = 160
 """Most pixels along a side of a map."""
@@ -49,7 +49,7 @@ def _png(pixels: NDArray[np.uint8]) -> bytes:
 
 
 def _averaged(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Means over squares of cells, so many that neither side has more than `_SIDE`; of the cells that have a value."""
+    """Means over squares of cells with values, with at most `_SIDE` squares along each side."""
     step = -(-max(values.shape) // _SIDE)
     if step == 1:
         return values

@@ -1,4 +1,4 @@
-"""The keywords of contacts and motions: each once, with its type, its table in a case and its meaning.
+"""Keywords of contacts and motions, each with its type, its table in a case and its meaning.
 
 The table is empty for a key at the top of a case. A keyword without a table says how a case is computed.
 """
@@ -18,7 +18,7 @@ from ._progress import Told
 from ._units import Quantity
 
 Boundary = Literal["free", "periodic"]
-"""The surroundings beyond an edge of the grid."""
+"""Boundary of the grid."""
 
 
 # fmt: off
@@ -27,17 +27,17 @@ class Common(TypedDict, total=False):
 
     load: Annotated[Quantity | None, "contact", "Normal force, above 0, N. Give one of `load`, `mean_pressure` and `approach`."]
     mean_pressure: Annotated[Quantity | None, "contact", "Normal force over the area of all cells, above 0, Pa."]
-    approach: Annotated[Quantity | None, "contact", "Approach of the bodies from the heights as they are, m."]
+    approach: Annotated[Quantity | None, "contact", "Approach of the bodies, from the heights without a shift, m."]
     boundary: Annotated[Boundary | Sequence[Boundary] | None, "contact",
-        'The surroundings of the grid: ``"free"`` (by default) or ``"periodic"``, for both axes or for each.']
+        'Boundary of the grid: ``"free"`` (by default) or ``"periodic"``, for both axes or for each axis.']
     grid: Annotated[Literal["as-prepared", "common"] | None, "contact",
         '``"common"`` resamples both surfaces to the coarser pitch and crops them to a common size; ``"as-prepared"`` by default.']
     method: Annotated[Literal["auto", "active-set", "polonsky-keer", "direct"] | None, "contact",
-        'Solver: ``"auto"`` (by default), ``"active-set"``, ``"polonsky-keer"`` or ``"direct"``. All give the same answer.']
+        'Solver: ``"auto"`` (by default), ``"active-set"``, ``"polonsky-keer"`` or ``"direct"``. All give the same result.']
     tolerance: Annotated[float | None, "contact", "Residual at which the solver stops, above 0, below 1; 1e-6 by default."]
     friction: Annotated[float | keys.Friction | None, "",
         "The coefficient, or a table with `coefficient`, `coupling`, `shear_strength` and `junction_growth`. In a motion and in "
-        "place the upper body slides. A static contact also takes `force`, `displacement` or `sliding`, and `increments`; "
+        "wear in place the upper body slides. A static contact also takes `force`, `displacement` or `sliding`, and `increments`; "
         "steady rolling takes `creepage`, `creepages` or `rolling_force`, and `spin`."]
 
 
@@ -50,30 +50,30 @@ class Rest(TypedDict, total=False):
     approaches: Annotated[Sequence[Quantity] | None, "contact",
         "Approaches of a sweep in place of `approach`, each on virgin bodies, m."]
     history: Annotated[Sequence[keys.Stage] | None, "",
-        "Stages of the loading after the first. Everything that a stage does not name stays as it was."]
+        "Stages of the loading after the first. Quantities that a stage does not name do not change."]
     plasticity: Annotated[keys.Plasticity | None, "",
         "The plastic volume, for bodies with a :class:`Plasticity`: `depth`, `layers`, `growth`, `increments`, "
         "`tolerance`, `unload`."]
     subsurface: Annotated[keys.Subsurface | None, "",
-        "The stress under the surface that is written to `out`: `to`, `layers`, `planes` and others."
+        "The stress below the surface, written to `out`: `to`, `layers`, `planes` and others."
         " Without `out`, :func:`asperity.stress` computes stresses."]
     pressure_every: Annotated[int | None, "output",
-        "In a sweep, the fields of every n-th point are kept; 0 keeps none, 8 by default."]
+        "In a sweep, the fields of every n-th point are stored; 0 stores none, 8 by default."]
 
 
 class Distance(TypedDict):
-    """The keyword that sliding in place requires."""
+    """The keyword that wear in place requires."""
 
-    distance: Annotated[Quantity, "sliding", "Distance slid, above 0, m."]
+    distance: Annotated[Quantity, "sliding", "Sliding distance, above 0, m."]
 
 
 class Sliding(TypedDict, total=False):
-    """Keywords of sliding in place."""
+    """Keywords of wear in place."""
 
     speed: Annotated[Quantity | None, "sliding",
-        "Speed of the upper body, above 0, m/s, if films grow or bodies are heated."]
+        "Speed of the upper body, above 0, m/s; required for growing films and temperature."]
     updates: Annotated[int | None, "sliding",
-        "Number of implicit updates, each a contact solved on the bodies as it leaves them; 40 by default."]
+        "Number of implicit updates, each a contact with the wear during it; 40 by default."]
     temperature: Annotated[keys.Temperature | None, "",
         '`bulk`, K or text such as ``"100 °C"``, and `every`: 1 if friction heats the bodies, 0 if not.']
 
@@ -84,25 +84,25 @@ class Motion(TypedDict, total=False):
     passes: Annotated[int | None, "motion", "Number of passes; 1 by default."]
     stride: Annotated[int | None, "motion", "Cells from one position to the next; 1 by default."]
     strategy: Annotated[Literal["overlap", "shift"] | None, "motion",
-        '``"overlap"`` (by default) solves only the cells that face each other; ``"shift"`` shifts both surfaces circularly.']
+        '``"overlap"`` (by default) solves only the overlap; ``"shift"`` shifts both surfaces cyclically.']
     speed_lower: Annotated[Quantity | None, "motion",
         "Speed of the lower surface in a shift, m/s; 0 by default. Only the ratio of both speeds matters. The slower surface "
         "moves by parts of a cell."]
     speed_upper: Annotated[Quantity | None, "motion", "Speed of the upper surface in a shift, m/s; 1 by default."]
     control: Annotated[Literal["pass-load", "step-load", "approach"] | None, "motion",
-        'Where the load holds: ``"pass-load"`` in the mean over a pass (by default), ``"step-load"`` at every position. '
-        '``"approach"`` holds the approach.']
+        'Prescribed quantity: ``"pass-load"`` the mean load of a pass (by default), ``"step-load"`` the load at every position, '
+        '``"approach"`` the approach.']
     plastic_update: Annotated[Literal["pass", "step"] | None, "motion",
         'When plastic deformation changes the surfaces: after the ``"pass"``, or at every ``"step"``.']
     load_tolerance: Annotated[float | None, "motion",
-        "Relative tolerance on the mean load of a pass, above 0, below 1; 1e-4 by default."]
+        "Relative tolerance of the mean load of a pass, above 0, below 1; 1e-4 by default."]
     speed: Annotated[Quantity | None, "motion",
-        "Speed of the upper body in an overlap, above 0, m/s, if bodies wear, grow films or are heated."]
+        "Speed of the upper body in an overlap, above 0, m/s; required for wear, films and temperature."]
     path: Annotated[Literal["one-way", "reciprocating"] | None, "motion",
-        'A pass goes ``"one-way"`` (by default), or there and back: ``"reciprocating"``.']
+        'A pass goes ``"one-way"`` (by default), or forth and back: ``"reciprocating"``.']
     offset_y: Annotated[int | Literal["random"] | None, "motion",
-        'Cells by which the upper body lies further along y in each pass than in the one before; 0 by default. ``"random"`` '
-        "draws its place from the `seed` and the number of the pass."]
+        'Shift of the upper body along y from pass to pass, in cells; 0 by default. ``"random"`` '
+        "is a random position, from the `seed` and the number of the pass."]
     seed: Annotated[int | None, "motion", 'Seed of ``offset_y="random"``; 0 by default.']
     counter: Annotated[Literal["same", "fresh"] | None, "motion",
         'The upper body of the passes after the first: the ``"same"`` (by default), or a ``"fresh"`` one, made by its '
@@ -117,8 +117,8 @@ class Motion(TypedDict, total=False):
         "The plastic volume, for bodies with a :class:`Plasticity`: `depth`, `layers`, `growth`, "
         "`tolerance`, `keep`."]
     subsurface: Annotated[keys.Subsurface | None, "",
-        "The stress under the surface that is computed: `to`, `layers` and others."]
-    pressure_every: Annotated[int | None, "output", "The pressures of every n-th position are kept; 0 keeps none, 8 by default."]
+        "The stress below the surface: `to`, `layers` and others."]
+    pressure_every: Annotated[int | None, "output", "The pressures of every n-th position are stored; 0 stores none, 8 by default."]
     rim: Annotated[float | None, "output",
         "Part of a body's length at free ends that the columns of its interior leave out; 0.1 by default."]
 
@@ -136,7 +136,7 @@ class Output(TypedDict, total=False):
 class Execution(TypedDict, total=False):
     """Keywords of a computation."""
 
-    resume: Annotated[bool, "Go on from interrupted results in `out`; a motion goes on after its last pass."]
+    resume: Annotated[bool, "Continue from interrupted results in `out`; a motion continues after its last pass."]
     overwrite: Annotated[bool, "Replace the results in `out`."]
     threads: Annotated[int | None, "Number of threads that share the work; one for each core by default."]
     progress: Annotated[Told,
@@ -147,13 +147,13 @@ class Tasks(TypedDict, total=False):
     """Keywords of the computation of a study."""
 
     task: Annotated[tuple[int, int] | None,
-        "Compute only a share of the cases: ``(3, 40)`` is the third case and every fortieth after it."]
+        "Compute only a part of the cases: ``(3, 40)`` is the third case and every fortieth after it."]
     retry: Annotated[bool, "Compute failed cases again."]
     threads: Annotated[int | None,
         "Number of cases at a time; one for each core by default. If fewer are left, each gets several threads."]
     progress: Annotated[Told,
         "Whether a progress bar is shown, if tqdm is installed; or a function that is called with each :class:`Progress`, "
-        "whose positions are the cases that were left."]
+        "whose positions are the remaining cases."]
 
 
 # fmt: on
@@ -218,7 +218,7 @@ def takes(keywords: Any) -> Callable[[Function], Function]:
 
 
 def _meant(key: str, known: list[str]) -> str:
-    """A guess at the keyword that was meant, as Python makes it."""
+    """A suggestion for a misspelled keyword."""
     import difflib
 
     close = difflib.get_close_matches(key, known, 1)
@@ -233,7 +233,7 @@ def _row(key: str, annotation: Any) -> str:
 
 
 def _words(kind: Any) -> str:
-    """A type as docstrings write it: ``float or str``."""
+    """The name of a type in docstrings: ``float or str``."""
     if get_origin(kind) in (Union, UnionType):
         return " or ".join(_words(member) for member in get_args(kind) if member is not NoneType)
     if get_origin(kind) is Literal:

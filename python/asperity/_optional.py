@@ -7,7 +7,7 @@ from typing import Any
 
 
 def need(module: str, purpose: str) -> Any:
-    """Import a module, or say what installs it."""
+    """Import a module, or raise an error that says how to install it."""
     try:
         return importlib.import_module(module)
     except ImportError as error:

@@ -37,7 +37,7 @@ def masked(values: NDArray[np.float64], factor: float, colours: Look) -> Any:
 
 
 def map_of(ax: Any, values: Any, colours: Look, factor: float, options: dict[str, Any]) -> Any:
-    """A map on axes whose background is the colour of what is left out: zeros white, NaN grey."""
+    """A map on axes whose background shows omitted cells: zeros white, NaN grey."""
     matplotlib = need("matplotlib", "plot()")
     ax.set_facecolor(MISSING if colours.blank is None else "white")
     name = options.pop("cmap", colours.colours)

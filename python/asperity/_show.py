@@ -17,7 +17,7 @@ _PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
 
 class Scale(NamedTuple):
-    """A unit that suits some numbers: what they are multiplied by, and its name."""
+    """A suitable unit of some numbers: its factor and its name."""
 
     factor: float
     unit: str
@@ -51,7 +51,7 @@ _NAMES = {
     "heights": "height",
     "plastic": "plastic interference",
     "stick": "stick",
-    "cap": "most pressure that a cell bears",
+    "cap": "largest pressure of a cell",
     "section_von_mises": "von Mises stress",
 }
 
@@ -79,7 +79,7 @@ def words(name: str) -> str:
 
 
 class Look(NamedTuple):
-    """How a field is coloured: a map of colours and its ends; what is not above `blank` in magnitude is left white."""
+    """Colours of a field: a colour map and its range; magnitudes up to `blank` are white."""
 
     colours: str
     low: float
@@ -96,8 +96,8 @@ class Look(NamedTuple):
 def look(name: str, values: NDArray[np.float64]) -> Look:
     """How a field of this name is coloured.
 
-    Pressures and what else is zero out of contact go from zero, and are white there; heights, gaps and displacements from the
-    least to the largest value; what has a sign has zero in the middle.
+    Pressures and other fields that are zero without contact begin at zero, which is white. Heights, gaps and displacements go
+    from the smallest to the largest value. Signed fields have zero in the middle.
     """
     finite = values[np.isfinite(values)]
     if finite.size == 0:
@@ -106,7 +106,7 @@ def look(name: str, values: NDArray[np.float64]) -> Look:
     if re.match(r"(mean_)?pressure|plastic|stick|cap|(section_)?von_mises", name):
         return Look("viridis", 0.0, high or 1.0, None if "von_mises" in name else 0.0)
     if name == "gap":
-        # Where bodies touch it is 0 within the residual of the solver, or below that by what has yielded.
+        # In contact it is 0 within the residual of the solver, or negative by the plastic interference.
         high = max(high, 0.0) or 1.0
         return Look("viridis", 0.0, high, 1e-4 * high)
     if re.match(r"traction|slip|section|column|displacement_[xy]", name) and low < 0.0:

@@ -1,4 +1,4 @@
-"""A directory that is gone with what uses it."""
+"""A directory that is removed with its user."""
 
 from __future__ import annotations
 

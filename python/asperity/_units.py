@@ -42,7 +42,7 @@ def lengths(key: str, value: Pair) -> tuple[float, float]:
 
 
 def number(key: str, value: Any, expected: str, least: float, most: float = math.inf) -> float:
-    """A number without a unit within bounds; mistakes name the `key` and what was `expected`."""
+    """A number without a unit within bounds; errors name the `key` and the `expected` value."""
     try:
         found = float(value)
     except (TypeError, ValueError):
@@ -53,7 +53,7 @@ def number(key: str, value: Any, expected: str, least: float, most: float = math
 
 
 def whole(key: str, value: Any, least: int, instead: str = "", most: int | None = None) -> int:
-    """A whole number of at least `least`, at most `most`; `instead` says what else would do."""
+    """A whole number from `least` to `most`; `instead` names other accepted values."""
     try:
         found = None if isinstance(value, (bool, np.bool_)) else int(value.__index__())
     except (AttributeError, TypeError):
@@ -70,7 +70,7 @@ def path(key: str, value: Any) -> str:
     Raises
     ------
     TypeError
-        For what is neither a text nor a path, such as bytes.
+        If the value is neither a text nor a path, such as bytes.
     """
     found = os.fspath(value) if isinstance(value, (str, os.PathLike)) else None
     if not isinstance(found, str):

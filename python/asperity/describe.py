@@ -385,7 +385,7 @@ class Profile(Comparable):
         return self._filtered("roughness", cutoff)
 
     def parameters(self) -> Parameters:
-        """Return the ISO 21920 parameters of this profile. Those of the roughness belong to the profile of :meth:`roughness`."""
+        """Return the ISO 21920 parameters of this profile. Call :meth:`roughness` first for roughness parameters."""
         return Parameters(_core.line_parameters(self._line()))
 
     def bearing_curve(self) -> BearingCurve:

@@ -66,7 +66,7 @@ class Friction(_Law, total=False):
 
 
 class Stage(TypedDict, total=False):
-    """Keys of a stage of ``history``. Everything that a stage does not name stays as it was.
+    """Keys of a stage of ``history``. Quantities that a stage does not name do not change.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ class Stage(TypedDict, total=False):
     force : float, str or pair of them
         Tangential force of the upper body on the lower one, N.
     displacement : float, str or pair of them
-        Tangential displacement of the upper body against the lower one, m.
+        Tangential displacement of the upper body relative to the lower one, m.
     sliding : pair of float
         Direction in which the upper body slides, of any length.
     increments : int
@@ -133,7 +133,7 @@ class _Depth(TypedDict):
 
 
 class Subsurface(_Depth, total=False):
-    """Keys of ``subsurface``: the stress under the surface of one body.
+    """Keys of ``subsurface``: the stress below the surface of one body.
 
     Attributes
     ----------

@@ -302,7 +302,7 @@ class HertzEllipse(_Form):
 class Cone(_Form):
     """Frictionless indentation by a blunt cone, h = r tan θ, θ the angle between its flank and the plane.
 
-    δ = ½π a tan θ,  W = ½π a² E* tan θ,  p = ½E* tan θ acosh(a/r). The theory of the half-space wants tan θ ≪ 1.
+    δ = ½π a tan θ,  W = ½π a² E* tan θ,  p = ½E* tan θ acosh(a/r). The half-space theory requires tan θ ≪ 1.
 
     Parameters
     ----------
@@ -547,7 +547,7 @@ class MindlinDeresiewicz(_Form):
         self.tangential_load = _within("tangential_load", self.tangential_load, "N", -most, most)
 
     def stick_radius(self) -> float:
-        """Radius of what has not slipped back, a (1 − (Q* − Q)/2μW)^(1/3), m."""
+        """Radius of the region without reverse slip, a (1 − (Q* − Q)/2μW)^(1/3), m."""
         return float(self._ask("stick_radius"))
 
     def displacement(self) -> float:

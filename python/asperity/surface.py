@@ -73,7 +73,7 @@ class Surface(Comparable):
     Notes
     -----
     The steps of the preparation (:meth:`window` to :meth:`taper`, :meth:`plus`) act in the order of the case file, whatever the order
-    of the calls: the part to keep, spikes, holes, form, direction, waves, grid, rim. If a step is called a second time, the
+    of the calls: part to keep, spikes, holes, form, direction, waves, grid, rim. If a step is called a second time, the
     preparation starts again from the heights of all steps so far.
 
     Examples
@@ -465,7 +465,7 @@ def read(
     unit: Quantity | None = None,
     pitch: Pair | None = None,
 ) -> Surface:
-    """Read a topography. The content of the file tells its format, one of thirty.
+    """Read a topography. The format, one of thirty, is detected from the content of the file.
 
     Parameters
     ----------

@@ -114,7 +114,7 @@ def verify(*names: str, threads: int | None = None, progress: Told = True) -> Ve
     threads : int, optional
         Threads that share the work; one for each core by default.
     progress : bool or callable
-        Whether a bar shows how far it is, where tqdm is installed; or what is called with a :class:`Progress`, whose
+        Whether a progress bar is shown, if tqdm is installed; or a function that is called with a :class:`Progress`, whose
         positions are the cases.
 
     Returns

@@ -79,7 +79,7 @@ def test_damaged_results_raise_an_error_that_names_the_file(kind: str, tmp_path:
                 everything(out)
             except errors.AsperityError as error:
                 refused.add(str(file))
-                # Without a summary it is a run under way, which a contact at rest has to finish.
+                # Without a summary it is a run under way, which a static contact has to finish.
                 is_named = file.name in str(error) or (str(file) == "summary.json" and how == "removed")
                 assert is_named, f"{file} {how}: {error}"
             finally:

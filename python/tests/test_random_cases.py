@@ -116,7 +116,7 @@ def hold_pictures(out: pathlib.Path) -> None:
 
 
 def hold_rest(case: RandomCase, results: Results) -> None:
-    """Load, bounds and complementarity of a contact at rest, and its displacement by an independent sum."""
+    """Load, bounds and complementarity of a static contact, and its displacement by an independent sum."""
     static = results.summary.get("static") or results.summary["sweep"][-1]
     fields, attributes = results.fields["fields.h5"]
     pressure, displacement, gap = fields["pressure"], fields["displacement"], fields["gap"]

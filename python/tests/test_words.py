@@ -7,8 +7,12 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PAGES = [page for page in [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")] if page.exists()]
-# These record the history of the code, or are written for its developers.
-SPARED = {"CHANGELOG.md", "ARCHITECTURE.md", "STYLE.md", "docs/notes.md", "docs/theory.md"}
+# This page records the history of the code.
+SPARED = {"CHANGELOG.md"}
+
+SOURCES = sorted(ROOT.glob("crates/*/src/**/*.rs"))
+# A comment of these kinds has no subject, or does not stand alone.
+NOT_ALONE = re.compile(r"^\s*//[/!]? (?:What|That|Of|Those|Which|The same with|As (?:of|that|those|\[)) ", re.MULTILINE)
 
 NOT_ENGLISH = {
     r"(?:^|[.:!?] )(?:Of|Those of|The same with|That of|That is) ": "begins without its subject",
@@ -42,6 +46,24 @@ def test_a_page_is_in_plain_english(page):
         for match in re.finditer(pattern, paragraph)
     ]
     assert not found, "\n".join(found)
+
+
+@pytest.mark.parametrize("crate", sorted({source.relative_to(ROOT).parts[1] for source in SOURCES}))
+def test_a_comment_stands_alone(crate):
+    # Pages and figures of the command are still to be rewritten.
+    later = [ROOT / "crates/asperity-cli/src" / part for part in ("page", "figures", "draw")]
+    found = [
+        f"{source.relative_to(ROOT)}: {match.group().strip()} …"
+        for source in SOURCES
+        if source.relative_to(ROOT).parts[1] == crate and not any(part in source.parents for part in later)
+        for match in NOT_ALONE.finditer(source.read_text(encoding="utf-8"))
+    ]
+    assert not found, "\n".join(found)
+
+
+def test_a_comment_that_does_not_stand_alone_is_found():
+    assert NOT_ALONE.search("    /// What a cell bears.") and NOT_ALONE.search("//! Of the cells one.")
+    assert not NOT_ALONE.search("/// Offset of the cells.\n// A cell of that kind")
 
 
 def test_a_crude_mistake_is_found():

@@ -156,7 +156,7 @@ fn contact(case: &Case, estimate: &Estimate) -> String {
     text
 }
 
-/// The loads or approaches of a sweep.
+/// Describes the loads or approaches of a sweep.
 fn swept(points: &[Point]) -> String {
     let value = |point: &Point| match point.control {
         Control::Load(value) | Control::Approach(value) => value,
@@ -237,7 +237,7 @@ fn friction(friction: &Friction, estimate: &Estimate) -> String {
     }
 }
 
-/// How the points of a sweep roll: all alike, or from one creepage to another.
+/// Describes the rolling of a sweep: one creepage for all points, or a range.
 fn rolling_through(points: &[Point]) -> String {
     let [Some(first), Some(last)] = [points[0].rolling, points[points.len() - 1].rolling] else {
         return String::new();
@@ -301,7 +301,7 @@ fn time(demand: &Demand) -> String {
     )
 }
 
-/// Wear, films, heat and extrapolation, a row for each that the case has.
+/// Describes wear, films, heat and extrapolation, with a row for each in the case.
 fn laws(case: &Case, demand: &Demand) -> Vec<(&'static str, String)> {
     let bodies = [("lower", &case.lower), ("upper", &case.upper)];
     let of_bodies = |describe: &dyn Fn(&Body) -> Option<String>| {

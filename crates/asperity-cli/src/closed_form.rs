@@ -3,7 +3,7 @@
 use asperity::study::{ClosedForm, ClosedFormRecord};
 use asperity::units::{Dimension, Metre, Pascal, format};
 
-/// Describes the closed form that is expected of a contact.
+/// Describes the expected closed form of a contact.
 pub(crate) fn expected(form: &ClosedForm) -> String {
     format!("{}, {}", form.theory, values(form.half_widths, form.max_pressure, form.approach))
 }
@@ -13,7 +13,7 @@ pub(crate) fn computed(record: &ClosedFormRecord) -> String {
     values(record.theory_half_widths, record.theory_max_pressure, record.theory_approach)
 }
 
-/// Describes by how much the computed contact deviates from its closed form.
+/// Describes the deviation of the computed contact from its closed form.
 pub(crate) fn deviations(record: &ClosedFormRecord) -> String {
     let of = [
         ("area", Some(record.contact_area_deviation)),
@@ -21,7 +21,7 @@ pub(crate) fn deviations(record: &ClosedFormRecord) -> String {
         ("approach", record.approach_deviation),
     ];
     let shown = of.into_iter().filter_map(|(name, deviation)| Some((name, 100.0 * deviation?)));
-    // No sign of a zero that is left by rounding.
+    // A zero after rounding has no sign.
     let rounded = |percent: f64| (100.0 * percent).round() / 100.0 + 0.0;
     shown.map(|(name, percent)| format!("{name} {:+.2} %", rounded(percent))).collect::<Vec<_>>().join(", ")
 }

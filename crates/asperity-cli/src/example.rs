@@ -1,4 +1,4 @@
-//! `asperity example`: cases to start from, part of the program.
+//! `asperity example`: cases to start from, embedded in the program.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -17,7 +17,7 @@ struct ExampleFiles {
     files: &'static [(&'static str, &'static [u8])],
 }
 
-/// The study of an example that has one.
+/// The study file of an example, if it has one.
 const STUDY: &str = "load.toml";
 
 /// The examples that the command writes.
@@ -90,7 +90,7 @@ pub(crate) fn example(arguments: &Example) -> Outcome {
     print(&paths.iter().map(|path| format!("{}\n", path.display())).collect::<String>())
 }
 
-/// Writes the example `name` into `folder`, over what is there of it, and returns the path of its case file.
+/// Writes the example `name` into `folder`, over existing files, and returns the path of its case file.
 pub(crate) fn unpack(name: &str, folder: &Path) -> Outcome<PathBuf> {
     write(kit(name)?, folder)?;
     Ok(folder.join("case.toml"))

@@ -1,8 +1,8 @@
-//! Numbers as tables, page and figures write them: four digits, and one unit for those that stand together.
+//! Format of numbers in tables, page and figures: four digits, and a common unit for adjacent numbers.
 
 use asperity::units::{Dimension, Multiple};
 
-/// Writes a number with four significant digits and their zeros, as numbers below each other have them; `–` for NaN.
+/// Writes a number with four significant digits, including zeros, for columns; `–` for NaN.
 pub(crate) fn in_column(value: f64) -> String {
     match value.abs() {
         size if size.is_nan() => "–".to_owned(),
@@ -16,7 +16,7 @@ pub(crate) fn in_column(value: f64) -> String {
     }
 }
 
-/// Writes two quantities, SI, in the unit that suits the larger of them: `33.80 → 31.25 nm` of `from` and `to`.
+/// Writes the quantities `from` and `to`, SI, in a unit for the larger one: `33.80 → 31.25 nm`.
 pub(crate) fn change([from, to]: [f64; 2], dimension: Dimension) -> String {
     let Multiple { factor, symbol } = dimension.multiple(from.abs().max(to.abs()));
     format!("{} → {} {symbol}", in_column(from / factor), in_column(to / factor))

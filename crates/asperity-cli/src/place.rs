@@ -1,4 +1,4 @@
-//! What a path names: a case file, a study file, results, or a folder that holds one of them.
+//! Interpretation of a path: a case file, a study file, results, or a folder with one of them.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,8 @@ use asperity::study::{Case, Results};
 
 use crate::report::{Failure, Outcome};
 
-/// Loads a case file for the command of that name. A study file or a folder in its place is named as what it is.
+/// Loads a case file for the command of that name. The error for a study file or a folder says which of them the path
+/// is.
 pub(crate) fn case(path: &Path, command: &str) -> Outcome<Case> {
     Case::load(path).map_err(|error| match instead_of_a_case(path, command) {
         Some((message, hint)) => Failure::usage(message, hint.as_deref()),
@@ -15,7 +16,7 @@ pub(crate) fn case(path: &Path, command: &str) -> Outcome<Case> {
     })
 }
 
-/// Opens a results directory for the command of that name. The hint names the results within a folder that holds some.
+/// Opens a results directory for the command of that name. If the folder contains results, the hint names them.
 pub(crate) fn results(path: &Path, command: &str) -> Outcome<Results> {
     Results::open(path).map_err(|error| {
         let inner = path.join("results");
@@ -29,7 +30,7 @@ pub(crate) fn results(path: &Path, command: &str) -> Outcome<Results> {
     })
 }
 
-/// What a path is that no case can be loaded from, and what to do.
+/// Returns the message and the hint for a path that is not a case file.
 fn instead_of_a_case(path: &Path, command: &str) -> Option<(String, Option<String>)> {
     if path.is_dir() {
         let inner = ["case.toml", "case/case.toml"].map(|inner| path.join(inner));

@@ -1,4 +1,4 @@
-//! Errors as the user sees them: what is wrong, where, and what to do about it; and the exit code.
+//! Errors for the user: message, place, hint, and the exit code.
 
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::ops::Range;
@@ -11,28 +11,28 @@ use asperity::units::{self, Dimension};
 
 use crate::draw;
 
-/// Why a command gives up.
+/// Failure of a command.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// What the library found.
+    /// An error of the library.
     Library(Error),
     /// A figure that could not be drawn.
     Figure(draw::Error),
-    /// Closed forms that were missed.
+    /// Failed checks against closed forms.
     Checks { failed: usize, all: usize },
     /// Data that could not be written to stdout.
     Stdout(std::io::Error),
-    /// Figures that were stopped; the results are there.
+    /// Interrupted figures; the results are complete.
     FiguresInterrupted { directory: PathBuf },
-    /// A study that was stopped; what is done stays.
+    /// An interrupted study; finished cases stay.
     StudyInterrupted,
     /// Cases of a study that have no results.
     Cases { failed: usize, all: usize },
-    /// The command cannot do what it is asked for.
+    /// The command cannot do what was requested.
     Usage { message: String, hint: Option<String> },
 }
 
-/// What a command answers; its data have gone to stdout.
+/// Result of a command, whose data have gone to stdout.
 pub(crate) type Outcome<T = ()> = Result<T, Failure>;
 
 impl From<Error> for Failure {
@@ -48,7 +48,7 @@ impl From<draw::Error> for Failure {
 }
 
 impl Failure {
-    /// A mistake in the use of a command.
+    /// Creates the failure for a mistake in the use of a command.
     pub(crate) fn usage(message: impl Into<String>, hint: Option<&str>) -> Self {
         Self::Usage { message: message.into(), hint: hint.map(str::to_owned) }
     }
@@ -60,7 +60,7 @@ pub(crate) fn print(text: &str) -> Outcome {
     written(stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()))
 }
 
-/// What became of data on their way to stdout: where a pipe is closed nobody wants them any more.
+/// Converts the result of writing to stdout. A closed pipe is not an error.
 pub(crate) fn written(result: std::io::Result<()>) -> Outcome {
     match result {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::Stdout(error)),
@@ -68,12 +68,12 @@ pub(crate) fn written(result: std::io::Result<()>) -> Outcome {
     }
 }
 
-/// Writes a line about what is done to stderr.
+/// Writes a note to stderr.
 pub(crate) fn note(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
-/// The program that reports an error: which of its options hints may name.
+/// The program that reports an error. It determines the options in hints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Program {
     /// The command `asperity`.
@@ -95,7 +95,7 @@ pub fn report_warning(warning: &str) {
     note(&format!("warning: {}", clipped(warning)));
 }
 
-/// Writes data to stdout; a pipe that is closed takes none, and is no error.
+/// Writes data to stdout. A closed pipe is not an error.
 ///
 /// # Errors
 /// [`Error::File`].
@@ -112,11 +112,11 @@ pub(crate) fn report(failure: &Failure, program: Program) {
     let stderr = std::io::stderr();
     let colours = stderr.is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
     let renderer = if colours { Renderer::styled() } else { Renderer::plain() };
-    // Where stderr is closed nobody reads: the exit code remains.
+    // If stderr is closed, the exit code remains.
     let _ = writeln!(stderr.lock(), "{}", render(failure, program, &renderer));
 }
 
-/// 1 where the computation failed, 2 where the input is bad, 130 after Ctrl-C.
+/// Returns 1 if the computation failed, 2 for bad input, 130 after Ctrl-C.
 pub(crate) fn exit_code(failure: &Failure) -> u8 {
     match failure {
         Failure::Library(error) => code(error),
@@ -164,7 +164,7 @@ fn code_of_io(error: &std::io::Error) -> u8 {
 
 fn render(failure: &Failure, program: Program, renderer: &Renderer) -> String {
     let message = clipped(&message(failure));
-    // Most errors occur on all ranks: only another rank than the first names itself.
+    // Most errors occur on all ranks, so only ranks other than the first name themselves.
     let name = match program {
         Program::Command | Program::Rank(0) => "error".to_owned(),
         Program::Rank(rank) => format!("error on rank {rank}"),
@@ -184,7 +184,7 @@ fn render(failure: &Failure, program: Program, renderer: &Renderer) -> String {
     let hint = hint.map(|hint| clipped(&hint));
     let hint = hint.map(|hint| Group::with_title(Level::HELP.with_name("hint").secondary_title(hint)));
     match (failure, hint) {
-        // Beneath a line of the case the renderer draws the margin on; alone it would lead from nothing.
+        // Below a line of the case the renderer continues the margin, which would start nowhere without that line.
         (Failure::Library(Error::Case(case)), hint) => {
             let lines = lines(case);
             let title = title.element(place(case, &lines));
@@ -197,7 +197,7 @@ fn render(failure: &Failure, program: Program, renderer: &Renderer) -> String {
     }
 }
 
-/// What is wrong.
+/// Returns the message.
 pub(crate) fn message(failure: &Failure) -> String {
     match failure {
         Failure::Library(Error::Case(case)) => case.message.clone(),
@@ -212,11 +212,11 @@ pub(crate) fn message(failure: &Failure) -> String {
     }
 }
 
-/// The longest message that is shown in full, characters: some lines of a terminal.
+/// Longest message that is shown in full, in characters: a few lines of a terminal.
 const MAX_CHARACTERS: usize = 600;
 
-/// A message in one paragraph of bounded length: of a longer one its beginning and its end. What would move the cursor
-/// is escaped.
+/// Limits a message to one paragraph of bounded length; a longer message keeps its beginning and its end. Control
+/// characters are escaped.
 pub(crate) fn clipped(text: &str) -> String {
     let shown = |text: &str| -> String {
         let escaped = |c: char| -> String {
@@ -239,10 +239,10 @@ pub(crate) fn clipped(text: &str) -> String {
     format!("{} … {}", flat(&text[..begin]), flat(&text[end.max(begin)..]))
 }
 
-/// The most lines of a message that is shown in full.
+/// Largest number of lines of a message that is shown in full.
 const MAX_LINES: usize = 8;
 
-/// The lines of the case that hold the mistake, and where they begin in its text.
+/// Returns the lines of the case with the mistake, and their start in its text.
 fn lines(case: &CaseError) -> Range<usize> {
     let Range { start, end } = case.span;
     let [start, end] = [start, end.max(start)].map(|at| {
@@ -257,8 +257,8 @@ fn lines(case: &CaseError) -> Range<usize> {
     begin..end
 }
 
-/// The faulty lines, or the place alone where they are too many or too long, or where something is missing from the file as
-/// a whole.
+/// Returns the faulty lines. If they are too many or too long, or if something is missing from the whole file,
+/// returns only the place.
 fn place<'a>(case: &'a CaseError, lines: &Range<usize>) -> annotate_snippets::Element<'a> {
     let file = clipped(&case.file.to_string_lossy());
     if case.span == (0..0) {
@@ -274,7 +274,7 @@ fn place<'a>(case: &'a CaseError, lines: &Range<usize>) -> annotate_snippets::El
     Snippet::source(text).line_start(case.line).path(file).annotation(annotation).into()
 }
 
-/// The hint of `asperity-mpi`, where that of the command does not fit: it resumes nothing, and has one thread.
+/// Returns the hint of `asperity-mpi` if that of the command does not apply: it cannot resume, and has one thread.
 fn hint_on_ranks(error: &Error, program: Program) -> Option<Option<String>> {
     let Program::Rank(_) = program else { return None };
     Some(match error {
@@ -296,7 +296,7 @@ fn hint_on_ranks(error: &Error, program: Program) -> Option<Option<String>> {
 fn hint(error: &Error) -> Option<String> {
     match error {
         Error::Case(case) => case.hint.clone(),
-        // Of a case the error is [`Error::Case`]: these are files that arguments name.
+        // Mistakes in a case are [`Error::Case`]; these files are named by arguments.
         Error::NoChannel { .. } => error.hint().map(|hint| hint.replace("one of them", "one with --channel")),
         Error::UndefinedSamples { .. } => {
             Some("`--fill nearest` or `--fill harmonic`, a membrane over each hole, fills them".to_owned())

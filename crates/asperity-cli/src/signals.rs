@@ -1,4 +1,4 @@
-//! Ctrl-C, and the signal of a file that grows too large.
+//! Ctrl-C, and the signal at the limit of the size of a file.
 
 use std::process::exit;
 use std::sync::Arc;
@@ -6,13 +6,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::report::note;
 
-/// Whether someone asked to stop.
+/// Whether a stop was requested.
 #[derive(Clone)]
 pub(crate) struct Stop(Arc<AtomicBool>);
 
 impl Stop {
-    /// From now on Ctrl-C is heard. `patient`: the first one asks, a second one ends the process; else the first one
-    /// does. At whatever moment it ends, files are whole: every one is written under a temporary name.
+    /// Handles Ctrl-C from now on. If `patient`, the first one requests a stop and the second one ends the
+    /// process; otherwise the first one ends it. Files are complete at any moment, because every file is written
+    /// under a temporary name.
     pub(crate) fn at_ctrl_c(patient: bool) -> Self {
         let stop = Self(Arc::new(AtomicBool::new(false)));
         let heard = stop.clone();
@@ -33,12 +34,12 @@ impl Stop {
     }
 }
 
-/// Makes the write of a file beyond the size limit of the process an error, instead of the end of the process.
+/// Turns a write beyond the file size limit of the process into an error, instead of the end of the process.
 #[cfg(unix)]
 pub fn survive_size_limit() {
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
 }
 
-/// Makes the write of a file beyond the size limit of the process an error, where the system has such limits.
+/// Turns a write beyond the file size limit of the process into an error, on systems with such limits.
 #[cfg(not(unix))]
 pub fn survive_size_limit() {}

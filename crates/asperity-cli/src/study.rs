@@ -1,4 +1,4 @@
-//! `asperity study`: many cases made of one, by as many threads and processes as there are.
+//! `asperity study`: many variations of one case, by any number of threads and processes.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -44,7 +44,7 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
             tell(&table, &study, &folder);
         }
     } else {
-        // The results are incomplete: no wish for quiet hides that.
+        // The results are incomplete, which `--quiet` does not hide.
         note(&format!(
             "{} of {} cases are done, {} have failed, {} are running, {} are left; \
              the process that finishes the last case writes the tables, and so does --collect",
@@ -61,7 +61,7 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
     }
 }
 
-/// What to do about a file of the study that has changed.
+/// Returns the hint for a changed file of the study.
 fn changed(failure: Failure) -> Failure {
     match failure {
         Failure::Library(error @ Error::SurfaceChanged { .. }) => Failure::usage(
@@ -72,7 +72,7 @@ fn changed(failure: Failure) -> Failure {
     }
 }
 
-/// Computes what is left, and tells of each case.
+/// Computes the remaining cases, and reports each of them.
 fn compute(queue: &Queue, quiet: bool) -> Outcome {
     if queue.is_empty() {
         return Ok(());
@@ -96,7 +96,7 @@ fn compute(queue: &Queue, quiet: bool) -> Outcome {
     })
 }
 
-/// Makes the tables and the page of what is there of a study, and gives the table.
+/// Writes the tables and the page of the finished cases of a study, and returns the table.
 ///
 /// # Errors
 /// [`Error::NotThisStudy`] if the study has grown beyond this file of it; [`Error::File`].
@@ -123,7 +123,7 @@ fn tell(table: &Table, study: &Study, folder: &Folder) {
     ));
 }
 
-/// Prints the cases of a task that have no results, and why not.
+/// Prints the cases of a task without results, with the reasons.
 fn list(study: &Study, directory: &Path, task: Task) -> Outcome {
     let states = match directory.join("study.json").exists() {
         true => Folder::open(directory, study)?.states(study)?,

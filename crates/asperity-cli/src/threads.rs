@@ -1,4 +1,4 @@
-//! The threads that share the work of a command.
+//! Threads that share the work of a command.
 
 use std::env;
 use std::thread::available_parallelism;
@@ -8,12 +8,12 @@ use rayon::ThreadPoolBuilder;
 
 use crate::report::note;
 
-/// The most threads that a computation may have.
+/// Largest number of threads.
 pub const MAX_THREADS: usize = 1024;
 
-/// Makes so many threads, by default as many as are this process's; the first of them is the one that calls.
+/// Creates this number of threads, by default those available to this process. The first of them is the calling thread.
 pub(crate) fn start(wanted: Option<usize>) -> Result<()> {
-    // Of them rayon knows its own variable, the affinity of the process and the share of its control group.
+    // Rayon takes its own variable, the affinity of the process and the limit of its control group into account.
     let cores = available_parallelism().map_or(1, usize::from);
     if let Some(wanted) = wanted.filter(|wanted| *wanted > cores) {
         note(&format!(
@@ -27,7 +27,7 @@ pub(crate) fn start(wanted: Option<usize>) -> Result<()> {
     pool.build_global().map_err(|error| Error::Threads { reason: error.to_string() })
 }
 
-/// The cores that SLURM gives to a task; where it tells no number for a task, those of the job on this machine.
+/// Returns the cores of a SLURM task. Without a number for the task, returns the cores of the job on this machine.
 fn share_of_scheduler(variable: impl Fn(&str) -> Option<String>) -> Option<usize> {
     let count = |name| variable(name)?.trim().parse().ok().filter(|count| *count >= 1);
     count("SLURM_CPUS_PER_TASK").or_else(|| count("SLURM_CPUS_ON_NODE"))

@@ -1,4 +1,4 @@
-//! `asperity verify`: the closed-form cases, their errors and orders of convergence.
+//! `asperity verify`: closed-form cases, their errors and orders of convergence.
 
 use std::io::{self, Write};
 
@@ -7,7 +7,7 @@ use asperity::verification::{CASES, Case, Check, Expected};
 
 use crate::report::{Failure, Outcome, written};
 
-/// Computes all cases and prints each as it is done.
+/// Computes all cases and prints each when it is finished.
 pub(crate) fn verify() -> Outcome {
     let Tally { passed, failed } = match table(&mut io::stdout().lock(), CASES) {
         Ok(tally) => tally,
@@ -16,7 +16,7 @@ pub(crate) fn verify() -> Outcome {
     if failed == 0 { Ok(()) } else { Err(Failure::Checks { failed, all: passed + failed }) }
 }
 
-/// Checks by their verdict.
+/// Number of checks by verdict.
 struct Tally {
     passed: usize,
     failed: usize,
@@ -26,7 +26,7 @@ struct Tally {
 fn table(out: &mut impl Write, cases: &[Case]) -> io::Result<Tally> {
     let (mut passed, mut failed) = (0, 0);
     for case in cases {
-        // What is under way has a name already.
+        // The present case has a name already.
         writeln!(out, "{}", title(case))?;
         let checks = (case.checks)();
         writeln!(out, "{}", body(&checks))?;
@@ -42,12 +42,12 @@ fn table(out: &mut impl Write, cases: &[Case]) -> io::Result<Tally> {
     Ok(Tally { passed, failed })
 }
 
-/// What the table says of a case and its checks, with an empty line at the end.
+/// Returns the lines of a case and its checks, with an empty line at the end.
 pub fn text(case: &Case, checks: &Result<Vec<Check>>) -> String {
     format!("{}\n{}\n", title(case), body(checks))
 }
 
-/// The last line of the table.
+/// Returns the last line of the table.
 pub fn verdict(passed: usize, failed: usize) -> String {
     match failed {
         0 => format!("all {passed} checks passed"),
@@ -55,7 +55,7 @@ pub fn verdict(passed: usize, failed: usize) -> String {
     }
 }
 
-/// What a check expects.
+/// Describes the expectation of a check.
 pub fn expected(check: &Check) -> String {
     match &check.expected {
         Expected::RoundOff(tolerance) => format!("|error| ≤ {tolerance:.0e}"),
@@ -70,7 +70,7 @@ fn title(case: &Case) -> String {
     format!("{} — {}", case.name, case.source)
 }
 
-/// The lines of a case below its name.
+/// Returns the lines of a case below its name.
 fn body(checks: &Result<Vec<Check>>) -> String {
     match checks {
         Ok(checks) => {
@@ -85,7 +85,8 @@ fn body(checks: &Result<Vec<Check>>) -> String {
     }
 }
 
-/// Quantity, errors, order where one is expected, what is expected, verdict.
+/// Returns quantity, errors, order if one is expected, expectation and verdict.
+
 fn row(check: &Check) -> String {
     let errors: String = check.errors.iter().map(|error| format!("{error:>9.1e}")).collect();
     let order = match &check.expected {

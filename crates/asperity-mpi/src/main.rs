@@ -20,7 +20,7 @@ use mpi::traits::Communicator;
 use memory::check;
 use world::World;
 
-/// A contact at rest on a grid that is divided among ranks, each of which holds a slab of its rows
+/// Compute a static contact on a grid that is divided among MPI ranks, each with a slab of rows
 #[derive(Debug, Parser)]
 #[command(version, after_help = "For example: mpirun -np 4 asperity-mpi run case.toml --collect")]
 struct Arguments {
@@ -30,22 +30,22 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Compute the contact at rest of a case, on all ranks that mpirun starts
+    /// Compute the static contact of a case on all ranks started by mpirun
     Run {
-        /// Case file, which all ranks can read
+        /// Case file; all ranks must be able to read it
         #[arg(value_name = "CASE.toml")]
         case: PathBuf,
-        /// Results directory, which all ranks see; by default the case file's name with `-results`
+        /// Results directory on a file system shared by all ranks; default: case file name with `-results`
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
-        /// Replace the results that are there
+        /// Replace existing results
         #[arg(long)]
         overwrite: bool,
-        /// Gather the fields of all ranks into fields.h5 at the end, in the memory of one
+        /// Gather the fields of all ranks into fields.h5 at the end; the first rank must have enough memory
         #[arg(long)]
         collect: bool,
     },
-    /// Gather the fields that the ranks of a run have left into fields.h5
+    /// Gather the fields of the ranks of a finished run into fields.h5
     Collect {
         /// Results directory
         #[arg(value_name = "DIR")]

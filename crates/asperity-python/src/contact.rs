@@ -87,7 +87,7 @@ pub(crate) fn rest<'py>(
     match outcome {
         Outcome::Static(numbers) => contact.set_item("record", record(py, &numbers)?)?,
         Outcome::Sweep(points) => contact.set_item("sweep", record(py, &points)?)?,
-        Outcome::Passes(_) => unreachable!("a contact at rest has no passes"),
+        Outcome::Passes(_) => unreachable!("a static contact has no passes"),
     }
     contact.set_item("case", record(py, &case)?)?;
     contact.set_item("increments", record(py, &increments)?)?;

@@ -24,7 +24,7 @@
 //! | statistics or a shape | [`surface::Generator`], [`surface::Form`] | [`surface::Topography`] |
 //! | a topography | [`surface::Preparation`], [`surface::Parameters`] | a topography ready for a contact; its roughness parameters (ISO 25178) |
 //! | constants of two bodies | [`material::Material`], [`material::Compliances`] | E*, Dundurs' β |
-//! | two topographies and materials | [`motion::Pair`] | the argument of [`motion::press`], [`motion::load_in_stages`], [`motion::roll`], [`motion::InPlace`] and [`motion::Simulation`] |
+//! | two topographies and materials | [`motion::Pair`] | the argument of [`motion::press`], [`motion::load_in_stages`], [`motion::roll`], [`motion::WearInPlace`] and [`motion::Simulation`] |
 //! | a grid and compliances | [`operator::Operators`] | an [`operator::Operator`]: pressure in, displacement out |
 //! | an operator and a gap | [`solver::solve_normal`], [`solver::Params`] | [`solver::Solution`] with its [`solver::Stats`] |
 //! | cells in contact and their heat sources | [`temperature::FlashTemperature`], [`temperature::SteadyTemperature`] | their temperature and the heat partition |

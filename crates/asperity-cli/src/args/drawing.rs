@@ -1,33 +1,33 @@
-//! How figures are drawn.
+//! Options of figures.
 
 use clap::Args;
 
 use super::values::{Pair, factor, positive_length, range};
 use crate::draw::{Format, Paper};
 
-/// The kind, fineness and width of figures.
+/// The file type, resolution and width of figures.
 #[derive(Debug, Args)]
 pub(crate) struct Drawing {
-    /// Kind of the files: pixels, or vectors with text as text
+    /// File type: pixels, or vectors with selectable text
     #[arg(long, value_enum, default_value = "png")]
     format: Format,
     /// Dots per inch
     #[arg(long, value_name = "N", default_value_t = 300.0, value_parser = dpi)]
     dpi: f64,
-    /// Width of a figure, as 85mm; by default one that suits it. Letters keep their size
+    /// Width of a figure, such as 85mm; chosen by default. The size of letters does not change
     #[arg(long, value_name = "LENGTH", value_parser = width)]
     width: Option<f64>,
-    /// No title and no line below it, for a journal that prints the caption outside the figure
+    /// Omit the title and the line below it, for journals that print captions outside figures
     #[arg(long)]
     no_title: bool,
 }
 
-/// The drawing of figures that have values of their own.
+/// Options of figures with a range of values.
 #[derive(Debug, Args)]
 pub(crate) struct RangedDrawing {
     #[command(flatten)]
     drawing: Drawing,
-    /// Values at the ends of the colours, of curves those of the axis of y, as 0,2GPa
+    /// Range of the colours, or of the y axis of curves, such as 0,2GPa
     #[arg(long, value_name = "LOW,HIGH", value_parser = range, allow_hyphen_values = true)]
     range: Option<Pair>,
 }

@@ -12,7 +12,7 @@ use super::values::{
     Pair, Shape, angle, choice, default, factor, lengths, positive_length, shape, wavelengths,
 };
 
-/// Make a random topography or an ideal form
+/// Generate a random topography or an ideal form
 ///
 /// Quantities are in SI or carry a unit: 0.5um, "0.5 um", 2e-7.
 #[derive(Debug, Args)]
@@ -33,15 +33,15 @@ pub(crate) struct Generate {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Source {
-    /// Random: white noise without the waves shorter than a cut-off (Hu & Tonder)
+    /// Random: low-pass filtered white noise (Hu & Tonder)
     LowPass {
         /// Rms height
         #[arg(long, value_parser = positive_length)]
         sq: f64,
-        /// Shortest wavelength, one or along x and y: 8um, or 8um,16um
+        /// Shortest wavelength, one value or two along x and y: 8um, or 8um,16um
         #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
         cutoff: Pair,
-        /// Shape of the pass band; elliptic is circular for one cut-off
+        /// Shape of the pass band; elliptic is circular with a single cut-off
         #[arg(long, default_value = default::<Band>(), value_parser = choice::<Band>())]
         band: Band,
         #[command(flatten)]
@@ -51,15 +51,15 @@ pub(crate) enum Source {
         #[command(flatten)]
         target: Target,
     },
-    /// Random: prescribed autocorrelation, not periodic; with --lay a ground surface
+    /// Random: prescribed autocorrelation, not periodic; --lay gives a ground surface
     Autocorrelation {
         /// Rms height
         #[arg(long, value_parser = positive_length)]
         sq: f64,
-        /// Where the autocorrelation falls to 10 %, one length or two, along and across the lay
+        /// Length over which the autocorrelation decays to 10 %, one value or two (along and across the lay)
         #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
         correlation_length: Pair,
-        /// How the autocorrelation falls
+        /// Decay of the autocorrelation
         #[arg(long, default_value = default::<Decay>(), value_parser = choice::<Decay>())]
         decay: Decay,
         #[command(flatten)]
@@ -89,7 +89,7 @@ pub(crate) enum Source {
         #[command(flatten)]
         target: Target,
     },
-    /// Form: a sphere, its apex in the centre at height 0
+    /// Form: a sphere with its apex in the centre at height 0
     Sphere {
         /// Radius of curvature
         #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
@@ -97,7 +97,7 @@ pub(crate) enum Source {
         #[command(flatten)]
         target: Target,
     },
-    /// Form: an ellipsoid, its apex in the centre at height 0
+    /// Form: an ellipsoid with its apex in the centre at height 0
     Ellipsoid {
         /// Principal radii of curvature, in the planes along x and along y: 1mm,2mm
         #[arg(long, value_name = "LENGTH,LENGTH", value_parser = lengths)]
@@ -118,7 +118,7 @@ pub(crate) enum Source {
     },
     /// Form: a cone
     Cone {
-        /// Slope of its flank against the plane: 5deg, or in radians
+        /// Slope angle of the flank from the plane: 5deg, or in radians
         #[arg(long, value_name = "ANGLE", value_parser = angle)]
         angle: f64,
         #[command(flatten)]
@@ -131,24 +131,24 @@ pub(crate) enum Source {
     },
     /// Form: waves along x and y
     Sinusoid {
-        /// From mean to crest
+        /// Amplitude, from mean to crest
         #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
         amplitude: f64,
-        /// Wavelength, one or along x and y; inf for none: 8um, or 8um,inf
+        /// Wavelength, one value or two along x and y; inf for no wave: 8um, or 8um,inf
         #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = wavelengths)]
         wavelength: Pair,
         #[command(flatten)]
         target: Target,
     },
-    /// Form: parallel grooves, as of turning
+    /// Form: parallel grooves, as left by turning
     Grooves {
-        /// Distance of the ridges; the feed of turning
+        /// Distance between ridges; the feed in turning
         #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
         period: f64,
         /// Depth below the ridges; feed²/8r for a tool of nose radius r
         #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
         depth: f64,
-        /// As a round or as a pointed tool leaves it
+        /// Shape of a groove, from a round or a pointed tool
         #[arg(long, default_value = default::<Groove>(), value_parser = choice::<Groove>())]
         profile: Groove,
         #[command(flatten)]
@@ -182,14 +182,14 @@ pub(crate) struct Heights {
 
 #[derive(Debug, Args)]
 pub(crate) struct Lay {
-    /// Angle of the lay against x, towards y: 30deg, or in radians
+    /// Angle of the lay from x towards y: 30deg, or in radians
     #[arg(long, value_name = "ANGLE", default_value = "0", value_parser = angle, allow_hyphen_values = true)]
     lay: f64,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct Seed {
-    /// Same seed, same heights
+    /// Seed of the random numbers; equal seeds give equal heights
     #[arg(long, value_name = "NUMBER", default_value_t = 0)]
     seed: u64,
 }
@@ -199,7 +199,7 @@ pub(crate) struct Target {
     /// Number of cells along x and y: 256x256
     #[arg(long, value_name = "NXxNY", value_parser = shape)]
     pub(crate) shape: Shape,
-    /// Size of a cell, one or along x and y: 0.5um, or 0.5um,1um
+    /// Size of a cell, one value or two along x and y: 0.5um, or 0.5um,1um
     #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
     pub(crate) pitch: Pair,
     /// Add the heights of this topography, of the same shape; may be repeated
@@ -219,7 +219,7 @@ pub(crate) struct Out {
     pub(crate) overwrite: bool,
 }
 
-/// What a [`Source`] makes.
+/// The topography that a [`Source`] generates.
 pub(crate) enum Recipe {
     Random(Generator, u64),
     Form(Form),
@@ -275,7 +275,7 @@ impl Heights {
 
 impl Roughness {
     fn amplitude(&self) -> Amplitude {
-        // The parser lets exactly one pass.
+        // The parser accepts exactly one.
         match (self.sq, self.sdq) {
             (Some(sq), _) => Amplitude::Sq(sq),
             (None, sdq) => Amplitude::Sdq(sdq.unwrap_or(f64::NAN)),

@@ -22,7 +22,7 @@ pub(crate) use surface::{Convert, Info, Input, PlotSurface, ReadingArguments, Su
 
 /// Contact of two rough surfaces that press together and move
 ///
-/// A case file says which bodies meet, under what load, and how they move.
+/// A case file describes the two bodies, the load and the motion.
 #[derive(Debug, Parser)]
 #[command(name = "asperity", version, subcommand_required = true, arg_required_else_help = true)]
 #[command(after_help = BEGIN, after_long_help = [BEGIN, EXIT_CODES].concat())]
@@ -46,7 +46,7 @@ Exit code:
   2    bad input or usage
   130  interrupted";
 
-/// Prints the help that was asked for, or what is wrong with the arguments.
+/// Prints the requested help, or the error in the arguments.
 pub(crate) fn unparsed(error: &Error) -> Outcome {
     if !error.use_stderr() {
         return written(error.print());
@@ -58,7 +58,7 @@ pub(crate) fn unparsed(error: &Error) -> Outcome {
     Err(Failure::usage(text.trim_start_matches("error: "), None))
 }
 
-/// The longest text about wrong arguments that is shown in full, characters.
+/// Longest message about wrong arguments that is shown in full, in characters.
 const MAX_CHARACTERS: usize = 2000;
 
 #[derive(Debug, Subcommand)]
@@ -74,15 +74,15 @@ pub(crate) enum Command {
     Report(Report),
     /// Compare the solvers with closed forms
     ///
-    /// Prints for each case the errors on finer and finer grids and the order of convergence. Exit code 1 if one fails.
+    /// Prints the errors of each case on successively finer grids, and the order of convergence. The exit code is 1 if a case fails.
     Verify,
     Paper(Paper),
 }
 
 /// Compute a case: a static contact, or a motion
 ///
-/// Progress goes to stderr, a short table to stdout, all else into the results directory: summary.json, steps.csv,
-/// passes.csv, fields (HDF5), figures and a page to look at, report.html. Ctrl-C leaves the finished passes; --resume goes on from them.
+/// Prints progress to stderr and a short table to stdout. Writes everything else to the results directory: summary.json,
+/// steps.csv, passes.csv, fields (HDF5), figures and the page report.html. Ctrl-C keeps the finished passes; --resume continues.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  asperity run --example quickstart\n  asperity run surfaces/disc.toml --out disc"
@@ -91,29 +91,29 @@ pub(crate) struct Run {
     /// Case file
     #[arg(value_name = "CASE.toml", required_unless_present = "example", conflicts_with = "example")]
     pub(crate) case: Option<PathBuf>,
-    /// An example instead: its files are written to DIR/case
+    /// Run an example; its files are written to DIR/case
     #[arg(long, value_name = "NAME")]
     pub(crate) example: Option<String>,
-    /// Results directory, by default the case file's name with `-results`; of an example the folder of `case` and `results`, by default its name
+    /// Results directory; default: case file name with `-results`. For an example: folder for `case` and `results`; default: its name
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Go on from the last finished pass of the results that are there
+    /// Continue from the last finished pass of existing results
     #[arg(long, conflicts_with = "overwrite")]
     pub(crate) resume: bool,
-    /// Replace the results that are there
+    /// Replace existing results
     #[arg(long)]
     pub(crate) overwrite: bool,
-    /// Threads over the positions of a pass, at most 1024; by default the share of a scheduler or container, else all cores
+    /// Number of threads, at most 1024; default: the limit of a scheduler or container, otherwise all cores
     #[arg(long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<usize>,
-    /// No progress and no table, only warnings and errors
+    /// Print only warnings and errors
     #[arg(long)]
     pub(crate) quiet: bool,
 }
 
 /// Draw the figures of a results directory again
 ///
-/// All of them, or those of --only, into DIR/figures. Widths suit a page of two columns: 85mm and 170mm are common.
+/// Draws all figures, or those of --only, into DIR/figures. Common widths for pages with two columns are 85mm and 170mm.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  asperity plot results --format pdf\n  asperity plot results --only pressure --range 0,2GPa \
@@ -123,10 +123,10 @@ pub(crate) struct Plot {
     /// Results directory
     #[arg(value_name = "DIR")]
     pub(crate) directory: PathBuf,
-    /// Name of a figure, as pressure; may be given several times, and is needed by --range
+    /// Name of a figure, such as pressure; may be repeated; required by --range
     #[arg(long, value_name = "NAME")]
     pub(crate) only: Vec<String>,
-    /// Replace the figures that are there
+    /// Replace existing figures
     #[arg(long)]
     pub(crate) overwrite: bool,
     #[command(flatten)]
@@ -135,32 +135,32 @@ pub(crate) struct Plot {
 
 /// Write the page of a results directory: maps, curves and tables in one HTML file
 ///
-/// It opens in any browser, needs no network and holds all that it shows. `asperity run` writes it too, and while it runs.
+/// The page opens in any browser without a network. `asperity run` writes it too, also during the run.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  asperity report results --out disc.html")]
 pub(crate) struct Report {
     /// Results directory
     #[arg(value_name = "DIR")]
     pub(crate) directory: PathBuf,
-    /// Where the page goes; by default DIR/report.html
+    /// File to write; default: DIR/report.html
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 }
 
 /// Reproduce the paper's figures 1, 2, 8, 9, 10 and its claim on cost
 ///
-/// Prints the size of the influence matrix over a pass, and what sub-matrices cost against circular shifting: with dense
-/// matrices up to 48 cells along a side, by FFT up to --largest; each size five times, in turns. Takes some minutes.
+/// Prints the size of the influence matrix over a pass, and the cost of sub-matrices compared with circular shifting: with dense
+/// matrices up to 48 cells per side, by FFT up to --largest. Each size is measured five times, alternately. Takes some minutes.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  asperity paper --format pdf --width 85mm --no-title")]
 pub(crate) struct Paper {
     /// Folder for the figures and cost.csv
     #[arg(long, value_name = "DIR", default_value = "paper")]
     pub(crate) out: PathBuf,
-    /// Most cells along a side for the cost by FFT
+    /// Largest number of cells per side for the cost by FFT
     #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u16).range(16..=2048))]
     pub(crate) largest: u16,
-    /// Replace the files that are there
+    /// Replace existing files
     #[arg(long)]
     pub(crate) overwrite: bool,
     /// No progress
@@ -172,8 +172,8 @@ pub(crate) struct Paper {
 
 /// Validate a case and print what would be solved
 ///
-/// Reads both surfaces and reports the grid, the pair, positions, passes, memory and what to be wary of. Nothing is
-/// solved. Exit code 1 if no pressure within the hardness can carry the load, 2 if the case has a mistake.
+/// Reads both surfaces and prints the grid, the pair, positions, passes, memory and warnings. Solves nothing.
+/// The exit code is 1 if no pressure up to the hardness can carry the load, and 2 if the case has a mistake.
 #[derive(Debug, Args)]
 pub(crate) struct Check {
     /// Case file
@@ -181,15 +181,15 @@ pub(crate) struct Check {
     pub(crate) case: PathBuf,
 }
 
-/// List the examples, or write one out
+/// List the examples, or write the files of one
 ///
-/// Without a name: one line per example. With a name: its case file and data go into a new folder.
+/// Without a name it prints one line per example. With a name it writes the case file and data to a new folder.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  asperity example quickstart --out my-case")]
 pub(crate) struct Example {
-    /// Which one
+    /// Name of the example
     pub(crate) name: Option<String>,
-    /// Folder to make; by default the example's name
+    /// New folder; default: the name of the example
     #[arg(long, value_name = "DIR", requires = "name")]
     pub(crate) out: Option<PathBuf>,
 }

@@ -5,50 +5,50 @@ use clap::Args;
 
 use super::values::{Window, angle, choice, default, factor, positive_length, resample, window};
 
-/// What is done with a topography, in this order.
+/// Steps of the preparation, in this order.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Preparation, in this order")]
 pub(crate) struct PreparationArguments {
     /// Part to keep, in samples
     #[arg(long, value_name = "X0,Y0,NX,NY", value_parser = window)]
     window: Option<Window>,
-    /// Spikes and pits become missing: samples, in groups of up to about 5 × 5, that deviate from what is around by more than so many (robust) standard deviations, such as 6
+    /// Turn spikes and pits into missing samples: samples, in groups of up to about 5 × 5, that deviate from their surroundings by more than this number of (robust) standard deviations, such as 6
     #[arg(long, value_name = "FACTOR", value_parser = factor)]
     despike: Option<f64>,
-    /// Where the heights of missing samples come from
+    /// Treatment of missing samples
     #[arg(long, default_value = default::<Fill>(), value_parser = choice::<Fill>())]
     fill: Fill,
-    /// What is subtracted, fitted by least squares: none, mean, plane, quadratic, polynomial-3 (any order up to 16), sphere, cylinder
+    /// Form to subtract, fitted by least squares: none, mean, plane, quadratic, polynomial-3 (any order up to 16), sphere, cylinder
     #[arg(long, default_value = "none")]
     level: Level,
-    /// Direction in which first and last are exchanged
+    /// Direction to reverse
     #[arg(long, value_parser = choice::<Axis>())]
     mirror: Option<Axis>,
-    /// Angle to turn by, from x towards y: 90deg; other than by quarter turns a spline is taken on the largest rectangle within
+    /// Angle of rotation, from x towards y: 90deg. Angles other than quarter turns interpolate by a spline on the largest inscribed rectangle
     #[arg(long, value_name = "ANGLE", default_value = "0", value_parser = angle, allow_hyphen_values = true)]
     rotate: f64,
-    /// Nesting index of the S-filter, which takes away shorter waves: 2.5um
+    /// Nesting index of the S-filter, which removes shorter waves: 2.5um
     #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
     s_filter: Option<f64>,
-    /// Nesting index of the L-filter, which takes away longer waves: 0.8mm
+    /// Nesting index of the L-filter, which removes longer waves: 0.8mm
     #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
     l_filter: Option<f64>,
-    /// Kind of both filters: ISO 16610-61, or one that scratches and peaks do not bend (after ISO 16610-71)
+    /// Kind of both filters: ISO 16610-61, or robust against scratches and peaks (after ISO 16610-71)
     #[arg(long, default_value = default::<Filter>(), value_parser = choice::<Filter>())]
     filter: Filter,
-    /// Cells to bring it to: their number, 256x256, or their size, 0.5um
+    /// Cells after resampling: their number, 256x256, or their size, 0.5um
     #[arg(long, value_name = "NXxNY|LENGTH[,LENGTH]", value_parser = resample)]
     resample: Option<Resample>,
-    /// What stands between samples where cells become smaller
+    /// Interpolation between samples on finer grids
     #[arg(long, default_value = default::<Interpolation>(), value_parser = choice::<Interpolation>())]
     interpolate: Interpolation,
-    /// Width of the rim that is brought down to the mean
+    /// Width of the rim that tapers to the mean height
     #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
     taper: Option<f64>,
 }
 
 impl PreparationArguments {
-    /// As the library takes it.
+    /// Returns the preparation as a type of the library.
     pub(crate) fn preparation(&self) -> Preparation {
         Preparation {
             window: self.window.map(|window| window.0),
@@ -66,7 +66,7 @@ impl PreparationArguments {
         }
     }
 
-    /// The first of the arguments that mean nothing without a pitch.
+    /// Returns the first argument that requires a pitch.
     pub(crate) fn needs_pitch(&self) -> Option<&'static str> {
         let lengths = [
             ("--level sphere", self.level == Level::Sphere),

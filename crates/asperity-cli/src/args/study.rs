@@ -7,11 +7,11 @@ use clap::Args;
 
 use super::values::threads;
 
-/// Compute a study: many cases made of one, over axes of values or the rows of a table
+/// Compute a study: variations of one case over axes of values or the rows of a table
 ///
-/// Each case is a folder DIR/cases/0001 with its case.toml and its results; DIR/table.csv, table.h5 and study.html tell of all of
-/// them. Any number of processes, on any machines with a common file system, may work on one study at the same time; where one
-/// is stopped or killed, another or the same command goes on. Exit code 1 if a case has failed.
+/// Each case is a folder DIR/cases/0001 with its case.toml and its results. DIR/table.csv, table.h5 and study.html summarise all
+/// cases. Any number of processes, on machines with a common file system, may work on one study at the same time. If one
+/// is stopped or killed, run the same command again. The exit code is 1 if a case has failed.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  asperity example study\n  asperity study study/load.toml\n  asperity study load.toml --task \
@@ -21,28 +21,28 @@ pub(crate) struct Study {
     /// Study file
     #[arg(value_name = "STUDY.toml")]
     pub(crate) study: PathBuf,
-    /// Directory of the study; by default the study file's name without its end
+    /// Directory of the study; default: study file name without its extension
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Of the cases only the I-th, and every N-th after it
+    /// Run only case I and every N-th case after it
     #[arg(long, value_name = "I/N", value_parser = task)]
     pub(crate) task: Option<Task>,
-    /// Compute nothing: print what is left, and who is at it
+    /// Compute nothing; print the state of the cases and which are running
     #[arg(long, conflicts_with_all = ["collect", "retry"])]
     pub(crate) list: bool,
-    /// Compute nothing: make the tables and the page of what is there
+    /// Compute nothing; write the tables and the page of the finished cases
     #[arg(long, conflicts_with = "retry")]
     pub(crate) collect: bool,
-    /// Compute again what has failed
+    /// Repeat failed cases
     #[arg(long)]
     pub(crate) retry: bool,
-    /// Compute more than 5000 cases
+    /// Allow more than 5000 cases
     #[arg(long)]
     pub(crate) yes: bool,
-    /// Threads, at most 1024: so many cases at a time; by default the share of a scheduler or container, else all cores
+    /// Number of threads, and of cases at a time, at most 1024; default: the limit of a scheduler or container, otherwise all cores
     #[arg(long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<usize>,
-    /// No progress, only warnings and errors
+    /// Print only warnings and errors
     #[arg(long)]
     pub(crate) quiet: bool,
 }

@@ -9,7 +9,7 @@ use super::generate::Generate;
 use super::preparation::PreparationArguments;
 use super::values::{Pair, lengths, positive_length};
 
-/// Make, describe, draw and convert topographies
+/// Generate, describe, draw and convert topographies
 #[derive(Debug, Subcommand)]
 pub(crate) enum Surface {
     Generate(Generate),
@@ -18,17 +18,17 @@ pub(crate) enum Surface {
     Convert(Convert),
 }
 
-/// Print what a topography file holds, and its roughness
+/// Print the content of a topography file and its roughness
 ///
-/// Reads x3p, sdf, gwy, npy, text and the files of many instruments; the content tells the format. Roughness is that
-/// of the heights as they are unless they are prepared first: --level plane removes a tilt.
+/// Reads x3p, sdf, gwy, npy, text and the files of many instruments, and detects the format from the content. Roughness refers
+/// to the heights after the given preparation: --level plane removes a tilt.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  asperity surface info heights.npy --pitch 0.5um --level plane")]
 pub(crate) struct Info {
     /// Print JSON, in SI
     #[arg(long)]
     pub(crate) json: bool,
-    /// Cut-off λc of the roughness profiles along x and along y: adds their parameters, ISO 21920-2
+    /// Add ISO 21920-2 parameters of the roughness profiles along x and y, with this cut-off λc
     #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
     pub(crate) cutoff: Option<f64>,
     #[command(flatten)]
@@ -37,7 +37,7 @@ pub(crate) struct Info {
 
 /// Draw a topography, its material ratio curve, distributions, spectrum, autocorrelation and hills
 ///
-/// The figures go into DIR, the curves as numbers in SI into curves.json beside them.
+/// Writes the figures to DIR, and the curves as numbers in SI to DIR/curves.json.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  asperity surface plot disc.sur --level plane --out disc")]
 pub(crate) struct PlotSurface {
@@ -55,7 +55,7 @@ pub(crate) struct PlotSurface {
 
 /// Read any topography, prepare it, and write it as npy, x3p, sdf, gwy, vtk or png
 ///
-/// The steps act in the order in which they are listed. Missing heights stay missing without --fill.
+/// The steps are applied in the order of this list. Missing heights stay missing without --fill.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example:\n  asperity surface convert disc.sur disc.x3p --fill harmonic --level plane \
@@ -72,7 +72,7 @@ pub(crate) struct Convert {
     pub(crate) input: Input,
 }
 
-/// A topography that is read, and prepared. It stands last: what follows it would be listed among its steps.
+/// A topography to read and prepare. Keep it last, because the help would list later arguments among its steps.
 #[derive(Debug, Args)]
 pub(crate) struct Input {
     /// Topography to read
@@ -86,13 +86,13 @@ pub(crate) struct Input {
 
 #[derive(Debug, Args)]
 pub(crate) struct ReadingArguments {
-    /// Height channel; by default the first
+    /// Height channel; default: the first
     #[arg(long, value_name = "NAME")]
     pub(crate) channel: Option<String>,
-    /// What a 1 in the file stands for where it has no units (npy, text, xyz, csv, tiff): 1um
+    /// Unit of the numbers in a file without units (npy, text, xyz, csv, tiff): 1um
     #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
     pub(crate) unit: Option<f64>,
-    /// Distance of the heights where the file has none: 0.5um, or 0.5um,1um
+    /// Pitch of a file without one: 0.5um, or 0.5um,1um
     #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
     pub(crate) pitch: Option<Pair>,
 }

@@ -109,13 +109,13 @@ pub(super) fn window(text: &str) -> Result<Window, String> {
     counts(text, &[','], "four whole numbers x0,y0,nx,ny").map(Window)
 }
 
-/// The choice of a word.
+/// Parses the word of an option.
 pub(super) fn choice<T: Choice + Send + Sync>() -> impl TypedValueParser<Value = T> {
     PossibleValuesParser::new(T::WORDS.iter().map(|(word, _)| *word))
         .map(|word| T::of_word(&word).expect("only these words pass"))
 }
 
-/// The word of a choice's default.
+/// Returns the word of the default of an option.
 pub(super) fn default<T: Choice + Default>() -> &'static str {
     T::default().word()
 }

@@ -1,4 +1,4 @@
-//! What sub-matrices cost against circular shifting: theory, measurement, verdict.
+//! Cost of sub-matrices compared with circular shifting: theory, measurement, verdict.
 
 use std::path::Path;
 use std::time::Instant;
@@ -13,13 +13,13 @@ use indicatif::ProgressBar;
 use super::{CUTOFF, PITCH, POISSON, SQ, YOUNG, pair};
 use crate::draw::{self, Axis, Caption, Chart, Charts, Mark, Paper, Series, Unit};
 
-/// How often each size is timed. Both strategies and all sizes take turns, so that a machine that becomes slower for a
-/// while becomes slower for all.
+/// Number of timings of each size. Both strategies and all sizes alternate, so that a temporarily slow machine
+/// affects all of them.
 const TURNS: usize = 5;
-/// Mean pressure over E* at the approach of all positions: much of the surfaces is in contact.
+/// Mean pressure over E* at the approach of all positions. The contact fraction is large.
 const PRESSURE: f64 = 0.01;
 
-/// How the contact at a position is solved. The work grows with the columns that face each other, as their power q.
+/// Method of solving the contact at a position. The work grows as the power q of the number of columns in the overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Work {
     /// Dense matrices, factorised: the paper's direct quadratic programming.
@@ -41,7 +41,7 @@ impl Work {
         }
     }
 
-    /// q + 1: the mean of n^q over the positions of a pass is 1/(q + 1) of its largest value.
+    /// Returns q + 1: the mean of n^q over the positions of a pass is 1/(q + 1) of its largest value.
     fn theory(self) -> f64 {
         match self {
             Self::Factorisation => 4.0,
@@ -50,7 +50,7 @@ impl Work {
         }
     }
 
-    /// Cells along a side, up to `largest` by transforms. Dense matrices of more take minutes.
+    /// Returns the numbers of cells per side, up to `largest` by transforms. Larger dense matrices take minutes.
     fn sides(self, largest: usize) -> Vec<usize> {
         match self {
             Self::Factorisation => (12..=32).step_by(4).collect(),
@@ -59,7 +59,8 @@ impl Work {
         }
     }
 
-    /// Columns from one position to the next. Each costs about what its neighbours do: some dozens tell the mean.
+    /// Returns the columns from one position to the next. Neighbouring positions have similar costs, so a few
+    /// dozen give the mean.
     fn stride(self, side: usize) -> usize {
         match self {
             Self::Transform => (side / 32).max(1),
@@ -72,17 +73,17 @@ impl Work {
 pub(super) struct Cost {
     work: Work,
     side: usize,
-    /// Seconds per position of a pass by sub-matrices and by circular shifting, turn after turn.
+    /// Seconds per position of a pass by sub-matrices and by circular shifting, in each turn.
     turns: Vec<[Second; 2]>,
 }
 
 impl Cost {
-    /// Median time of a position: 0 by sub-matrices, 1 by circular shifting.
+    /// Returns the median time of a position: 0 by sub-matrices, 1 by circular shifting.
     fn time(&self, strategy: usize) -> Second {
         median(self.turns.iter().map(|turn| turn[strategy]))
     }
 
-    /// By how much sub-matrices are faster: the median over the turns.
+    /// Returns the speed-up by sub-matrices: the median over the turns.
     fn ratio(&self) -> f64 {
         median(self.turns.iter().map(|[parts, shift]| shift / parts))
     }
@@ -147,7 +148,7 @@ impl Costs {
         text + "theory: the work grows as the number of facing columns to the power q = 3, 2, 1; ratio q + 1\n"
     }
 
-    /// What the measurement says of the paper's claim.
+    /// Returns the verdict on the paper's claim.
     pub(super) fn verdict(&self) -> String {
         let range = |work: Work| {
             let ratios: Vec<f64> = self.0.iter().filter(|c| c.work == work).map(Cost::ratio).collect();
@@ -156,7 +157,7 @@ impl Costs {
             (low, high, ratios.last().copied().unwrap_or(f64::NAN))
         };
         let (low, high, last) = range(Work::Factorisation);
-        // Several: more than two, as anyone would have it.
+        // Here "several" means more than two.
         let holds = if low > 2.0 { "holds" } else { "does not hold at every size" };
         let others = [Work::Product, Work::Transform].map(|work| {
             let (low, high, _) = range(work);
@@ -169,7 +170,7 @@ impl Costs {
         )
     }
 
-    /// The rows of `cost.csv`.
+    /// Returns the rows of `cost.csv`.
     pub(super) fn csv(&self) -> String {
         let mut text = "method,cells_per_side,turn,sub_matrices_s,circular_shift_s,ratio,theory\n".to_owned();
         for cost in &self.0 {
@@ -205,7 +206,7 @@ impl Costs {
     }
 }
 
-/// A pair that passes over itself by both strategies.
+/// A pair of equal bodies in a pass with both strategies.
 struct Task {
     work: Work,
     pair: Pair,
@@ -235,7 +236,7 @@ impl Task {
         })
     }
 
-    /// Mean time of one of the `positions`.
+    /// Returns the mean time of one of the `positions`.
     fn time(&self, positions: &[Position]) -> asperity::Result<Second> {
         let began = Instant::now();
         positions.iter().try_for_each(|position| self.solve(position).map(drop))?;

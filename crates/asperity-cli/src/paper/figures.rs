@@ -1,4 +1,4 @@
-//! The paper's figures 1, 2, 8, 9 and 10 under its numbers, and two more.
+//! The paper's figures 1, 2, 8, 9 and 10 with their numbers, and two more.
 
 use std::path::Path;
 
@@ -23,7 +23,7 @@ use crate::report::Outcome;
 const SIDE: usize = 100;
 /// Cells along a side of the surface whose influence matrix is shown, as in the paper.
 const MATRIX_SIDE: usize = 20;
-/// Coefficients of the filter that are shown on each side of the middle: two cut-off wavelengths.
+/// Number of coefficients of the filter on each side of the middle: two cut-off wavelengths.
 const REACH: usize = 24;
 /// Pressure on the central cell of figure 9.
 const PRESSURE: Pascal = 1e9;
@@ -55,7 +55,7 @@ pub(super) fn draw(folder: &Path, sheet: &Sheet, bar: &ProgressBar) -> Outcome {
     plastic_depths(&pair, &passes, &save)
 }
 
-/// Saves a figure: its name, what it shows, of what.
+/// Saves a figure with its name, its title and its subject.
 type Save<'s> = dyn Fn(&str, &str, String, &dyn Figure) -> Outcome + 's;
 
 fn filter_coefficients(save: &Save) -> Outcome {
@@ -83,7 +83,7 @@ fn generated_surface(pair: &Pair, save: &Save) -> Outcome {
     save("figure-2", "Figure 2. Rough surface: random numbers through the filter", of, &relief)
 }
 
-/// The influence matrix; that of an overlap is its leading block.
+/// Draws the influence matrix; the matrix of an overlap is its leading block.
 fn matrix(pair: &Pair, save: &Save) -> Outcome {
     let matrix = influence_matrix([MATRIX_SIDE; 2], pair.pitch(), pair.modulus());
     let quantity = Quantity::new("influence", Unit::Of("m/Pa"));
@@ -96,7 +96,7 @@ fn matrix(pair: &Pair, save: &Save) -> Outcome {
     save("figure-8", "Figure 8. Influence matrix", of, &Maps::new(vec![map.with_block(MATRIX_SIDE, block)]))
 }
 
-/// The displacement that a load on the central cell makes. A central cell takes an odd number of cells.
+/// Draws the displacement under a load on the central cell. A central cell requires an odd number of cells.
 fn displacement(pair: &Pair, save: &Save) -> Outcome {
     let (middle, side) = (MATRIX_SIDE / 2, MATRIX_SIDE + 1);
     let influence = influence_table([middle + 1; 2], pair.pitch(), pair.modulus());
@@ -160,7 +160,7 @@ fn passes(pair: Pair, bar: &ProgressBar) -> Result<Vec<Pass>> {
     Ok(kept.0)
 }
 
-/// The pressures as the upper surface enters from the left, covers the lower one and leaves to the right.
+/// Draws the pressures while the upper surface enters from the left, covers the lower one and leaves to the right.
 fn pressures(pair: &Pair, pass: &Pass, save: &Save) -> Outcome {
     let grid = pair.lower_grid();
     let shown = [("a", 1), ("b", 2), ("c", 3), ("d", 4), ("e", 5), ("f", 6)]
@@ -218,7 +218,7 @@ fn plastic_depths(initial: &Pair, passes: &[Pass], save: &Save) -> Outcome {
     )
 }
 
-/// How the influence matrix grows and shrinks over a pass.
+/// Returns a table of the size of the influence matrix over a pass.
 pub(super) fn matrix_sizes() -> String {
     let mut text = format!(
         "influence matrix over a pass of {SIDE} × {SIDE} cells\n{:>10}{:>10}{:>8}{:>13}\n",

@@ -1,4 +1,4 @@
-//! `asperity paper`: the figures of the paper whose method this is, and its claim on cost.
+//! `asperity paper`: the figures of the paper with this method, and its claim on cost.
 //!
 //! Ghanbarzadeh, Wilson, Morina, Dowson, Neville, *A new strategy for the relative movement of rough surfaces in
 //! contact using a boundary element method*. Figures 3 to 7 are sketches.
@@ -23,7 +23,7 @@ use cost::Costs;
 
 /// The paper's cells: squares of 1 µm.
 const PITCH: Metre = 1e-6;
-/// Rms height of the surfaces; what follows, too, the paper leaves open.
+/// Rms height of the surfaces. The paper does not give this value or the following ones.
 const SQ: Metre = 50e-9;
 /// Shortest wave of the surfaces, m.
 const CUTOFF: Metre = 12e-6;
@@ -34,7 +34,7 @@ const POISSON: f64 = 0.3;
 /// Hardness of both bodies, Pa.
 const HARDNESS: Pascal = 3e9;
 
-/// Draws the paper's figures, and measures what its strategy costs.
+/// Draws the paper's figures, and measures the cost of its strategy.
 pub(crate) fn paper(arguments: &Paper) -> Outcome {
     let folder = &arguments.out;
     let sheet = arguments.drawing.paper();
@@ -53,7 +53,7 @@ pub(crate) fn paper(arguments: &Paper) -> Outcome {
     Ok(())
 }
 
-/// An error if files that would be written are there.
+/// Returns an error if a file to be written exists.
 fn refuse_existing(folder: &Path, format: Format, overwrite: bool) -> Outcome {
     let names = figures::NAMES.into_iter().chain(["cost"]);
     let files = names.map(|name| format!("{name}.{}", format.extension()));
@@ -67,19 +67,19 @@ fn refuse_existing(folder: &Path, format: Format, overwrite: bool) -> Outcome {
     }
 }
 
-/// How far the command is, on stderr.
+/// Creates a progress bar on stderr.
 fn progress(quiet: bool) -> ProgressBar {
     let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
     let style = ProgressStyle::with_template("{spinner} {msg}").expect("a valid template");
     ProgressBar::with_draw_target(None, target).with_style(style)
 }
 
-/// A low-pass surface of `side` × `side` cells.
+/// Generates a low-pass surface of `side` × `side` cells.
 fn surface(side: usize, seed: u64) -> Result<Topography> {
     LowPass::new(SQ, [CUTOFF; 2]).generate(&Grid::new([side; 2], [PITCH; 2])?, seed)
 }
 
-/// Two surfaces of `side` × `side` cells that face each other.
+/// Generates two opposing surfaces of `side` × `side` cells.
 fn pair(side: usize) -> Result<Pair> {
     let steel = Material::new(YOUNG, POISSON, HARDNESS)?;
     Pair::new(surface(side, 11)?, surface(side, 12)?.underside(), [&steel, &steel])

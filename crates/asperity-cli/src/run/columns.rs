@@ -1,13 +1,14 @@
-//! A table whose rows come one after the other: columns of one unit each, points below points.
+//! A table that grows row by row, with one unit per column and aligned decimal points.
 
 use asperity::study::dimension_of_column;
 use asperity::units::{CELSIUS, Dimension, Multiple, format_number};
 
-/// Characters of a column, eight of which stand beside the count on a terminal of 80, and of its part from the point on.
+/// Characters of a column, and of its part from the decimal point on. Eight columns and the count fit into a terminal
+/// of 80 characters.
 const WIDTH: usize = 9;
 const PART: usize = 4;
 
-/// A number of a row under the head of its column, SI; none where there is none to tell.
+/// A number of a row with the head of its column, SI; none if it is unknown.
 pub(super) struct Cell {
     head: &'static str,
     kind: Kind,
@@ -24,8 +25,8 @@ enum Kind {
 }
 
 impl Cell {
-    /// A number of a column of the results: a quantity in the unit that suits the first one, an absolute temperature in degrees Celsius, or
-    /// a pure number, which may be small beside 1.
+    /// Creates a number of a column of the results: a quantity in a unit for the first row, an absolute
+    /// temperature in degrees Celsius, or a pure number, which may be much smaller than 1.
     pub(super) fn of(head: &'static str, column: &str, value: impl Into<Option<f64>>) -> Self {
         let value = value.into();
         match dimension_of_column(column) {
@@ -37,12 +38,12 @@ impl Cell {
         }
     }
 
-    /// A part of one, told in per cent.
+    /// Creates a fraction, printed in per cent.
     pub(super) fn share(head: &'static str, value: f64) -> Self {
         Self { head, kind: Kind::Share, value: Some(value) }
     }
 
-    /// A quantity that begins with next to nothing, in the unit that suits at least so much of it.
+    /// Creates a quantity that begins near zero, in a unit for at least this value.
     pub(super) fn growing(head: &'static str, column: &str, least: f64, value: f64) -> Self {
         let quantity = Self::of(head, column, value);
         match quantity.kind {
@@ -51,7 +52,7 @@ impl Cell {
         }
     }
 
-    /// The head of its column.
+    /// Returns the head of its column.
     pub(super) fn head(&self) -> &'static str {
         self.head
     }
@@ -60,7 +61,7 @@ impl Cell {
         let of = |factor, symbol: &str| Multiple { factor, symbol: symbol.to_owned() };
         match self.kind {
             Kind::Of(dimension) => {
-                // What begins with 0 may go on with more.
+                // A column that begins with 0 may have larger values later.
                 let value = self.value.filter(|value| *value != 0.0).unwrap_or(match dimension {
                     Dimension::Volume => 1e-18,
                     Dimension::Force => 1e-3,
@@ -77,7 +78,7 @@ impl Cell {
     }
 }
 
-/// The columns of a table, whose units its first row settles.
+/// Columns of a table, whose units are determined by the first row.
 #[derive(Default)]
 pub(super) struct Columns {
     units: Vec<Multiple>,
@@ -86,12 +87,12 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    /// A table whose rows count to such a number.
+    /// Creates a table with counts up to this number.
     pub(super) fn counting_to(most: usize) -> Self {
         Self { digits: most.to_string().len(), ..Self::default() }
     }
 
-    /// A row, the first one under its heads: what is counted, the number of this row, its cells.
+    /// Returns a row, the first one with its heads: the name of the count, the number of this row, and its cells.
     pub(super) fn row(&mut self, counted: &str, number: usize, cells: &[Cell]) -> String {
         let first = counted.len().max(4).max(self.digits);
         let mut text = String::new();
@@ -115,16 +116,16 @@ impl Columns {
     }
 }
 
-/// Four significant digits, the point in the place that all share; two digits and a power of ten where they would leave the column, or
-/// hardly any would be left in it.
+/// Returns four significant digits with an aligned decimal point. If they do not fit into the column, or if few of
+/// them would be visible, returns two digits and a power of ten.
 fn aligned(value: f64) -> String {
-    /// Below this two digits have no room before the end of the column.
+    /// Below this value two digits do not fit into the column.
     const LEAST: f64 = 9.95e-3;
     let size = value.abs();
     if value == 0.0 {
         return format!("{:>1$}{2:PART$}", "0", WIDTH - PART, "");
     }
-    // A sign takes the place of a digit.
+    // A sign takes the space of a digit.
     let most = if value < 0.0 { 999.5 } else { 9999.5 };
     if !(LEAST..most).contains(&size) {
         return format!("{:>WIDTH$}", format!("{value:.1e}"));

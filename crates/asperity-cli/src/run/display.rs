@@ -1,4 +1,4 @@
-//! What is told while a case is computed: rows of a table on stdout, progress on stderr.
+//! Output during a run: rows of a table on stdout, progress on stderr.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -14,25 +14,25 @@ use crate::page::LivePage;
 use crate::report::{self, print};
 use crate::signals::Stop;
 
-/// The progress bar, and the table, which grows with each pass or point.
+/// Progress bar, and table that grows with each pass or point.
 pub(super) struct Display {
     bar: ProgressBar,
     quiet: bool,
-    /// What is solved one after the other.
+    /// Name of a step of the run.
     step: &'static str,
     stop: Stop,
     table: Mutex<Table>,
-    /// Of the results.
+    /// Directory of the results.
     directory: PathBuf,
     page: Mutex<LivePage>,
 }
 
 struct Table {
     rows: Rows,
-    /// What became of the table so far.
+    /// Result of writing the table so far.
     printed: report::Outcome,
     began: Instant,
-    /// Passes, points or increments that this run has finished, and when the last of them ended.
+    /// Number of passes, points or increments finished in this run, and the end of the last one.
     finished: Option<(usize, Instant)>,
 }
 
@@ -52,7 +52,7 @@ impl Display {
         Self { bar, quiet, step, stop, table: Mutex::new(table), directory, page }
     }
 
-    /// Takes the bar away, and says what became of the table.
+    /// Removes the bar, and returns the result of writing the table.
     pub(super) fn end(self) -> report::Outcome {
         self.bar.finish_and_clear();
         self.table.into_inner().unwrap_or_else(PoisonError::into_inner).printed
@@ -70,7 +70,8 @@ impl Display {
         }
     }
 
-    /// Time left of `steps`, of which so many are `done`, by those that this run has finished; none before the first.
+    /// Estimates the remaining time of `steps`, of which `done` are finished, from the steps of this run; none
+    /// before the first.
     fn time_left(&self, done: usize, steps: usize) -> Option<Duration> {
         let table = self.table();
         let (finished, last) = table.finished?;
@@ -78,20 +79,20 @@ impl Display {
         Some(each.mul_f64(steps.saturating_sub(done) as f64).saturating_sub(last.elapsed()))
     }
 
-    /// Moves the bar to a part of a whole.
+    /// Sets the bar to a part of a total.
     fn show(&self, [part, whole]: [f64; 2]) {
         const FINE: f64 = 1000.0;
         self.bar.set_length((whole * FINE) as u64);
         self.bar.set_position((part * FINE) as u64);
     }
 
-    /// Writes the page of what is there, now and then.
+    /// Writes the page of the present results from time to time.
     fn refresh_page(&self) {
         let mut page = self.page.lock().unwrap_or_else(PoisonError::into_inner);
         page.refresh(|| Results::open(&self.directory));
     }
 
-    /// One more of the steps has been finished.
+    /// Counts a finished step.
     fn finish(&self) {
         let mut table = self.table();
         let finished = table.finished.map_or(0, |(finished, _)| finished);
@@ -108,7 +109,7 @@ impl Watch for Display {
                 None => format!("approach {trial}, position {solved}/{positions}"),
             };
             let part = together.unwrap_or(solved as f64 / positions as f64);
-            // Beyond the last of the trials there is one position after the other: the bar stands for the passes.
+            // After the last trial the positions are solved one by one, and the bar shows the passes.
             (format!("pass {pass}/{passes}, {place}"), (pass - 1) as f64 + 0.99 * part, (pass - 1, passes))
         } else {
             self.finish();
@@ -136,7 +137,7 @@ impl Watch for Display {
     }
 
     fn pass(&self, record: &PassRecord) {
-        // Those of an earlier run come before anything has been solved.
+        // The rows of an earlier run arrive before the first solution.
         if self.bar.length().is_some() {
             self.finish();
         }

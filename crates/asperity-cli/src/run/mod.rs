@@ -1,4 +1,4 @@
-//! `asperity run`: a case from its surfaces to its figures.
+//! `asperity run`: runs a case, from its surfaces to its figures.
 
 mod columns;
 mod display;
@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
         (_, true) => Existing::Overwrite,
         _ => Existing::Keep,
     };
-    // Of a contact in one step nothing is there until it is solved: nobody wants to wait for that at Ctrl-C.
+    // A contact in one step has no results until it is solved, so Ctrl-C ends it at once.
     let stop = Stop::at_ctrl_c(case.motion.is_some() || in_steps(&case));
     let display = Display::new(arguments.quiet, &case, &directory, stop.clone());
     let outcome = study::run(&case, study::SurfaceInput::default(), &directory, existing, &display);
@@ -46,10 +46,10 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
     if let Err(Error::Interrupted) = &outcome
         && let Ok(results) = Results::open(&directory)
     {
-        // What is done can be looked at; that it was interrupted is what is told.
+        // Finished steps get their page; the message reports the interruption.
         let _ = page::write(&results, &page::of(&results));
     }
-    // The directory stays this run's until the figures are there.
+    // The lock of the directory is held until the figures are written.
     let (summary, writer) = outcome?;
     for warning in &summary.warnings {
         note(&format!("warning: {}", clipped(warning)));
@@ -73,7 +73,7 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
     printed
 }
 
-/// Whether a static contact is computed in increments or points, which are kept one by one.
+/// Whether a static contact is computed in increments or points, which are stored one by one.
 fn in_steps(case: &Case) -> bool {
     match case.loading_path(1.0) {
         Some(LoadingPath::Stages(stages)) => stages.iter().map(|stage| stage.increments).sum::<usize>() > 1,
@@ -82,7 +82,7 @@ fn in_steps(case: &Case) -> bool {
     }
 }
 
-/// `surfaces/disc.toml` → `surfaces/disc-results`.
+/// Returns the default results directory: `surfaces/disc.toml` → `surfaces/disc-results`.
 fn beside(file: &Path) -> PathBuf {
     let mut name = file.file_stem().unwrap_or_default().to_owned();
     name.push("-results");

@@ -1,4 +1,4 @@
-//! What is told of a contact at the end: a line for each of its numbers.
+//! Summary of a contact at the end of a run: a line for each number.
 
 use asperity::motion::{FlowRecord, StaticRecord};
 use asperity::study::{Case, ClosedFormRecord, Outcome, SubsurfaceRecord, Summary};
@@ -7,8 +7,8 @@ use asperity::units::{Dimension, format, format_number};
 use super::rows::planes;
 use crate::{closed_form, passage};
 
-/// Describes a static contact and the largest stress below the surface, a line for each number. The rows of passes and points are
-/// printed as they come.
+/// Describes a static contact and the largest stress below the surface, with a line for each number. The rows of
+/// passes and points are printed during the run.
 pub fn text(case: &Case, summary: &Summary) -> String {
     let contact = match &summary.outcome {
         Outcome::Static(record) => static_table(record, planes(case)),
@@ -22,7 +22,7 @@ pub fn text(case: &Case, summary: &Summary) -> String {
     contact + &theory + &flow + &conductance + &leakage + &summary.subsurface.iter().map(stress_line).collect::<String>()
 }
 
-/// The closed form of the contact, and the deviation of the computed contact from it.
+/// Describes the closed form of the contact, and the deviation of the computed contact from it.
 fn theory_lines(record: &ClosedFormRecord) -> String {
     let rows = [
         (record.theory.to_string(), closed_form::computed(record)),
@@ -31,7 +31,7 @@ fn theory_lines(record: &ClosedFormRecord) -> String {
     rows.iter().map(|(name, value)| line(name, value)).collect()
 }
 
-/// What becomes of bodies that flow pass after pass.
+/// Describes the response of elasto-plastic bodies to repeated passes.
 fn flow_line(flow: &FlowRecord) -> String {
     let rate = match (flow.strain_per_pass, flow.shift_per_pass) {
         (Some(strain), Some(shift)) => {
@@ -58,7 +58,7 @@ fn stress_line(record: &SubsurfaceRecord) -> String {
     )
 }
 
-/// Load over the area in contact.
+/// Returns the load over the contact area.
 fn mean_pressure(record: &StaticRecord) -> String {
     match record.contact_area {
         0.0 => "–".to_owned(),
@@ -95,7 +95,7 @@ fn static_table(record: &StaticRecord, planes: &str) -> String {
     rows.push(("residual", format!("{:.1e}", record.residual)));
     if let Some(shear) = &record.shear {
         let both = |[x, y]: [f64; 2], scale: f64, dimension| {
-            // What rounding leaves of a component that is not there is not worth reading.
+            // The rounding error of a zero component is not printed.
             let shown = |value: f64| if value.abs() < 1e-8 * scale.max(x.hypot(y)) { 0.0 } else { value };
             format!("{}, {}", format(shown(x), dimension), format(shown(y), dimension))
         };

@@ -1,25 +1,25 @@
-//! The rows of passes and of points.
+//! Rows of passes and of points.
 
 use asperity::motion::{PassRecord, RunningRecord, SweepRecord};
 use asperity::study::case::{Case, Source};
 
 use super::columns::{Cell, Columns};
 
-/// A table of passes or of points, as a case has it.
+/// Table of passes or of points of a case.
 pub(super) struct Rows {
     columns: Columns,
-    /// What `approach` refers to.
+    /// Reference of the approach.
     planes: &'static str,
-    /// The first row settles whether the planes are told to be apart.
+    /// Whether the column is the distance of the planes, determined by the first row.
     apart: bool,
-    /// The part of the bodies' length that is their rim at free ends; 0 where they have none.
+    /// Fraction of the bodies' length that is the rim at free ends; 0 without a rim.
     rim: f64,
     slides: bool,
     yields: bool,
     wears: bool,
     grows: bool,
     flows: bool,
-    /// Passes of the motion that are done, and the wear of both bodies in them, m³.
+    /// Number of finished passes of the motion, and the wear of both bodies in them, m³.
     done: usize,
     wear: f64,
 }
@@ -44,9 +44,10 @@ impl Rows {
         }
     }
 
-    /// The row of a pass, the first below the heads of the columns and what they are.
+    /// Returns the row of a pass, the first one with the heads of the columns and their explanation.
     ///
-    /// Load, largest pressure and contact area stand in every table. Columns beyond the width of a terminal are left out by their rank.
+    /// Every table has load, largest pressure and contact area. Columns beyond the width of a terminal are left
+    /// out by rank.
     pub(super) fn pass(&mut self, pass: &PassRecord) -> String {
         self.done += pass.represents();
         let mut ranked = vec![
@@ -83,7 +84,7 @@ impl Rows {
         above + &self.columns.row("pass", self.done, &cells)
     }
 
-    /// The cells that wear, films and heat of friction add to the row of a pass.
+    /// Returns the cells of wear, films and frictional heat in the row of a pass.
     fn running(&mut self, pass: &PassRecord, running: &RunningRecord) -> Vec<(Rank, Cell)> {
         let mut cells = Vec::new();
         if self.wears {
@@ -101,7 +102,7 @@ impl Rows {
         cells
     }
 
-    /// The lines above the heads of the columns of passes.
+    /// Returns the lines above the heads of the columns of passes.
     fn above(&self, left_out: &[&str]) -> String {
         let mut above = "load, area: means over the pass".to_owned();
         if self.apart && !left_out.contains(&"apart") {
@@ -134,13 +135,13 @@ impl Rows {
         above
     }
 
-    /// The row of a point of a sweep, the first below the heads of the columns.
+    /// Returns the row of a point of a sweep, the first one with the heads of the columns.
     pub(super) fn point(&mut self, point: &SweepRecord) -> String {
         let first = point.point == 1;
         let approach = self.approach(first, point.approach);
         let mut cells = vec![Cell::of("load", "load", point.load)];
         if self.slides {
-            // What rounding leaves of a force that is not there.
+            // The rounding error of a zero force.
             let force = |force: f64| if force.abs() < 1e-6 * point.load { 0.0 } else { force };
             let [x, y] = [point.tangential_force_x, point.tangential_force_y].map(force);
             cells.extend([
@@ -175,7 +176,7 @@ impl Rows {
         above + &self.columns.row("point", point.point, &cells)
     }
 
-    /// The approach, or how far the planes are apart if they are in the first row.
+    /// Returns the approach, or the distance of the planes if they are apart in the first row.
     fn approach(&mut self, first: bool, approach: f64) -> Cell {
         if first {
             self.apart = approach < 0.0;
@@ -187,7 +188,7 @@ impl Rows {
     }
 }
 
-/// How soon a column makes room for others, the last one first.
+/// Rank of a column. If space is short, the last ones are left out first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Rank {
     Always,
@@ -198,7 +199,7 @@ enum Rank {
     UpperRoughness,
 }
 
-/// The cells that a terminal of 80 characters has room for, in their order, and the heads of the others.
+/// Returns the cells that fit into a terminal of 80 characters, in order, and the heads of the others.
 fn within_a_terminal(mut ranked: Vec<(Rank, Cell)>) -> (Vec<Cell>, Vec<&'static str>) {
     const ROOM: usize = 8;
     let mut left_out = Vec::new();
@@ -213,7 +214,7 @@ fn within_a_terminal(mut ranked: Vec<(Rank, Cell)>) -> (Vec<Cell>, Vec<&'static 
     (ranked.into_iter().map(|(_, cell)| cell).collect(), left_out)
 }
 
-/// The planes whose distance is −approach: z = 0 of both bodies, which is the mean of a levelled or generated surface.
+/// Describes the planes whose distance is −approach: z = 0 of both bodies, the mean of a levelled or generated surface.
 pub(super) fn planes(case: &Case) -> &'static str {
     let has_mean_zero = |source: &Source, levelled: bool| match source {
         Source::Form { .. } => false,

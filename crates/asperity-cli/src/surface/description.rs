@@ -1,4 +1,4 @@
-//! What a topography is like, in numbers.
+//! Description of a topography in numbers.
 
 use asperity::surface::{
     Axis, Bins, FeatureParameters, GreenwoodWilliamson, HybridParameters, Parameters, ProfileParameters,
@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::ReadSurface;
 use crate::report::Outcome;
 
-/// All that `asperity surface info` tells beyond the file itself, SI.
+/// Numbers of `asperity surface info` beyond those of the file itself, SI.
 #[derive(Serialize)]
 pub(super) struct Description {
     /// Areal parameters of ISO 25178-2.
@@ -22,19 +22,19 @@ pub(super) struct Description {
     pub(super) profiles: Option<Profiles>,
 }
 
-/// What the theories of random surfaces start from.
+/// Quantities of the theories of random surfaces.
 #[derive(Serialize)]
 pub(super) struct Statistics {
-    /// Of the spectrum under Hann's window.
+    /// Spectral moments under Hann's window.
     pub(super) moments: SpectralMoments,
     /// Nayak's α.
     pub(super) bandwidth: f64,
     pub(super) asperities: Asperities,
-    /// The law on the longest range that follows one.
+    /// The self-affine law on the longest range that follows one.
     pub(super) self_affine: Option<Law>,
 }
 
-/// A power law of the spectrum, and how far it is one.
+/// A power law of the spectrum, and its range.
 #[derive(Serialize)]
 pub(super) struct Law {
     #[serde(flatten)]
@@ -52,9 +52,9 @@ impl From<SelfAffinity> for Law {
 /// The surface of Greenwood and Williamson.
 #[derive(Serialize)]
 pub(super) struct Asperities {
-    /// From its summits.
+    /// Values from the summits.
     pub(super) counted: GreenwoodWilliamson,
-    /// From its moments.
+    /// Values from the moments.
     pub(super) by_moments: GreenwoodWilliamson,
 }
 
@@ -71,7 +71,7 @@ impl Description {
         let topography = &file.topography;
         let mut parameters = topography.parameters();
         if file.pitch.is_none() {
-            // These need lengths along the surface.
+            // These quantities need lengths along the surface.
             parameters.spatial = SpatialParameters::undefined();
             parameters.hybrid = HybridParameters::undefined();
             parameters.feature = FeatureParameters::undefined();

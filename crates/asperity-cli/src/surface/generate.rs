@@ -9,7 +9,7 @@ use crate::args::{Generate, ReadingArguments, Recipe};
 use crate::machine;
 use crate::report::{Outcome, note};
 
-/// Fields that making one takes: its spectrum, the margins where it is not periodic.
+/// Memory of a generation in fields of its size: the spectrum, and margins for nonperiodic surfaces.
 const FIELDS: f64 = 4.0;
 
 pub(super) fn generate(arguments: Generate) -> Outcome {

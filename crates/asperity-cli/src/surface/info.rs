@@ -70,7 +70,8 @@ fn text(file: &ReadSurface, description: &Description) -> String {
     table.text()
 }
 
-/// The cut-off for a line where none is given: the longest of ISO 21920-3 of which the line has five, else a fifth of the line.
+/// Returns the default cut-off for a line: the longest of ISO 21920-3 that fits five times into the line, else a
+/// fifth of the line.
 fn cutoff_of_a_line(file: &ReadSurface) -> Option<Metre> {
     const CUTOFFS: [Metre; 5] = [8e-3, 2.5e-3, 0.8e-3, 0.25e-3, 0.08e-3];
     file.pitch?;
@@ -111,7 +112,7 @@ fn about_file(table: &mut Table, file: &ReadSurface) {
         table.words("undefined", format!("{undefined} ({share} %)"), "samples without a height");
     }
     let mean = file.topography.mean();
-    // What rounding leaves of a mean that was subtracted.
+    // The rounding error of a subtracted mean.
     let mean = if mean.abs() < 1e-9 * (high - low) { 0.0 } else { mean };
     let heights = Unit::Length.multiple([low.abs().max(high.abs())]);
     for (name, value) in [("min", low), ("max", high), ("mean", mean)] {
@@ -152,7 +153,7 @@ fn about_statistics(table: &mut Table, statistics: &Statistics) {
     }
 }
 
-/// The parameters along both axes, or along the only one of a line.
+/// Returns the parameters along both axes, or along the only axis of a line.
 fn about_profiles(table: &mut Table, profiles: &Profiles, line: Option<Axis>) {
     let cutoff = Unit::Length.format(profiles.cutoff);
     let along_which = match line {
@@ -161,7 +162,7 @@ fn about_profiles(table: &mut Table, profiles: &Profiles, line: Option<Axis>) {
     };
     table.title(format!("profile parameters, ISO 21920-2, cut-off {cutoff}: {along_which}"));
     let rows: Vec<_> = profiles.x.rows().into_iter().zip(profiles.y.rows()).collect();
-    // These lengths lie along the surface, the others are heights.
+    // These are lengths along the surface; the others are heights.
     let along = |row: &Parameter| ["Rsm", "Rdl"].contains(&row.symbol);
     for (x, y) in &rows {
         let alike = rows.iter().filter(|(other, _)| x.unit == other.unit && along(x) == along(other));
@@ -174,7 +175,7 @@ fn about_profiles(table: &mut Table, profiles: &Profiles, line: Option<Axis>) {
     }
 }
 
-/// NaN where nothing is defined.
+/// Returns NaN if nothing is defined.
 fn extremes(file: &ReadSurface) -> [f64; 2] {
     let heights = file.topography.heights();
     [f64::min, f64::max].map(|pick| heights.iter().copied().fold(f64::NAN, pick))

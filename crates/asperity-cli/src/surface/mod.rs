@@ -1,4 +1,4 @@
-//! `asperity surface`: topographies made, described, drawn, converted.
+//! `asperity surface`: generates, describes, draws and converts topographies.
 
 mod convert;
 mod description;
@@ -28,7 +28,7 @@ pub(crate) fn surface(arguments: Surface) -> Outcome {
     }
 }
 
-/// A file's heights, what else it says, and the pitch: its own, or else the one given.
+/// Heights of a file, its other data, and the pitch: its own, or else the given one.
 struct ReadSurface {
     topography: Topography,
     pitch: Option<[Metre; 2]>,
@@ -50,7 +50,7 @@ fn read(path: &Path, reading: &ReadingArguments) -> Outcome<ReadSurface> {
     Ok(ReadSurface { topography: Topography::new(grid, heights)?, pitch, scan })
 }
 
-/// [`read`], then prepared as the arguments say; notes what the steps came upon.
+/// Reads a file ([`read`]) and prepares it according to the arguments, with notes on the steps.
 fn read_prepared(input: &Input) -> Outcome<ReadSurface> {
     let read = read(&input.file, &input.reading)?;
     if let (None, Some(argument)) = (read.pitch, input.preparing.needs_pitch()) {
@@ -62,7 +62,7 @@ fn read_prepared(input: &Input) -> Outcome<ReadSurface> {
     Ok(ReadSurface { pitch: read.pitch.map(|_| topography.grid().pitch), topography, scan: read.scan })
 }
 
-/// The axis along which a single line of heights runs; none of a field of several lines.
+/// Returns the axis of a single line of heights; none for several lines.
 fn line_of(topography: &Topography) -> Option<Axis> {
     match topography.grid().shape {
         [nx, 1] if nx > 1 => Some(Axis::X),
@@ -71,7 +71,7 @@ fn line_of(topography: &Topography) -> Option<Axis> {
     }
 }
 
-/// The failure of a pitch for a file that has its own.
+/// Returns the failure for a pitch if the file has its own.
 fn has_pitch(path: &Path, [x, y]: [Metre; 2], scan: &Scan) -> Failure {
     let [x, y] = [x, y].map(|pitch| units::format(pitch, Dimension::Length));
     let hint = match scan.unit {
@@ -84,12 +84,12 @@ fn has_pitch(path: &Path, [x, y]: [Metre; 2], scan: &Scan) -> Failure {
     )
 }
 
-/// The failure of what needs a pitch, where neither the file nor an argument gives one.
+/// Returns the failure of a step that needs a pitch, if neither the file nor an argument gives one.
 fn without_pitch(message: impl Into<String>) -> Failure {
     Failure::usage(message, Some("give it: --pitch 0.5um"))
 }
 
-/// Notes where most of the variance of the heights is tilt or form.
+/// Writes a note if most of the variance of the heights is tilt or form.
 fn suggest_level(topography: &Topography) {
     let left = |level| topography.clone().level(level).map_or(f64::NAN, |left| left.sq().powi(2));
     let all = left(Level::Mean);
@@ -109,7 +109,7 @@ fn report(findings: &Findings, topography: &Topography) {
     if let Some(form) = &findings.form {
         let [x, y] = topography.grid().extent();
         let diagonal = x.hypot(y);
-        // Its rise over the field is less than a thousandth of the roughness, or no more than round-off.
+        // Its rise over the field is less than a thousandth of the roughness, or only round-off.
         let rise = diagonal * diagonal / (8.0 * form.radius.abs());
         if rise <= (1e-3 * topography.sq()).max(1e-9 * diagonal) {
             note("the surface is flat: it has no curvature to subtract");

@@ -1,4 +1,4 @@
-//! The file that a topography is written to.
+//! Output file of a topography.
 
 use std::path::{Path, PathBuf};
 
@@ -10,15 +10,15 @@ use super::without_pitch;
 use crate::draw::{self, Caption, Paper};
 use crate::report::{Failure, Outcome};
 
-/// A file that may be written, of a format that its name tells.
+/// An output file, with the format of its name.
 pub(super) struct Output {
     path: PathBuf,
-    /// None of a picture.
+    /// None for a picture.
     format: Option<Format>,
 }
 
 impl Output {
-    /// Refuses a name that tells no format, and an existing file unless `overwrite`.
+    /// Returns an error for a name without a known format, and for an existing file unless `overwrite`.
     pub(super) fn new(path: &Path, overwrite: bool) -> Outcome<Self> {
         let format = Format::of(path);
         let is_picture = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));

@@ -1,4 +1,4 @@
-//! `asperity surface plot`: the figures of a topography, and the curves in them as numbers.
+//! `asperity surface plot`: figures of a topography, and their curves as numbers.
 
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -23,7 +23,7 @@ use crate::report::{Failure, Outcome, note};
 
 /// Points of a sampled curve.
 const POINTS: usize = 501;
-/// Decades of a spectrum's map below its largest value.
+/// Decades of the map of a spectrum below its largest value.
 const DECADES: i32 = 8;
 
 pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
@@ -66,17 +66,17 @@ pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
     Ok(())
 }
 
-/// Where the figures go, and what they show.
+/// Directory and content of the figures.
 struct Sheet<'a> {
     folder: PathBuf,
     topography: &'a Topography,
-    /// Of the file.
+    /// Name of the file.
     name: String,
     paper: Paper,
 }
 
 impl Sheet<'_> {
-    /// The heights of a single line as a curve.
+    /// Draws the heights of a single line as a curve.
     fn profile(&self, axis: Direction) -> Outcome<Value> {
         let profile = self.topography.profile(axis, 0)?;
         let place = |(k, z): (usize, &f64)| [(k as f64 + 0.5) * profile.pitch(), *z];
@@ -87,7 +87,7 @@ impl Sheet<'_> {
         Ok(json!(points))
     }
 
-    /// The spectrum along the only axis of a line.
+    /// Draws the spectrum along the only axis of a line.
     fn spectrum_along(&self, axis: Direction) -> Outcome<Value> {
         let along = Spectrum::of(self.topography, Window::Hann).along(axis);
         let shown = along.iter().filter(|p| p.wave_number > 0.0 && p.density > 0.0);
@@ -114,7 +114,7 @@ impl Sheet<'_> {
         self.save("relief", "heights in perspective", &relief)
     }
 
-    /// The heights, the borders of the hills left out.
+    /// Draws the heights, without the borders of the hills.
     fn hills(&self) -> Outcome {
         let labels = self.topography.hills(WOLF_PRUNING)?.labels;
         let mut heights = self.topography.heights().clone();
@@ -139,12 +139,12 @@ impl Sheet<'_> {
         self.save(name, title, &Charts::from(Chart::new("", x, y, series)))
     }
 
-    /// The material ratio curve with the line through its core.
+    /// Draws the material ratio curve with the line through its core.
     fn bearing(&self) -> Outcome<Value> {
         let curve = self.topography.bearing_curve()?;
         let points = curve.sampled(POINTS);
         let core = core_line(&curve);
-        // In the figure per cent, as the parameters are told.
+        // The figure uses per cent, like the parameters.
         let per_cent = |points: &[[f64; 2]]| points.iter().map(|[ratio, z]| [100.0 * ratio, *z]).collect();
         let mut series = vec![Series::new("material ratio curve", per_cent(&points), Mark::Line)];
         if let Some(core) = &core {
@@ -156,7 +156,7 @@ impl Sheet<'_> {
         Ok(json!({ "ratio_height": points, "core": core }))
     }
 
-    /// Densities of the heights and of the slopes, each beside the Gaussian of the same mean square.
+    /// Draws the densities of the heights and of the slopes, each with the Gaussian of the same mean square.
     fn distributions(&self) -> Outcome<Value> {
         let heights = self.topography.height_distribution(Classes::default());
         let slopes = [("along x", Slope::X), ("along y", Slope::Y)]
@@ -192,7 +192,7 @@ impl Sheet<'_> {
         self.chart(name, title, x, y, series)
     }
 
-    /// The spectrum over all directions with its power law, and as a map.
+    /// Draws the spectrum averaged over all directions with its power law, and as a map.
     fn spectrum(&self) -> Outcome<Value> {
         let spectrum = Spectrum::of(self.topography, Window::Hann);
         let radial = spectrum.radial(RINGS);
@@ -226,7 +226,7 @@ impl Sheet<'_> {
             spectrum.at([wave(0, i), wave(1, j)])
         });
         let largest = field.iter().copied().fold(0.0, f64::max);
-        // Of a plane nothing is left, of heights of 10¹⁵⁰ m nothing that is a number.
+        // A plane has no spectrum, and heights of 10¹⁵⁰ m overflow.
         if largest == 0.0 || !largest.is_finite() {
             return Ok(());
         }
@@ -238,7 +238,7 @@ impl Sheet<'_> {
         self.save("spectrum-map", "power spectral density, Hann's window", &Maps::new(vec![map]))
     }
 
-    /// The autocorrelation as a map, and along lines.
+    /// Draws the autocorrelation as a map, and along lines.
     fn autocorrelation(&self) -> Outcome<Value> {
         let correlation = Correlation::of(self.topography);
         let variance = correlation.variance();
@@ -270,12 +270,12 @@ impl Sheet<'_> {
     }
 }
 
-/// The straight line from the upper to the lower end of the core.
+/// Returns the straight line from the upper to the lower end of the core.
 fn core_line(curve: &BearingCurve) -> Option<Vec<[f64; 2]>> {
     curve.core().map(|core| vec![[0.0, core.upper], [1.0, core.lower]])
 }
 
-/// The middle of each class and its density.
+/// Returns the middle of each class and its density.
 fn bars(distribution: &Distribution) -> Vec<[f64; 2]> {
     let density = distribution.density.iter().enumerate();
     density.map(|(class, density)| [distribution.centre(class), *density]).collect()
@@ -288,7 +288,7 @@ fn gaussian(distribution: &Distribution, deviation: f64) -> Vec<[f64; 2]> {
     points.map(|z| [z, density(z)]).collect()
 }
 
-/// The law on its range, through the geometric mean of the points that it was fitted to.
+/// Returns the law on its range, through the geometric mean of the fitted points.
 fn power_law(law: &SelfAffinity, radial: &[SpectralPoint]) -> Vec<[f64; 2]> {
     let inside = || {
         let range = law.range[0] * (1.0 - 1e-9)..=law.range[1] * (1.0 + 1e-9);

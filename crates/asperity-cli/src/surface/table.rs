@@ -6,7 +6,7 @@ use asperity::units::Multiple;
 
 use crate::numbers::in_column;
 
-/// Rows in sections: a name, one or two numbers aligned at their points, the unit, a remark.
+/// Rows in sections: a name, one or two numbers aligned at their decimal points, the unit, a remark.
 #[derive(Default)]
 pub(super) struct Table {
     rows: Vec<Row>,
@@ -19,7 +19,7 @@ enum Row {
 }
 
 impl Table {
-    /// The head of a section.
+    /// Adds the head of a section.
     pub(super) fn title(&mut self, title: impl Into<String>) {
         self.rows.push(Row::Title(title.into()));
     }
@@ -33,7 +33,7 @@ impl Table {
         self.rows.push(Row::Words { name: name.into(), value: value.into(), remark: remark.into() });
     }
 
-    /// Values in SI, told in `unit`.
+    /// Adds values in SI, printed in `unit`.
     pub(super) fn numbers(
         &mut self,
         name: impl Into<String>,
@@ -46,7 +46,7 @@ impl Table {
         self.rows.push(Row::Numbers { name, numbers, unit, remark });
     }
 
-    /// In columns, the sections divided by an empty line.
+    /// Writes the rows in columns, with an empty line between sections.
     pub(super) fn text(&self) -> String {
         let width = |pick: fn(&Row) -> usize| self.rows.iter().map(pick).max().unwrap_or(0);
         let names = width(|row| match row {
@@ -60,7 +60,7 @@ impl Table {
             Row::Words { value, remark, .. } if !remark.is_empty() => length(value),
             _ => 0,
         });
-        // Two numbers stand side by side, each aligned for itself.
+        // Two adjacent numbers are aligned separately.
         let pair = 2 * (before + after) + 3;
         let values = |two: bool| if two { pair } else { before + after };
         let mut text = String::new();
@@ -97,7 +97,7 @@ impl Row {
         if let Self::Numbers { numbers, .. } = self { numbers.first().map(String::as_str) } else { None }
     }
 
-    /// How many numbers a row of a section has; none for the head of the next.
+    /// Returns the number of values in a row of a section; none for the head of the next.
     fn count(&self) -> Option<usize> {
         match self {
             Self::Title(_) => None,
@@ -111,7 +111,7 @@ fn length(text: &str) -> usize {
     text.chars().count()
 }
 
-/// What stands before the decimal point, and the point with what follows.
+/// Splits a number before the decimal point.
 fn point(number: &str) -> (&str, &str) {
     number.split_at(number.find(['.', 'e']).unwrap_or(number.len()))
 }

@@ -1,17 +1,17 @@
 //! Integrals of the point-load solutions over a uniformly loaded rectangle.
 
-/// Beyond so many half-sides the closed forms have lost too many digits.
+/// Beyond this number of half-sides the closed forms have lost too many digits.
 const FAR: f64 = 20.0;
 
-/// ∬ k(x − ξ, y − η) dξ dη over a cell of half-sides `half`, for a point load's k and the closed form F of its second
-/// indefinite integral:
+/// Computes ∬ k(x − ξ, y − η) dξ dη over a cell with half-sides `half`, for the solution k of a point load and the
+/// closed form F of its second indefinite integral:
 ///
 /// ```text
 /// F(x+a, y+b) − F(x−a, y+b) − F(x+a, y−b) + F(x−a, y−b)
 /// ```
 ///
-/// At distance r the four terms cancel to about 2 log₁₀(r/a) digits, so that beyond r = 20 max(a, b) the integral is
-/// taken by 4 × 4 Gauss points instead, whose error is less than (a/r)⁸/100 of the largest that k takes at r.
+/// At distance r about 2 log₁₀(r/a) digits cancel in the four terms. Beyond r = 20 max(a, b) the integral uses 4 × 4
+/// Gauss points instead. Their error is less than (a/r)⁸/100 of the largest k at r.
 pub(super) fn integral(
     at: [f64; 2],
     half: [f64; 2],
@@ -21,7 +21,7 @@ pub(super) fn integral(
     integral_below(at, 0.0, half, closed, k)
 }
 
-/// As [`integral`], of what is smooth on the scale of the distance from a point at this `depth` below.
+/// [`integral`] of a function that is smooth on the scale of the distance from a point at this `depth`.
 pub(super) fn integral_below(
     [x, y]: [f64; 2],
     depth: f64,
@@ -47,7 +47,7 @@ fn by_quadrature(at: [f64; 2], half: [f64; 2], k: impl Fn(f64, f64) -> f64) -> f
     sum * half[0] * half[1]
 }
 
-/// 4 × 4 Gauss points of a cell as they are seen from `at` its centre, and their weights, which add up to 4.
+/// Iterates over the 4 × 4 Gauss points of a cell, relative to the point `at`, and their weights, whose sum is 4.
 pub(super) fn gauss_points([x, y]: [f64; 2], [a, b]: [f64; 2]) -> impl Iterator<Item = ([f64; 2], f64)> {
     /// Nodes and weights of the four-point Gauss rule.
     const NODES: [(f64, f64); 4] = [
@@ -60,12 +60,14 @@ pub(super) fn gauss_points([x, y]: [f64; 2], [a, b]: [f64; 2]) -> impl Iterator<
     NODES.into_iter().flat_map(move |(s, weight)| along_y(s, weight))
 }
 
-/// X asinh(Y/|X|), 0 where X is: of y²/r³. With X and Y exchanged, of x²/r³; both together, of 1/r.
+/// Returns X asinh(Y/|X|), which is 0 for X = 0: the closed form of y²/r³. With X and Y exchanged it is the closed
+/// form of x²/r³; the sum of both is that of 1/r.
 pub(super) fn asinh_term(x: f64, y: f64) -> f64 {
     if x == 0.0 { 0.0 } else { x * (y / x.abs()).asinh() }
 }
 
-/// Y ln ρ + X atan(Y/X), each term 0 where its factor is: of x/r². With X and Y exchanged, of y/r².
+/// Returns Y ln ρ + X atan(Y/X), where a term is 0 if its factor is 0: the closed form of x/r². With X and Y
+/// exchanged it is the closed form of y/r².
 pub(super) fn logarithm_term(x: f64, y: f64) -> f64 {
     let logarithm = if y == 0.0 { 0.0 } else { y * x.hypot(y).ln() };
     let angle = if x == 0.0 { 0.0 } else { x * (y / x).atan() };
@@ -77,7 +79,8 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// The point loads' k and the closed forms, in the order of the theory: 1/r, x²/r³, y²/r³, xy/r³, x/r², y/r².
+    /// The functions k of point loads and their closed forms, in the order of the theory: 1/r, x²/r³, y²/r³,
+    /// xy/r³, x/r², y/r².
     type Function = fn(f64, f64) -> f64;
     const ALL: [(Function, Function); 6] = [
         (|x, y| asinh_term(x, y) + asinh_term(y, x), |x, y| 1.0 / x.hypot(y)),

@@ -1,11 +1,11 @@
-//! An elastic layer that is bonded to a half-space.
+//! An elastic layer bonded to a half-space.
 
 use crate::error::Result;
 use crate::kernel::{Influence, Layering, Response, SharedResponse};
 use crate::material::{Coating, Compliances, Material};
 use crate::units::{Metre, Pascal};
 
-/// What the bodies of these materials answer to a traction: coated ones to a pressure alone.
+/// Returns the response of bodies of these materials to a traction. Coated bodies respond only to a pressure.
 ///
 /// # Errors
 /// [`crate::Error::OutOfRange`] if both bodies are rigid.
@@ -21,7 +21,7 @@ pub fn response(lower: &Material, upper: &Material) -> Result<SharedResponse> {
     }
 }
 
-/// The displacements of two bodies, each pressed by a rigid one, add up.
+/// Sum of the displacements of two bodies, each pressed by a rigid one.
 impl Response for [SharedResponse; 2] {
     fn harmonic_displacement(&self, qx: f64, qy: f64) -> f64 {
         self.iter().map(|body| body.harmonic_displacement(qx, qy)).sum()
@@ -33,10 +33,10 @@ impl Response for [SharedResponse; 2] {
     }
 }
 
-/// A half-space under one elastic layer that is bonded to it, pressed by a rigid body.
+/// A half-space with a bonded elastic layer, pressed by a rigid body.
 ///
-/// Of a layer (G₁, ν₁) of thickness t on a half-space (G₂, ν₂), with x = qt, θ = e^(−2x), a = 3 − 4ν₁, b = 3 − 4ν₂ and
-/// μ = G₁/G₂,
+/// For a layer (G₁, ν₁) of thickness t on a half-space (G₂, ν₂), with x = qt, θ = e^(−2x), a = 3 − 4ν₁, b = 3 − 4ν₂
+/// and μ = G₁/G₂,
 ///
 /// ```text
 ///           1 − ν₁   1 + 4κxθ − λκθ²                          μb − a         μ − 1
@@ -54,7 +54,7 @@ pub struct CoatedHalfSpace {
 }
 
 impl CoatedHalfSpace {
-    /// A `coating` on a half-space of the material `base`, whose own coating does not count.
+    /// Creates a `coating` on a half-space of the material `base`, whose own coating is ignored.
     pub fn new(base: &Material, coating: &Coating) -> Self {
         let shear = |young: Pascal, poisson: f64| 0.5 * young / (1.0 + poisson);
         let layer = Material { young: coating.young, poisson: coating.poisson, ..*base };
@@ -71,7 +71,8 @@ impl CoatedHalfSpace {
         }
     }
 
-    /// û of the wavenumber q > 0, m/Pa: to rounding, also where waves are long against a layer that cannot escape.
+    /// Returns û of the wavenumber q > 0, m/Pa. It is exact to rounding, also for long waves on an incompressible
+    /// layer.
     fn harmonic(&self, q: f64) -> f64 {
         let &Self { ratio: mu, constants: [a, b], thickness, .. } = self;
         let x = q * thickness;
@@ -82,7 +83,7 @@ impl CoatedHalfSpace {
             (1.0 + (4.0 * kappa * x - lambda * kappa * theta) * theta)
                 / (1.0 - (lambda + kappa + 4.0 * kappa * x * x - lambda * kappa * theta) * theta)
         } else {
-            // Both divided by θ, and what cancels taken out of them: 1 − λκ, 1 + λ and (1 − λ)(1 − κ) are products.
+            // Both are divided by θ, without the cancelling terms: 1 − λκ, 1 + λ and (1 − λ)(1 − κ) are products.
             let scale = ((1.0 + mu * b) * (mu + a)).recip();
             let rest = mu * (1.0 + a) * (1.0 + b) * scale;
             let one_plus_lambda = (2.0 * mu * b + (1.0 - a)) / (1.0 + mu * b);
@@ -110,7 +111,7 @@ impl Response for CoatedHalfSpace {
     }
 }
 
-/// Above this qt nothing cancels, and e^(4qt) would soon leave the numbers.
+/// Above this qt nothing cancels, and e^(4qt) would soon overflow.
 const LONG: f64 = 2.0;
 
 /// sinh x − x.
@@ -123,7 +124,7 @@ fn square_rest(x: f64) -> f64 {
     if x < 1.0 { 0.5 * series(16.0 * x.powi(4) / 24.0, 4.0 * x * x, 5.0) } else { x.sinh().powi(2) - x * x }
 }
 
-/// A series from its first term on, each of whose terms is `square`/n(n + 1) of the one before, n = `from`, `from` + 2, ….
+/// Sums a series from its first term. Each term is the previous one times `square`/n(n + 1), n = `from`, `from` + 2, ….
 fn series(first: f64, square: f64, from: f64) -> f64 {
     let (mut term, mut sum, mut n) = (first, first, from);
     while term > f64::EPSILON * sum {
@@ -191,7 +192,7 @@ mod tests {
             let compliance = |[young, poisson]: [f64; 2]| (1.0 - poisson * poisson) / young;
             let thick = coated(base, 1e3, layer);
             assert_relative_eq!(thick.harmonic(1.0), 2.0 * compliance(layer), max_relative = 1e-14);
-            // The next term is that of a foundation; a stiff layer's bending is x³ times the contrast.
+            // The next term is that of a foundation; the bending of a stiff layer is x³ times the contrast.
             let thin = coated(base, 1e-9, layer);
             assert_relative_eq!(
                 thin.harmonic(1.0),
@@ -232,8 +233,8 @@ mod tests {
         .budget_ms(300);
     }
 
-    /// The displacement less that of a half-space of the layer's constants, by a sum over all directions and wavenumbers of
-    /// what is left of the harmonics: slow, and with nothing of the closed forms and tables in it.
+    /// Computes the displacement minus that of a half-space of the layer material, by a sum over all directions
+    /// and wavenumbers of the remaining harmonics. It is slow, and independent of the closed forms and tables.
     fn beyond_the_layer(body: &CoatedHalfSpace, at: [f64; 2], pitch: [f64; 2]) -> f64 {
         let short = body.layering.short;
         let end = 45.0 / body.layering.depth;

@@ -8,8 +8,8 @@
 /// ⎣u_z⎦   ⎣zx   zy   zz⎦ ⎣ p ⎦     q_x, q_y   on the lower body; the upper one bears the opposite
 /// ```
 ///
-/// xx, yy, zz are even in x and in y, xy is odd in both, zx odd in x alone, zy in y alone: the matrix of all cells is
-/// symmetric, and positive definite.
+/// xx, yy and zz are even in x and in y. xy is odd in both, zx is odd in x only, and zy is odd in y only. The matrix
+/// of all cells is symmetric and positive definite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coefficients {
     /// u_x under q_x.
@@ -18,23 +18,23 @@ pub struct Coefficients {
     pub xy: f64,
     /// u_y under q_y.
     pub yy: f64,
-    /// u_z under q_x, and the opposite of u_x under p.
+    /// u_z under q_x, and −u_x under p.
     pub zx: f64,
-    /// u_z under q_y, and the opposite of u_y under p.
+    /// u_z under q_y, and −u_y under p.
     pub zy: f64,
     /// u_z under p.
     pub zz: f64,
 }
 
 impl Coefficients {
-    /// The coefficients as a matrix: displacement `[i]` under traction `[j]`, in the order x, y, z.
+    /// Returns the coefficients as a matrix: displacement `[i]` under traction `[j]`, in the order x, y, z.
     pub fn matrix(&self) -> [[f64; 3]; 3] {
         let Self { xx, xy, yy, zx, zy, zz } = *self;
         [[xx, xy, -zx], [xy, yy, -zy], [zx, zy, zz]]
     }
 
-    /// The coefficients at an offset of these signs, where `self` are those at an offset without any: what is odd
-    /// vanishes at 0.
+    /// Returns the coefficients at an offset with these signs, from the coefficients `self` at the offset with
+    /// positive signs. Odd coefficients vanish at 0.
     pub(super) fn at_offset(self, [x, y]: [f64; 2]) -> Self {
         Self { xy: x * y * self.xy, zx: x * self.zx, zy: y * self.zy, ..self }
     }

@@ -1,4 +1,4 @@
-//! Displacement in all directions under a traction in any.
+//! Displacement in all directions under a traction in any direction.
 
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -13,12 +13,12 @@ use crate::units::Metre;
 
 /// The coefficients of all pairs of cells of a grid.
 pub struct CoupledTable {
-    /// The coefficients at the offsets `(i Δx, j Δy)`.
+    /// Returns the coefficients at the offsets `(i Δx, j Δy)`.
     table: Array2<Coefficients>,
 }
 
 impl CoupledTable {
-    /// The coefficients of a grid of `shape` cells of size `pitch`.
+    /// Computes the coefficients of a grid of `shape` cells of size `pitch`.
     pub fn new(shape: [usize; 2], pitch: [Metre; 2], response: &dyn CoupledResponse) -> Self {
         let table = Array2::from_shape_fn(shape, |(i, j)| {
             response.displacement(i as f64 * pitch[0], j as f64 * pitch[1], pitch)
@@ -26,7 +26,7 @@ impl CoupledTable {
         Self { table }
     }
 
-    /// Displacement of the cell `to` per unit traction on the cell `from`.
+    /// Returns the displacement of the cell `to` per unit traction on the cell `from`.
     pub fn at(&self, to: [usize; 2], from: [usize; 2]) -> Coefficients {
         let offset = [to[0].abs_diff(from[0]), to[1].abs_diff(from[1])];
         let sign = |axis: usize| match to[axis].cmp(&from[axis]) {
@@ -38,9 +38,9 @@ impl CoupledTable {
     }
 }
 
-/// The dense influence matrix of a grid with all nine coefficients, m/Pa: `[m + i M, n + j M]` is the displacement along i of
-/// cell m of M per unit traction along j on cell n, with cells numbered as in [`super::influence_matrix`]. It is symmetric
-/// and positive definite, and takes 72 M² bytes.
+/// Computes the dense influence matrix of a grid with all nine coefficients, m/Pa. `[m + i M, n + j M]` is the
+/// displacement along i of cell m of M per unit traction along j on cell n. Cells are numbered as in
+/// [`super::influence_matrix`]. The matrix is symmetric and positive definite, and takes 72 M² bytes.
 pub fn coupled_matrix(shape: [usize; 2], pitch: [Metre; 2], response: &dyn CoupledResponse) -> Field {
     let table = CoupledTable::new(shape, pitch, response);
     let cells = shape[0] * shape[1];
@@ -50,7 +50,7 @@ pub fn coupled_matrix(shape: [usize; 2], pitch: [Metre; 2], response: &dyn Coupl
     })
 }
 
-/// Displacement of the pair at `(x, y)` per unit traction on the cell centred at the origin, m/Pa.
+/// Computes the displacement of the pair at `(x, y)` per unit traction on the cell centred at the origin, m/Pa.
 ///
 /// ```text
 /// π xx = I(1/r)/E* + I(x²/r³)/N*        π zx = I(x/r²)/G*
@@ -58,9 +58,9 @@ pub fn coupled_matrix(shape: [usize; 2], pitch: [Metre; 2], response: &dyn Coupl
 /// π xy = I(xy/r³)/N*                    π zz = I(1/r)/E*
 /// ```
 ///
-/// I is the integral over the cell of the solutions of Boussinesq and Cerruti for a point load. Error below 1e-12 of the
-/// largest coefficient at that distance, everywhere. Love (1929); Johnson (1985), eqs. 3.18, 3.25 and 3.75–3.80; Li and
-/// Berger, J. Tribol. 123, 1 (2001).
+/// I is the integral over the cell of the solutions of Boussinesq and Cerruti for a point load. The error is below
+/// 1e-12 of the largest coefficient at that distance. Love (1929); Johnson (1985), eqs. 3.18, 3.25 and 3.75–3.80; Li
+/// and Berger, J. Tribol. 123, 1 (2001).
 pub fn coupled_displacement(
     x: Metre,
     y: Metre,

@@ -1,4 +1,4 @@
-//! The response of homogeneous half-spaces.
+//! Response of homogeneous half-spaces.
 
 use crate::grid::Field;
 use crate::kernel::spectral::{harmonic_displacement, harmonic_displacements};
@@ -9,9 +9,10 @@ use crate::kernel::{
 use crate::material::Compliances;
 use crate::units::{Metre, Pascal};
 
-/// Two homogeneous half-spaces: Boussinesq's and Cerruti's solutions, summed over cells by Love.
+/// Two homogeneous half-spaces: the solutions of Boussinesq and Cerruti, integrated over cells by Love.
 ///
-/// Made of a composite modulus E* it answers to pressure alone, of the [`Compliances`] of a pair to shear too.
+/// Created from a composite modulus E* it responds only to pressure. Created from the [`Compliances`] of a pair it
+/// also responds to shear.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfSpaces {
     modulus: Pascal,

@@ -1,4 +1,4 @@
-//! From harmonics to cells: the response in space of bodies that are layered.
+//! Response in space of layered bodies, from their harmonics.
 
 use std::f64::consts::PI;
 
@@ -7,33 +7,35 @@ use crate::kernel::{Influence, normal_displacement};
 use crate::math::gauss_legendre;
 use crate::units::Metre;
 
-/// Isotropic bodies that are a half-space to short waves and another one to long waves, whose harmonics are known.
+/// Isotropic layered bodies with known harmonics. Short waves have the response of one half-space, long waves that of
+/// another one.
 ///
-/// Their cells come of the harmonics û(q) in three parts:
+/// The displacement under a cell follows from the harmonics û(q) in three parts:
 ///
 /// ```text
 /// û(q) = (2/q) [s + (b − s) e^(−qd)] + R(q)      s, b the compliances 1/E* of short and of long waves, d the depth
 /// ```
 ///
-/// The first is a half-space, the second the potential of the cell seen at the depth d, both in closed form. R is bounded at
-/// q = 0 and falls as e^(−qd), so that its Hankel transform ρ(r) = ∫ R(q) J₀(qr) q dq/2π is smooth on the scale d: it is
-/// tabulated over r, and integrated over the cell.
+/// The first part is a half-space, the second the potential of the cell at the depth d, both in closed form. R is
+/// bounded at q = 0 and decays as e^(−qd). Its Hankel transform ρ(r) = ∫ R(q) J₀(qr) q dq/2π is therefore smooth on
+/// the scale d. It is tabulated over r, and integrated over the cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layering {
-    /// Compliance 1/E* of the half-space that short waves meet, 1/Pa, ≥ 0; of layers that of the uppermost.
+    /// Compliance 1/E* for short waves, 1/Pa, ≥ 0: the compliance of the uppermost layer.
     pub short: f64,
-    /// That of the half-space that long waves meet, 1/Pa, ≥ 0; of layers that of the lowest.
+    /// Compliance 1/E* for long waves, 1/Pa, ≥ 0: the compliance of the substrate.
     pub long: f64,
-    /// The depth d > 0: for q → ∞, qû(q) comes to its limit as e^(−qd) or a little slower; of a layer on a half-space it is
-    /// twice the thickness.
+    /// The depth d > 0. For q → ∞, qû(q) approaches its limit as e^(−qd) or a little slower. For a layer on a
+    /// half-space it is twice the thickness.
     pub depth: Metre,
 }
 
 impl Layering {
-    /// Displacement per unit pressure on a cell of size `pitch` of bodies with the `harmonics` û(q), m/Pa, q > 0 in 1/m.
+    /// Returns the displacement per unit pressure on a cell of size `pitch` of bodies with the `harmonics` û(q),
+    /// m/Pa, q > 0 in 1/m.
     ///
-    /// Error below 1e-11 of the displacement of a cell under its own pressure, where û(q) is as exact and depends on ln q
-    /// smoothly, whatever the size of the cell against the depth.
+    /// The error is below 1e-11 of the displacement of a cell under its own pressure if û(q) is as exact and a
+    /// smooth function of ln q. This holds for any ratio of cell size to depth.
     pub fn influence(&self, harmonics: impl Fn(f64) -> f64, pitch: [Metre; 2]) -> Box<dyn Influence> {
         let &Self { short, long, depth } = self;
         let rest = |q: f64| harmonics(q) - 2.0 / q * (short + (long - short) * (-q * depth).exp());
@@ -42,7 +44,7 @@ impl Layering {
     }
 }
 
-/// What [`Layering::influence`] makes.
+/// The influence returned by [`Layering::influence`].
 struct Layered {
     layering: Layering,
     pitch: [Metre; 2],
@@ -65,30 +67,31 @@ impl Influence for Layered {
     }
 }
 
-/// ∬ 1/√(ξ² + η² + z²) over 0 … x and 0 … y.
+/// Computes ∬ 1/√(ξ² + η² + z²) over 0 … x and 0 … y.
 fn potential_below(x: f64, y: f64, z: f64) -> f64 {
     let r = x.hypot(y).hypot(z);
     let (across, along) = (x.hypot(z), y.hypot(z));
     x * (y / across).asinh() + y * (x / along).asinh() - z * (x * y / (z * r)).atan()
 }
 
-/// The Hankel transform ρ(r) of a remainder, and what of it lies within r,
+/// The Hankel transform ρ(r) of a remainder, and its mean w within r,
 ///
 /// ```text
 /// ρ(r) = ∫ R(q) q J₀(qr) dq/2π        w(r) = ∫₀^r ρ(s) s ds/r² = ∫ R(q) q J₁(qr)/(qr) dq/2π
 /// ```
 ///
-/// both times r² + d²: so scaled they are bounded, and smooth in asinh(r/d).
+/// Both are multiplied by r² + d², and are then bounded and smooth in asinh(r/d).
 struct Remainder {
     depth: Metre,
-    /// For each interval of unit width in asinh(r/d) the Chebyshev coefficients of both.
+    /// Chebyshev coefficients of both, for each interval of unit width in asinh(r/d).
     pieces: Vec<[[f64; ORDER]; 2]>,
     nodes: Vec<(f64, f64)>,
 }
 
-/// Chebyshev coefficients of an interval: what lies nearest, ±iπ/2 away, leaves 6⁻¹⁸ of the next.
+/// Number of Chebyshev coefficients of an interval. The nearest singularity, at a distance of ±iπ/2, gives an error
+/// of 6⁻¹⁸.
 const ORDER: usize = 18;
-/// Intervals, up to where the remainder has fallen to d²/r² = 1e-10 of the rest.
+/// Number of intervals, until the remainder has decayed to d²/r² = 1e-10 of the other terms.
 const PIECES: usize = 13;
 
 impl Remainder {
@@ -106,15 +109,15 @@ impl Remainder {
         Self { depth, pieces, nodes }
     }
 
-    /// ρ at the distance of `(x, y)`.
+    /// Returns ρ at the distance of `(x, y)`.
     fn at(&self, x: Metre, y: Metre) -> f64 {
         let squared = x * x + y * y;
         let (value, beyond) = self.scaled(squared.sqrt(), 0);
         value * beyond / (squared + self.depth * self.depth)
     }
 
-    /// ∬ ρ over 0 … x and 0 … y: in polar coordinates the integral of r² w over the angle, for each of the two far sides
-    /// ∫ c w(√(c² + s²)) ds at its distance c, with s = √(c² + d²) sinh v.
+    /// Computes ∬ ρ over 0 … x and 0 … y. In polar coordinates it is the integral of r² w over the angle. Each of
+    /// the two far sides contributes ∫ c w(√(c² + s²)) ds with its distance c and s = √(c² + d²) sinh v.
     fn of_rectangle(&self, x: Metre, y: Metre) -> f64 {
         let side = |c: f64, length: f64| {
             let scale = c.hypot(self.depth);
@@ -134,7 +137,8 @@ impl Remainder {
         side(x, y) + side(y, x)
     }
 
-    /// (r² + d²) times ρ or w, and d/r where r is beyond the table, by which ρ goes on to fall, and w not.
+    /// Returns (r² + d²) times ρ or w. For r beyond the table it also returns d/r, by which ρ decays further, but
+    /// not w.
     fn scaled(&self, r: Metre, which: usize) -> (f64, f64) {
         let s = (r / self.depth).asinh();
         let end = PIECES as f64;
@@ -144,16 +148,16 @@ impl Remainder {
     }
 }
 
-/// `[ρ, w]` at `r`, by Gauss' rule on panels that grow with q, and no longer than some of the oscillations.
+/// Computes `[ρ, w]` at `r` by Gauss' rule on panels that grow with q up to a few oscillations.
 ///
-/// Far out only the first of these count: the integrand is then faded out over many, which changes its transform by less than
-/// rounding.
+/// At large r only the first oscillations contribute. The integrand is then tapered over many oscillations, which
+/// changes its transform by less than rounding.
 fn hankel(rest: &impl Fn(f64) -> f64, r: Metre, depth: Metre, nodes: &[(f64, f64)]) -> [f64; 2] {
-    /// The integral begins here, in units of 1/r and 1/d: what is before is less than its square.
+    /// Lower limit of the integral, in units of 1/r and 1/d. The omitted part is below its square.
     const FIRST: f64 = 1e-7;
     /// e^(−qd) is less than 1e-19.
     const LAST: f64 = 45.0;
-    /// qr at which the integrand has been faded to one half, and over which width.
+    /// Centre and width of the taper of the integrand in qr.
     const FADE: [f64; 2] = [96.0, 12.0];
     /// Largest change of qr and of qd over a panel.
     const PHASE: f64 = 6.0;
@@ -176,12 +180,12 @@ fn hankel(rest: &impl Fn(f64) -> f64, r: Metre, depth: Metre, nodes: &[(f64, f64
     sums
 }
 
-/// Angle of the k-th node of an interval.
+/// Returns the angle of the k-th node of an interval.
 fn chebyshev_angle(k: usize) -> f64 {
     PI * (k as f64 + 0.5) / ORDER as f64
 }
 
-/// Coefficients of the polynomial that has these values at the nodes.
+/// Returns the coefficients of the polynomial with these values at the nodes.
 fn chebyshev(value: impl Fn(usize) -> f64) -> [f64; ORDER] {
     std::array::from_fn(|n| {
         let sum: f64 = (0..ORDER).map(|k| value(k) * (n as f64 * chebyshev_angle(k)).cos()).sum();
@@ -204,7 +208,7 @@ mod tests {
 
     #[test]
     fn harmonics_that_are_potentials_at_depths_give_these() {
-        // Half-spaces seen at the depths d and 3d/2, and far beyond the table of the remainder.
+        // Half-spaces at the depths d and 3d/2, and far beyond the table of the remainder.
         let (short, long, depth) = (0.7, 2.9, 0.4);
         let layering = Layering { short, long, depth };
         let half = 0.5 * (long - short);

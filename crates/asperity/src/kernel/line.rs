@@ -1,4 +1,4 @@
-//! Displacement under cells that stand in an endless line, a period apart.
+//! Displacement under an endless line of cells with a period.
 
 use std::f64::consts::PI;
 
@@ -9,41 +9,41 @@ use crate::material::Compliances;
 use crate::math::parallel;
 use crate::units::{Metre, Pascal};
 
-/// Cells that stand in an endless line along an axis, a period L apart: what repeats itself along that axis alone.
+/// An endless line of cells along an axis, with period L, for contacts that are periodic along this axis only.
 ///
-/// Their coefficients are those of a cell, summed over the line. Of a force the displacement is, r across the line and t
-/// along it, k = 2πm/L,
+/// Its coefficients are those of a cell, summed over the line. With r across the line, t along it, and k = 2πm/L, the
+/// displacement under a force is
 ///
 /// ```text
 /// Σ 1/√(r² + (t + nL)²) = −(2/L) ln(r/r₀) + (4/L) Σ_{m>0} K₀(kr) cos kt
 /// ```
 ///
-/// divided by πE*: what is uniform along the line is that of a line of force in plane strain, whose displacement is unbounded
-/// and is put to 0 at the distance r₀, the datum. So it is in the plane, along the line with 1/E* + 1/N* for 1/E*.
+/// divided by πE*. The uniform part along the line is a line load in plane strain. Its displacement is unbounded and
+/// is set to 0 at the distance r₀, the datum. The same holds in the plane; along the line 1/E* + 1/N* replaces 1/E*.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
-    /// The axis that it lies along: 0 is x, 1 is y.
+    /// Axis of the line: 0 is x, 1 is y.
     pub axis: usize,
-    /// Distance L of the cells, > 0; not less than their length along the line.
+    /// Period L of the cells, > 0, at least their length along the line.
     pub period: Metre,
     /// Distance r₀ at which the uniform part of the displacement is 0, > 0.
     pub datum: Metre,
 }
 
 impl Line {
-    /// Normal displacement of the pair at `(x, y)` per unit pressure on each of the cells of size `pitch`, of which one is
-    /// centred at the origin, m/Pa; see [`crate::kernel::normal_displacement`].
+    /// Returns the normal displacement of the pair at `(x, y)` per unit pressure on each cell of size `pitch`,
+    /// m/Pa. One of the cells is centred at the origin. See [`crate::kernel::normal_displacement`].
     ///
-    /// Error below 1e-12 of the displacement of a cell under its own pressure.
+    /// The error is below 1e-12 of the displacement of a cell under its own pressure.
     pub fn normal_displacement(&self, x: Metre, y: Metre, pitch: [Metre; 2], modulus: Pascal) -> f64 {
         let [s, t] = self.turned([x, y]);
         self.at_distance(s, pitch).inverse_distance(t) / (PI * modulus)
     }
 
-    /// Displacement of the pair at `(x, y)` per unit traction on each of the cells of size `pitch`, of which one is centred
-    /// at the origin, m/Pa; see [`crate::kernel::coupled_displacement`].
+    /// Returns the displacement of the pair at `(x, y)` per unit traction on each cell of size `pitch`, m/Pa. One
+    /// of the cells is centred at the origin. See [`crate::kernel::coupled_displacement`].
     ///
-    /// Error below 1e-12 of the displacement of a cell under its own traction.
+    /// The error is below 1e-12 of the displacement of a cell under its own traction.
     pub fn coupled_displacement(
         &self,
         x: Metre,
@@ -55,7 +55,7 @@ impl Line {
         self.at_distance(s, pitch).coefficients(t, compliances)
     }
 
-    /// Coefficients of all cells `[i, j]` at offsets `(i Δx, j Δy)`, m/Pa.
+    /// Returns the coefficients of all cells `[i, j]` at offsets `(i Δx, j Δy)`, m/Pa.
     pub fn influence_table(&self, shape: [usize; 2], pitch: [Metre; 2], modulus: Pascal) -> Field {
         let ([rows, columns], [across, along]) = (self.turned(shape), self.turned(pitch));
         let mut table = Field::zeros([rows, columns]);
@@ -69,12 +69,12 @@ impl Line {
         if self.axis == 1 { table } else { table.reversed_axes().as_standard_layout().into_owned() }
     }
 
-    /// What belongs to x and y, in the order across the line, along it; and back again.
+    /// Reorders values for x and y to values across and along the line, and vice versa.
     fn turned<T: Copy>(&self, [x, y]: [T; 2]) -> [T; 2] {
         if self.axis == 1 { [x, y] } else { [y, x] }
     }
 
-    /// The line as it is seen from the distance `s` across it.
+    /// Returns the line at the distance `s` across it.
     fn at_distance(&self, s: Metre, pitch: [Metre; 2]) -> LineAtDistance {
         let half @ [a, b] = self.turned(pitch).map(|p| 0.5 * p);
         let near = if s.abs() - a > FAR * self.period {
@@ -88,27 +88,28 @@ impl Line {
     }
 }
 
-/// Beyond so many periods from its edge a line of cells is uniform: the rest is less than 2e-17 of that.
+/// Beyond this number of periods from its edge, a line of cells acts as a uniform line, with a relative error below
+/// 2e-17.
 const FAR: f64 = 6.0;
-/// Cells of the line are summed one by one up to where the distances that occur are less than this share of that of the
-/// first one that is left to the series, and the size of a cell less than that.
+/// Cells of the line are summed one by one until all distances are below this fraction of the distance of the first
+/// cell in the series, which also limits the size of a cell.
 const REACH: f64 = 0.25;
-/// Largest size of a cell as a share of the distance of the first cell that is left to the series.
+/// Largest size of a cell relative to the distance of the first cell in the series.
 const SMOOTH: f64 = 1.0 / 32.0;
 /// The series ends where its terms are less than this.
 const MIN_TERM: f64 = 1e-17;
 
-/// A line of cells from one distance across it.
+/// A line of cells at one distance across it.
 struct LineAtDistance {
     line: Line,
     s: f64,
     half: [f64; 2],
-    /// What is not uniform of it.
+    /// Its non-uniform part.
     near: Option<NearField>,
 }
 
 impl LineAtDistance {
-    /// Σ ∬ 1/r over the cells, at `t` along the line.
+    /// Computes Σ ∬ 1/r over the cells, at `t` along the line.
     fn inverse_distance(&self, t: f64) -> f64 {
         let Self { line: Line { period, datum, .. }, s, half, .. } = *self;
         let Some(near) = &self.near else {
@@ -127,7 +128,7 @@ impl LineAtDistance {
         cells + others.sum::<f64>() * half[0] * half[1]
     }
 
-    /// All nine.
+    /// Computes all nine coefficients.
     fn coefficients(&self, t: f64, compliances: &Compliances) -> Coefficients {
         let Self { line: Line { period, .. }, s, half, .. } = *self;
         let area = 4.0 * half[0] * half[1];
@@ -137,7 +138,7 @@ impl LineAtDistance {
             None => [0.0, 0.0, PI / period * area * s.signum(), 0.0],
             Some(near) => {
                 let mut sums = [
-                    // What is uniform of it is a displacement of the whole body.
+                    // Its uniform part is a displacement of the whole body.
                     near.sum(self, t, |x, y| asinh_term(y, x), |x, y| x * x / cube(x, y))
                         - 2.0 / period * area,
                     near.sum(self, t, |x, y| -x.hypot(y), |x, y| x * y / cube(x, y)),
@@ -163,13 +164,13 @@ impl LineAtDistance {
         Coefficients { xx, xy: lateral * mixed, yy, zx, zy, zz }
     }
 
-    /// The nearest of the offsets that differ by periods.
+    /// Returns the nearest of the offsets that differ by periods.
     fn folded(&self, t: f64) -> f64 {
         t - self.line.period * (t / self.line.period).round()
     }
 }
 
-/// The N cells next to one on either side, and the series that all beyond them are.
+/// The N nearest cells on either side, and the series of all cells beyond them.
 ///
 /// With m = N + 1 and ρ = r/mL, R_l = ρ^l P_l(t/r) the solid harmonics about the line, ζ = (s + it)/mL:
 ///
@@ -181,13 +182,13 @@ struct NearField {
     cells: usize,
     /// mL.
     radius: f64,
-    /// 2/L times what does not vary of the series, and Z₂, Z₃ ….
+    /// 2/L times the constant part of the series, and Z₂, Z₃ ….
     constant: f64,
     weights: Vec<f64>,
 }
 
 impl NearField {
-    /// `cells` on either side, from no more than the share `ratio` of m periods away.
+    /// Creates the sum with `cells` cells on either side, for distances up to `ratio` times m periods.
     fn new(cells: usize, ratio: f64, line: &Line) -> Self {
         let Line { period, datum, .. } = *line;
         let first = (cells + 1) as f64;
@@ -202,7 +203,7 @@ impl NearField {
         }
     }
 
-    /// ∬ k over the nearest cells, one by one.
+    /// Sums ∬ k over the nearest cells, one by one.
     fn sum(
         &self,
         seen: &LineAtDistance,
@@ -218,8 +219,8 @@ impl NearField {
         (1..=cells).rev().map(pair).sum::<f64>() + integral(at(0), seen.half, &closed, &k)
     }
 
-    /// What all cells of the line but the nearest sum up to: T = Σ 1/r, and what of it displaces in the plane, [Σ
-    /// s²/r³, Σ st/r³] = [−s ∂T/∂s, −s ∂T/∂t].
+    /// Computes the sum T = Σ 1/r over all cells except the nearest, and the sums of the displacements in the
+    /// plane, [Σ s²/r³, Σ st/r³] = [−s ∂T/∂s, −s ∂T/∂t].
     fn harmonics(&self, at: [f64; 2]) -> (f64, [f64; 2]) {
         let [x, y] = at.map(|c| c / self.radius);
         let square = x * x + y * y;
@@ -239,7 +240,7 @@ impl NearField {
         (sum, [across, mixed])
     }
 
-    /// What all cells of the line but the nearest sum up to: Σ s/r² and Σ t/r².
+    /// Computes Σ s/r² and Σ t/r² over all cells except the nearest.
     fn poles(&self, at: [f64; 2]) -> [f64; 2] {
         let [x, y] = at.map(|c| c / self.radius);
         // −ζ².
@@ -256,9 +257,9 @@ impl NearField {
 /// Euler's constant γ.
 const EULER_GAMMA: f64 = 0.577_215_664_901_532_9;
 
-/// m^{p−1} Σ_{n≥m} n^{−p}, p ≥ 2: term by term up to n = 24, from there on by the sum of Euler and Maclaurin.
+/// Computes m^{p−1} Σ_{n≥m} n^{−p}, p ≥ 2: term by term up to n = 24, then by the Euler–Maclaurin formula.
 fn tail_of_zeta(p: i32, m: f64) -> f64 {
-    /// The n from which on the sum of Euler and Maclaurin is taken.
+    /// First n of the Euler–Maclaurin formula.
     const ASYMPTOTIC: f64 = 24.0;
     /// B_{2k}/(2k)!.
     const BERNOULLI: [f64; 4] = [1.0 / 12.0, -1.0 / 720.0, 1.0 / 30_240.0, -1.0 / 1_209_600.0];
@@ -310,7 +311,7 @@ mod tests {
         samples
     }
 
-    /// Σ over |n| ≤ M of the coefficients of a cell.
+    /// Sums the coefficients of a cell over |n| ≤ M.
     fn brute(pitch: [f64; 2], period: f64, [s, t]: [f64; 2], reach: i64) -> [[f64; 3]; 3] {
         let pair = pair();
         let mut sum = [[0.0; 3]; 3];
@@ -322,7 +323,8 @@ mod tests {
         sum
     }
 
-    /// What is left to the logarithm of r/r₀ beyond M ≫ 1, without what is uniform of the lateral coefficient.
+    /// Computes the remainder to the logarithm of r/r₀ beyond M ≫ 1, without the uniform part of the lateral
+    /// coefficient.
     fn rest(pitch: [f64; 2], period: f64, datum: f64, reach: i64) -> [[f64; 3]; 3] {
         let pair = pair();
         let area = pitch[0] * pitch[1] / PI;
@@ -353,7 +355,8 @@ mod tests {
             let tolerance = 1e-12 + 100.0 * (farthest / 2704.0).powi(5);
             for i in 0..3 {
                 for j in 0..3 {
-                    // What is left of the sums of 1/r and its like falls as h⁻², h⁻⁴, of x/r² and y/r² as h⁻¹, h⁻³.
+                    // The remainders of the sums of 1/r and similar terms decay as h⁻², h⁻⁴;
+                    // those of x/r² and y/r² as h⁻¹, h⁻³.
                     let power = if (i == 2) != (j == 2) { 1 } else { 2 };
                     let better =
                         |power: i32, [near, far]: [f64; 2]| far + (far - near) / (3f64.powi(power) - 1.0);

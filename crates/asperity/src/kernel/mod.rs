@@ -1,4 +1,4 @@
-//! Influence coefficients: what a unit traction on one cell does to another.
+//! Influence coefficients: displacement of a cell per unit traction on another.
 
 mod cell;
 mod coated;

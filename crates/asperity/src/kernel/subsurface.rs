@@ -3,8 +3,8 @@
 //! z points into the body, stress is positive in tension. On the surface z = 0 act the pressure p ≥ 0, along +z, and
 //! the shear tractions q_x and q_y along +x and +y, so that there σzz = −p, σxz = −q_x, σyz = −q_y.
 //!
-//! All stresses are derivatives of the potentials V = ∬ 1/R, ψ = ∬ ln(R + z) and F = ∬ [z ln(R + z) − R], taken over
-//! the loaded area, R the distance to its points. Per unit traction, subscripts for derivatives:
+//! All stresses are derivatives of the potentials V = ∬ 1/R, ψ = ∬ ln(R + z) and F = ∬ [z ln(R + z) − R] over the
+//! loaded area, with R the distance to its points. Per unit traction, with subscripts for derivatives,
 //!
 //! ```text
 //! 2π σ    under p                                under q_x
@@ -16,8 +16,8 @@
 //! xy      −(1 − 2ν) ψ_xy − z V_xy                V_y + 2ν F_xxy − z ψ_xxy
 //! ```
 //!
-//! and under q_y the same with x and y exchanged. Love, Phil. Trans. R. Soc. A 228, 377 (1929); Johnson (1985),
-//! sections 3.2–3.6.
+//! The stresses under q_y follow from an exchange of x and y. Love, Phil. Trans. R. Soc. A 228, 377 (1929); Johnson
+//! (1985), sections 3.2–3.6.
 
 use std::f64::consts::FRAC_1_PI;
 
@@ -40,7 +40,7 @@ impl Traction {
     /// All three.
     pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Pressure];
 
-    /// Whether the coefficient of `component` is odd in x, and in y; it is even where it is not.
+    /// Returns whether the coefficient of `component` is odd in x, and in y. Otherwise it is even.
     pub fn odd(self, component: Component) -> [bool; 2] {
         [
             matches!(component, Component::Xz | Component::Xy) != (self == Self::X),
@@ -49,15 +49,16 @@ impl Traction {
     }
 }
 
-/// Stress at `(x, y)` and `depth` ≥ 0 per unit `traction` on the cell centred at the origin, dimensionless.
+/// Computes the stress at `(x, y)` and `depth` ≥ 0 per unit `traction` on the cell centred at the origin,
+/// dimensionless.
 ///
 /// ```text
 /// 2π σ = S(x+a, y+b) − S(x−a, y+b) − S(x+a, y−b) + S(x−a, y−b)
 /// ```
 ///
-/// with `a`, `b` half the `pitch`, S the indefinite integrals of the potentials over x and y. Its error is some
-/// 1e-16 of the traction, so that at distance r about 2 log₁₀(r/a) digits are lost. At depth 0 it is the limit from
-/// within; there, on the edges of the cell, it is NaN or infinite.
+/// `a` and `b` are half the `pitch`, and S are the indefinite integrals of the potentials over x and y. The error is
+/// about 1e-16 of the traction, so that at distance r about 2 log₁₀(r/a) digits are lost. At depth 0 the result is
+/// the limit from inside. On the edges of the cell it is NaN or infinite.
 pub fn cell_stress(
     [x, y]: [Metre; 2],
     depth: Metre,
@@ -72,7 +73,7 @@ pub fn cell_stress(
     }))
 }
 
-/// The `component` of [`cell_stress`] at the offsets `(i Δx, j Δy)`.
+/// Computes the `component` of [`cell_stress`] at the offsets `(i Δx, j Δy)`.
 ///
 /// Each corner is evaluated once for the four cells that meet there.
 pub fn stress_table(
@@ -88,7 +89,7 @@ pub fn stress_table(
         let [x, y] = [(i as f64 + 0.5) * width, (j as f64 + 0.5) * height];
         corner(component, traction, x, y, depth, poisson)
     });
-    // A coefficient is even where its corner function is odd.
+    // A coefficient is even if its corner function is odd.
     let across = traction.odd(component).map(|odd| if odd { 1.0 } else { -1.0 });
     let at = |i: usize, j: usize| corners[[i, j]];
     let along_y = |i: usize, j: usize| at(i, j) - if j == 0 { across[1] * at(i, 0) } else { at(i, j - 1) };
@@ -97,12 +98,12 @@ pub fn stress_table(
     })
 }
 
-/// The `component` at `depth` per unit of the harmonic traction e^{i(k x + l y)}; to be multiplied by i where
-/// [`Traction::odd`] names one of x and y.
+/// Computes the `component` at `depth` per unit of the harmonic traction e^{i(k x + l y)}. It has a factor i if
+/// [`Traction::odd`] is true for exactly one of x and y.
 ///
-/// The potentials of a harmonic are V = 2π e^{−qz}/q, ψ = −V/q, F = V/q², q = √(k² + l²), whence for example
-/// σzz = −(1 + qz) e^{−qz} p. At q = 0 the traction is uniform, and the body is held laterally: σzz = −p,
-/// σxx = σyy = −ν p/(1 − ν), σxz = −q_x, σyz = −q_y.
+/// The potentials of a harmonic are V = 2π e^{−qz}/q, ψ = −V/q, F = V/q², q = √(k² + l²). For example, σzz = −(1 +
+/// qz) e^{−qz} p. At q = 0 the traction is uniform, and the body cannot widen: σzz = −p, σxx = σyy = −ν p/(1 − ν),
+/// σxz = −q_x, σyz = −q_y.
 pub fn harmonic_stress(
     [k, l]: [f64; 2],
     depth: Metre,
@@ -136,7 +137,7 @@ pub fn harmonic_stress(
     amplitude * (-z).exp()
 }
 
-/// One of the ten coefficients to which the eighteen are reduced by exchanging x and y.
+/// One of the ten independent coefficients; an exchange of x and y gives all eighteen.
 fn canonical(component: Component, traction: Traction, at: [f64; 2]) -> (Component, Traction, [f64; 2]) {
     let exchanged = match component {
         Component::Xx => Component::Yy,
@@ -152,8 +153,9 @@ fn canonical(component: Component, traction: Traction, at: [f64; 2]) -> (Compone
     }
 }
 
-/// S: the formulas above with the potentials integrated over a quadrant whose corner lies at distance (x, y). What
-/// depends on x alone, or on y alone, is left out or added, so that each term is even or odd and bounded for z > 0:
+/// Computes S: the formulas above with the potentials integrated over a quadrant whose corner lies at distance (x,
+/// y). Terms that depend only on x or only on y are omitted or added, so that each term is even or odd and bounded
+/// for z > 0:
 ///
 /// ```text
 /// V_x  = asinh(y/√(x² + z²))     V_z  = −atan(xy/zR)             ψ_xx = atan(y/x) − atan(yz/xR)
@@ -164,14 +166,14 @@ fn corner(component: Component, traction: Traction, x: f64, y: f64, z: f64, pois
     use Component::{Xx, Xy, Xz, Yy, Yz, Zz};
     let (component, traction, [x, y]) = canonical(component, traction, [x, y]);
     let r = (x * x + y * y + z * z).sqrt();
-    // V_x, −V_z, −z V_xx, and what F and ψ have in common.
+    // V_x, −V_z, −z V_xx, and the common terms of F and ψ.
     let asinh = |y: f64, x: f64| ((y.abs() + r) / (x * x + z * z).sqrt()).ln().copysign(y);
     let solid_angle = || (x * y).atan2(z * r);
     let bent = |x: f64, y: f64| z * x * y / (r * (x * x + z * z));
     let drawn = |y: f64| (2.0 * poisson + z / r) * y / (r + z);
     let sum = match (traction, component) {
         (Traction::Pressure, Xx) => {
-            // The two arcs in one, without the jump of either at x = 0.
+            // Both arcs are combined, without their discontinuity at x = 0.
             let square = x * x + y * y;
             let psi_xx = (x * y * square).atan2((x * x * r + y * y * z) * (r + z));
             bent(x, y) - 2.0 * poisson * solid_angle() - (1.0 - 2.0 * poisson) * psi_xx
@@ -200,8 +202,8 @@ mod tests {
         cell_stress([at[0], at[1]], at[2], CELL, poisson, traction).components()
     }
 
-    /// From an independent program: the same potentials differentiated at the corners, checked there by Hooke's law on
-    /// its displacements.
+    /// Values of an independent program, which differentiates the same potentials at the corners and checks them
+    /// by Hooke's law on its displacements.
     #[test]
     fn it_is_what_an_independent_program_finds() {
         #[rustfmt::skip]
@@ -226,12 +228,12 @@ mod tests {
         }
     }
 
-    /// Where σ_ij stands among the components.
+    /// Returns the index of σ_ij among the components.
     fn index(i: usize, j: usize) -> usize {
         [[0, 5, 4], [5, 1, 3], [4, 3, 2]][i][j]
     }
 
-    /// A derivative by differences of the fourth order.
+    /// Computes a derivative by differences of fourth order.
     fn derivative(f: impl Fn(f64) -> f64, step: f64) -> f64 {
         (8.0 * (f(step) - f(-step)) - (f(2.0 * step) - f(-2.0 * step))) / (12.0 * step)
     }

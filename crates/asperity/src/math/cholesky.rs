@@ -1,9 +1,9 @@
-//! The factorisation of a dense symmetric positive definite matrix.
+//! Factorisation of a dense symmetric positive definite matrix.
 
 use ndarray::linalg::general_mat_mul;
 use ndarray::{Array2, ArrayView2, ArrayViewMut2, Axis, s};
 
-/// Columns of a block: the more, the fewer times all to their left is read.
+/// Columns of a block. Larger blocks read the columns to their left less often.
 const BLOCK: usize = 128;
 
 /// Columns that are factorised row by row, too few for a product of matrices.
@@ -11,13 +11,14 @@ const LEAF: usize = 8;
 
 /// A = L Lᵀ.
 pub(crate) struct Cholesky {
-    /// L; above its diagonal is what was there of A.
+    /// L; the values of A remain above its diagonal.
     lower: Array2<f64>,
 }
 
 impl Cholesky {
-    /// Factorises A, of which only the lower triangle is read, in its place, block column by block column from the left
-    /// (Golub and Van Loan, Matrix Computations, §4.2); `None` where A is not positive definite to round-off.
+    /// Factorises A in place, block column by block column from the left (Golub and Van Loan, Matrix
+    /// Computations, §4.2). Only the lower triangle of A is read. Returns `None` if A is not positive definite to
+    /// round-off.
     ///
     /// # Panics
     /// If A is not square.
@@ -33,10 +34,10 @@ impl Cholesky {
         Some(Self { lower: matrix })
     }
 
-    /// A⁻¹ b.
+    /// Computes A⁻¹ b.
     ///
     /// # Panics
-    /// If b is not as long as A.
+    /// If the length of b differs from the size of A.
     pub(crate) fn solve(&self, right: &[f64]) -> Vec<f64> {
         assert_eq!(right.len(), self.lower.nrows(), "of another size than the matrix");
         let mut x = right.to_vec();
@@ -53,7 +54,7 @@ impl Cholesky {
     }
 }
 
-/// A block column from its diagonal down: its left half, then its right half, of which the left is taken away.
+/// Factorises a block column from its diagonal down: its left half, then its right half after subtraction of the left.
 fn factorise(mut column: ArrayViewMut2<f64>) -> Option<()> {
     let size = column.ncols();
     if size <= LEAF {
@@ -70,7 +71,7 @@ fn factorise(mut column: ArrayViewMut2<f64>) -> Option<()> {
     factorise(right)
 }
 
-/// A square by itself, row after row.
+/// Factorises a square block, row after row.
 fn factorise_rows(block: &mut ArrayViewMut2<f64>) -> Option<()> {
     for i in 0..block.nrows() {
         let (above, mut rest) = block.view_mut().split_at(Axis(0), i);
@@ -86,7 +87,7 @@ fn factorise_rows(block: &mut ArrayViewMut2<f64>) -> Option<()> {
     Some(())
 }
 
-/// `rows` L⁻ᵀ, in their place.
+/// Computes `rows` L⁻ᵀ in place.
 fn divide(mut rows: ArrayViewMut2<f64>, lower: ArrayView2<f64>) {
     for mut row in rows.rows_mut() {
         divide_row(row.as_slice_mut().expect("rows are contiguous"), lower);
@@ -100,7 +101,7 @@ fn divide_row(row: &mut [f64], lower: ArrayView2<f64>) {
     }
 }
 
-/// In eight sums at a time, which fit the registers.
+/// Computes eight sums at a time, which fit into registers.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (eights, rest) = a.as_chunks::<8>();
     let (other_eights, other_rest) = b.as_chunks::<8>();
@@ -121,7 +122,7 @@ mod tests {
 
     use super::*;
 
-    /// B Bᵀ + `shift`, whose least eigenvalue is at least `shift`.
+    /// Creates B Bᵀ + `shift`, whose smallest eigenvalue is at least `shift`.
     fn random(n: usize, shift: f64, seed: u64) -> Array2<f64> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let b = Array2::from_shape_simple_fn([n, n], || random.random_range(-1.0..1.0));

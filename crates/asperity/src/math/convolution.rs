@@ -11,9 +11,10 @@ use crate::grid::Field;
 use crate::math::fft::SHARE;
 use crate::math::parallel::{self, Pool};
 
-/// Columns that are transformed together: one or two cache lines of a row.
+/// Number of columns that are transformed together: one or two cache lines of a row.
 const STRIP: usize = 8;
-/// Room between the columns of a strip: without it columns of a power of two share their cache lines' places.
+/// Padding between the columns of a strip. Without it, columns with a power of two as length would map to the same
+/// cache lines.
 const ROOM: usize = 8;
 
 /// The plans of a cyclic grid, for transforms in the precision of `T`.
@@ -26,7 +27,7 @@ pub(crate) struct Plans<T> {
 }
 
 impl<T: Precision> Plans<T> {
-    /// The plans of a grid of `shape`.
+    /// Creates the plans of a grid of `shape`.
     pub(crate) fn new(shape: [usize; 2]) -> Self {
         let [mx, my] = shape;
         Self {
@@ -43,17 +44,17 @@ impl<T: Precision> Plans<T> {
         self.shape[1] / 2 + 1
     }
 
-    /// Rows that a thread takes at the least.
+    /// Smallest number of rows per thread.
     fn rows_at_once(&self) -> usize {
         SHARE.div_ceil(self.shape[1])
     }
 
-    /// Strips that a thread takes at the least.
+    /// Smallest number of strips per thread.
     pub(super) fn strips_at_once(&self) -> usize {
         SHARE.div_ceil(STRIP * self.shape[0])
     }
 
-    /// Scratch for any of the plans.
+    /// Creates scratch memory for any of the plans.
     pub(super) fn scratch(&self) -> Vec<Complex<T>> {
         let lengths = [
             self.along_y.get_scratch_len(),
@@ -65,17 +66,17 @@ impl<T: Precision> Plans<T> {
     }
 }
 
-/// How a kernel changes with the sign of an offset.
+/// Symmetry of a kernel under a change of sign of an offset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Parity {
-    /// Not at all.
+    /// The kernel does not change.
     Even,
-    /// Its sign does.
+    /// The kernel changes its sign.
     Odd,
 }
 
 impl Parity {
-    /// The value at `index` of a period of `length` from those `at` up to half of it.
+    /// Returns the value at `index` of a period of `length` from the values `at` in its first half.
     pub(super) fn extend(self, index: usize, length: usize, at: impl Fn(usize) -> f64) -> f64 {
         let mirrored = length - index;
         match self {
@@ -86,7 +87,7 @@ impl Parity {
         }
     }
 
-    /// What the transform of a real kernel of this parity consists of: its real part, or its imaginary one.
+    /// Returns the nonzero part of the transform of a real kernel of this parity: the real or the imaginary part.
     fn part(self, value: Complex<f64>) -> f64 {
         match self {
             Self::Even => value.re,
@@ -96,14 +97,14 @@ impl Parity {
 }
 
 impl Plans<f64> {
-    /// Transform of the kernel with the values `table[[i, j]]` at the offsets i, j for `i ≤ Mx/2`, `j ≤ My/2`, and of
-    /// this parity along x and y: the real number by which iⁿ is multiplied, n the number of odd axes, at `[ky, kx]` for
-    /// `ky ≤ My/2`, `kx ≤ Mx/2`.
+    /// Computes the transform of the kernel with the values `table[[i, j]]` at the offsets i, j for `i ≤ Mx/2`,
+    /// `j ≤ My/2`, and with this parity along x and y. The result at `[ky, kx]`, for `ky ≤ My/2`, `kx ≤ Mx/2`, is
+    /// the real factor of iⁿ, with n the number of odd axes.
     pub(crate) fn spectrum(&self, table: &Field, parity: [Parity; 2]) -> Field {
         let [mx, my] = self.shape;
         let half = self.half();
         let scratch = Pool::default();
-        // Of each row of the table its transform along y, of which one part is not zero.
+        // The nonzero part of the transform along y of each row of the table.
         let mut rows = Field::zeros([mx / 2 + 1, half]);
         let parts = table.outer_iter().zip(rows.outer_iter_mut());
         parallel::each(
@@ -153,16 +154,16 @@ impl Plans<f64> {
 /// precision of `T`.
 pub(crate) struct Kernel<T> {
     pub(super) plans: Plans<T>,
-    /// Real and even: `[ky, kx]` for `ky ≤ My/2`, or for the ky of one rank, and `kx ≤ Mx/2`, as a share of the largest. Kernels of
-    /// either precision share it.
+    /// The real and even spectrum over its largest value: `[ky, kx]` for `ky ≤ My/2`, or for the ky of one rank,
+    /// and `kx ≤ Mx/2`. Kernels of both precisions share it.
     pub(super) spectrum: Arc<Field>,
     /// The largest of the spectrum, divided by Mx My.
     pub(super) unit: f64,
 }
 
 impl Kernel<f64> {
-    /// The kernel on a cyclic grid of `shape` whose transform at the bins `(kx, ky)` is `spectrum[[ky, kx]]`, for `ky ≤ My/2`,
-    /// `kx ≤ Mx/2`.
+    /// Creates the kernel on a cyclic grid of `shape` with the transform `spectrum[[ky, kx]]` at the bins `(kx,
+    /// ky)`, for `ky ≤ My/2`, `kx ≤ Mx/2`.
     ///
     /// # Panics
     /// If the spectrum has another shape.
@@ -171,7 +172,7 @@ impl Kernel<f64> {
         Self::of_spectrum(Plans::new(shape), spectrum)
     }
 
-    /// The kernel on a cyclic grid of `shape` with the values `table[[i, j]]` at the offsets ±i, ±j, for
+    /// Creates the kernel on a cyclic grid of `shape` with the values `table[[i, j]]` at the offsets ±i, ±j, for
     /// `i ≤ Mx/2`, `j ≤ My/2`.
     pub(crate) fn from_values(shape: [usize; 2], table: &Field) -> Self {
         let plans = Plans::new(shape);
@@ -184,7 +185,7 @@ impl Kernel<f64> {
         Self::scaled(plans, spectrum, largest)
     }
 
-    /// The kernel that has this `spectrum`, or this part of a spectrum, whose `largest` magnitude is given.
+    /// Creates the kernel with this `spectrum`, or part of a spectrum, and its `largest` magnitude.
     pub(super) fn scaled(plans: Plans<f64>, mut spectrum: Field, largest: f64) -> Self {
         if largest > 0.0 {
             spectrum /= largest;
@@ -193,24 +194,24 @@ impl Kernel<f64> {
         Self { plans, spectrum: Arc::new(spectrum), unit }
     }
 
-    /// The same kernel for transforms in single precision.
+    /// Returns the kernel for transforms in single precision.
     pub(crate) fn to_single(&self) -> Kernel<f32> {
         Kernel { plans: Plans::new(self.plans.shape), spectrum: Arc::clone(&self.spectrum), unit: self.unit }
     }
 }
 
-/// The largest magnitude in a spectrum.
+/// Returns the largest magnitude in a spectrum.
 pub(super) fn largest(spectrum: &Field) -> f64 {
     spectrum.iter().fold(0.0, |largest, s| s.abs().max(largest))
 }
 
-/// Convolution of fields of one shape with a [`Kernel`] of that shape or a larger one; what lies beyond the field
-/// counts as zero. A kernel of at least `2n − 1` along each axis makes the cyclic convolution the free one.
+/// Convolution of fields of one shape with a [`Kernel`] of at least this shape. Values beyond the field are zero.
+/// With a kernel of at least `2n − 1` along each axis the cyclic convolution equals the free one.
 ///
-/// Rows that are zero are not transformed, columns are transformed in strips that go forth, through the kernel and
-/// back while they are in cache, and only the rows of the field come back: with a kernel of twice the size about
-/// half the work of whole transforms. Rows and strips are worked on in parallel. One thread allocates nothing after
-/// construction.
+/// Rows of zeros are not transformed. Columns are transformed in strips: forward, through the kernel and back while
+/// they are in cache. Only the rows of the field are transformed back. With a kernel of twice the size this takes
+/// about half the work of full transforms. Rows and strips are processed in parallel. A single thread allocates
+/// nothing after construction.
 pub(crate) struct Convolution<T> {
     kernel: Arc<Kernel<T>>,
     transform: Transform<T>,
@@ -218,7 +219,7 @@ pub(crate) struct Convolution<T> {
 }
 
 impl<T: Precision> Convolution<T> {
-    /// The convolution of fields of `shape`.
+    /// Creates the convolution of fields of `shape`.
     ///
     /// # Panics
     /// If the kernel is smaller than `shape`.
@@ -226,7 +227,7 @@ impl<T: Precision> Convolution<T> {
         Self { transform: Transform::new(&kernel.plans, shape), scratch: Pool::default(), kernel }
     }
 
-    /// Writes the convolution of `input` into `output`.
+    /// Computes the convolution `output` of `input`.
     ///
     /// # Panics
     /// If a field has another shape than the plans.
@@ -284,7 +285,7 @@ pub(super) struct Transform<T> {
 }
 
 impl<T: Precision> Transform<T> {
-    /// A transform of fields of `shape`, which may be smaller than the plans.
+    /// Creates a transform of fields of `shape`, which may be smaller than the plans.
     pub(super) fn new(plans: &Plans<T>, shape: [usize; 2]) -> Self {
         let [mx, my] = plans.shape;
         assert!(shape[0] <= mx && shape[1] <= my, "kernel smaller than the field");
@@ -307,13 +308,13 @@ impl<T: Precision> Transform<T> {
         );
     }
 
-    /// The strips in which columns are transformed.
+    /// Returns the strips in which columns are transformed.
     pub(super) fn strips(&mut self) -> impl ExactSizeIterator<Item = Strip<'_, T>> {
         let strips = self.rows.axis_chunks_iter_mut(Axis(1), STRIP).enumerate();
         strips.map(|(number, rows)| Strip { first: number * STRIP, rows })
     }
 
-    /// Brings the rows back, times `unit`.
+    /// Transforms the rows back, multiplied by `unit`.
     pub(super) fn rows_back(
         &mut self,
         plans: &Plans<T>,
@@ -343,7 +344,7 @@ pub(super) struct Strip<'a, T> {
 }
 
 impl<T: Precision> Strip<'_, T> {
-    /// Frequency along y and column of each, in the scratch.
+    /// Frequency along y, and position of its column in the scratch memory.
     pub(super) fn columns<'s>(
         &self,
         plans: &Plans<T>,
@@ -384,7 +385,7 @@ impl<T: Precision> Strip<'_, T> {
 }
 
 impl<T: Precision> Plans<T> {
-    /// Transforms a row, continued by zeros, into `half`; `row` and `scratch` are room to work in.
+    /// Transforms a zero-padded row into `half`; `row` and `scratch` are scratch memory.
     pub(super) fn row_forward(
         &self,
         values: ArrayView1<'_, T>,
@@ -402,7 +403,8 @@ impl<T: Precision> Plans<T> {
         self.along_y.process_with_scratch(row, half, scratch).expect("lengths of the plan");
     }
 
-    /// Transforms `half` back into the first values of its row, times `unit`; `row` and `scratch` are room to work in.
+    /// Transforms `half` back into the first values of its row, multiplied by `unit`; `row` and `scratch` are
+    /// scratch memory.
     pub(super) fn row_back(
         &self,
         half: &mut [Complex<T>],
@@ -423,7 +425,7 @@ impl<T: Precision> Plans<T> {
     }
 }
 
-/// Multiplies the transform of a column by that of an even kernel, of which `spectrum` is the first half.
+/// Multiplies the transform of a column by the transform of an even kernel, whose first half is `spectrum`.
 pub(super) fn multiply<T: Precision>(column: &mut [Complex<T>], spectrum: &[f64]) {
     let (front, back) = column.split_at_mut(column.len() / 2 + 1);
     front.iter_mut().zip(spectrum).for_each(|(v, k)| *v = v.scale(real(*k)));

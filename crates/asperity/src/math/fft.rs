@@ -12,7 +12,7 @@ use crate::math::parallel::{self, Pool};
 /// Transform of a real field of one shape: half-complex along y, complex along x.
 ///
 /// `forward` is unnormalised, `ẑ[k, l] = Σ z[i, j] exp(−2πi (k i/nx + l j/ny))` for `l = 0 … ny/2`;
-/// `inverse` divides by `nx ny`, so that it undoes `forward`. Rows and columns are worked on in parallel.
+/// `inverse` divides by `nx ny`, so that it inverts `forward`. Rows and columns are processed in parallel.
 pub(crate) struct RealFft2 {
     shape: [usize; 2],
     along_y: Arc<dyn RealToComplex<f64>>,
@@ -22,7 +22,7 @@ pub(crate) struct RealFft2 {
 }
 
 impl RealFft2 {
-    /// Plans for fields of `shape`.
+    /// Creates plans for fields of `shape`.
     pub(crate) fn new(shape: [usize; 2]) -> Self {
         Self {
             shape,
@@ -33,7 +33,7 @@ impl RealFft2 {
         }
     }
 
-    /// Number of retained frequencies along y.
+    /// Returns the number of stored frequencies along y.
     pub(crate) fn half(&self) -> usize {
         self.shape[1] / 2 + 1
     }
@@ -43,7 +43,7 @@ impl RealFft2 {
         self.shape
     }
 
-    /// The spectrum of `field`, shape `[nx, ny/2 + 1]`. A smaller field is continued by zeros.
+    /// Computes the spectrum of `field`, shape `[nx, ny/2 + 1]`. A smaller field is padded with zeros.
     ///
     /// # Panics
     /// If `field` is larger than the plans.
@@ -60,16 +60,16 @@ impl RealFft2 {
         columns.t().as_standard_layout().into_owned()
     }
 
-    /// The first rows and columns, so many as `shape` says, of the field whose spectrum this is.
+    /// Computes the first rows and columns, of this `shape`, of the field with this spectrum.
     ///
     /// # Panics
-    /// If `spectrum` has another shape than [`RealFft2::forward`] gives, or `shape` is larger than the plans.
+    /// If the shape of `spectrum` differs from that of [`RealFft2::forward`], or `shape` is larger than the plans.
     pub(crate) fn inverse_leading(&self, spectrum: &Array2<Complex64>, shape: [usize; 2]) -> Field {
         assert_eq!(spectrum.dim(), (self.shape[0], self.half()), "shape of the spectrum");
         self.inverse_transposed(spectrum.t().as_standard_layout().into_owned(), shape)
     }
 
-    /// As [`RealFft2::inverse_leading`], of a spectrum `[l, k]`. Frequencies l without any wave cost nothing.
+    /// [`RealFft2::inverse_leading`] of a spectrum `[l, k]`. Frequencies l with zero amplitudes take no time.
     ///
     /// # Panics
     /// If `columns` has another shape than `[ny/2 + 1, nx]`, or `shape` is larger than the plans.
@@ -127,10 +127,10 @@ impl RealFft2 {
         );
     }
 
-    /// The first rows and columns, so many as `shape` says, of a field whose waves are multiplied by `response`,
+    /// Computes the first rows and columns, of this `shape`, of a field whose waves are multiplied by `response`,
     /// indexed `[l, k]`, l = 0 … ny/2.
     ///
-    /// `row` is called for one row of the field after another and sets its values: the field itself is never held.
+    /// `row` is called for each row of the field in order and sets its values. The field itself is never in memory.
     ///
     /// # Panics
     /// If `response` has another shape than `[ny/2 + 1, nx]`, or `shape` is larger than the plans.
@@ -154,7 +154,7 @@ impl RealFft2 {
         self.inverse_transposed(columns, shape)
     }
 
-    /// Transforms along y of the first `rows` rows, the others 0, indexed `[l, ix]`.
+    /// Computes the transforms along y of the first `rows` rows, indexed `[l, ix]`; the other rows are 0.
     fn rows_forward(&self, rows: usize, mut row: impl FnMut(usize, &mut [f64])) -> Array2<Complex64> {
         let mut columns = Array2::zeros([self.half(), self.shape[0]]);
         transform_rows(&*self.along_y, rows, &mut row, &mut columns);
@@ -162,11 +162,12 @@ impl RealFft2 {
     }
 }
 
-/// Transform of a real field that is point-symmetric, z[−i, −j] = z[i, j]: real and point-symmetric itself.
+/// Computes the transform of a real point-symmetric field, z[−i, −j] = z[i, j]. The transform is also real and
+/// point-symmetric.
 ///
-/// Of the field of `shape` = [nx, ny], `half` holds the rows i = 0 … nx/2; of the transform, which is
-/// unnormalised, the result holds the frequencies `[l, k]`, l = 0 … ny/2. So it undoes itself, called with the
-/// shape reversed, up to the factor nx ny. A quarter of a complex transform's work.
+/// `half` holds the rows i = 0 … nx/2 of the field of `shape` = [nx, ny]. The result holds the frequencies `[l, k]`,
+/// l = 0 … ny/2, of the unnormalised transform. A second call with the shape reversed returns the field times nx ny.
+/// It takes a quarter of the work of a complex transform.
 ///
 /// # Panics
 /// If `half` has another shape than `[nx/2 + 1, ny]`.
@@ -186,7 +187,8 @@ pub(crate) fn symmetric_transform(half: &Field, [nx, ny]: [usize; 2]) -> Field {
         || along_x.make_scratch_vec(),
         |scratch, (mut column, mut values)| {
             let column = column.as_slice_mut().expect("standard layout");
-            // The rows −i have the conjugate transforms of the rows i; so has the inverse plan the sign of the forward one.
+            // The rows −i have the conjugate transforms of the rows i, so the inverse plan has the sign
+            // of the forward one.
             column.iter_mut().for_each(|value| *value = value.conj());
             make_hermitian(column, nx);
             let values = values.as_slice_mut().expect("standard layout");
@@ -198,7 +200,7 @@ pub(crate) fn symmetric_transform(half: &Field, [nx, ny]: [usize; 2]) -> Field {
 
 /// Rows transposed at a time: two cache lines of complex numbers.
 const BLOCK: usize = 8;
-/// Complex numbers that a thread transforms at the least, so that it is worth its while.
+/// Smallest amount of complex numbers per thread.
 pub(super) const SHARE: usize = 1 << 17;
 
 /// Transforms the first `rows` rows, which `row` sets, into the first entries of the columns.

@@ -1,6 +1,6 @@
-//! Values that come to one cell from several sides.
+//! Sums of values by cell.
 
-/// The values of each cell added up, in their order; the cells ascend.
+/// Sums the values of each cell in their order. Returns the cells in ascending order.
 pub(crate) fn gathered(parts: impl Iterator<Item = (u32, f64)>) -> Vec<(u32, f64)> {
     let mut parts: Vec<_> = parts.collect();
     parts.sort_by_key(|(cell, _)| *cell);

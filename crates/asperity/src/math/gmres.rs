@@ -1,7 +1,8 @@
 //! The generalised method of minimal residuals.
 
-/// An approximate solution x of A x = b, for any matrix A with the product `A v` of a vector, and the products taken: the one of
-/// least residual in their Krylov space. It ends when the residual is that share `reduction` of b, or after `max_products`.
+/// Computes an approximate solution x of A x = b with the smallest residual in a Krylov space, for any matrix A with
+/// the product `A v`. It stops when the residual is the fraction `reduction` of b, or after `max_products` products.
+/// Returns x and the number of products.
 ///
 /// Saad and Schultz, SIAM J. Sci. Stat. Comput. 7, 856 (1986).
 pub(crate) fn gmres(
@@ -15,7 +16,7 @@ pub(crate) fn gmres(
         return (right, 0);
     }
     let mut basis = vec![times(1.0 / size, right)];
-    // The upper triangle that rotations make of the Hessenberg matrix, column by column, and the right side they have turned.
+    // The Hessenberg matrix, rotated to an upper triangle, column by column, and the rotated right-hand side.
     let (mut triangle, mut rotations): (Vec<Vec<f64>>, Vec<[f64; 2]>) = (Vec::new(), Vec::new());
     let mut turned = vec![size];
     while triangle.len() < max_products && turned[triangle.len()].abs() > reduction * size {
@@ -78,7 +79,7 @@ fn times(factor: f64, mut a: Vec<f64>) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// A matrix that is not symmetric, with a skew part as large as the rest.
+    /// A nonsymmetric matrix, whose skew part is as large as its symmetric part.
     fn product(v: &[f64]) -> Vec<f64> {
         let n = v.len();
         (0..n)

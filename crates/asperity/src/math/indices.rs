@@ -1,9 +1,10 @@
-//! Where a few of many values are.
+//! Indices of a few of many values.
 
-/// Values that are looked at together.
+/// Number of values that are tested together.
 const SOME: usize = 16;
 
-/// Indices of the `values` that are so, increasing. It is fastest by `for_each`, where most are not so.
+/// Iterates over the indices of the `values` that satisfy a condition, in increasing order. It is fastest with
+/// `for_each` if few values satisfy it.
 pub(crate) fn indices_where<'a, T>(
     values: &'a [T],
     is_so: impl Fn(&T) -> bool + Copy + 'a,

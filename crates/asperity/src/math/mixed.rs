@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use crate::grid::{Field, SingleField};
 use crate::math::{Convolution, Kernel, TensorConvolution, TensorKernel};
 
-/// A kernel D in double precision, and S in single once that is asked for. Convolutions of several shapes may share it.
+/// A kernel D in double precision, and on first use S in single precision. Convolutions of several shapes may share it.
 pub(crate) struct Mixed<D, S> {
     double: Arc<D>,
     single: OnceLock<Arc<S>>,
@@ -18,23 +18,23 @@ pub(crate) type MixedKernel = Mixed<Kernel<f64>, Kernel<f32>>;
 pub(crate) type MixedTensorKernel = Mixed<TensorKernel<f64>, TensorKernel<f32>>;
 
 impl<D, S> Mixed<D, S> {
-    /// The `kernel`, in double and in single precision.
+    /// Creates the `kernel` in both precisions.
     pub(crate) fn new(kernel: D) -> Arc<Self> {
         Arc::new(Self { double: Arc::new(kernel), single: OnceLock::new() })
     }
 
-    /// The kernel for transforms in double precision.
+    /// Returns the kernel for transforms in double precision.
     pub(super) fn double(&self) -> Arc<D> {
         Arc::clone(&self.double)
     }
 
-    /// The kernel for transforms in single precision.
+    /// Returns the kernel for transforms in single precision.
     pub(super) fn single(&self, to_single: impl FnOnce(&D) -> S) -> Arc<S> {
         Arc::clone(self.single.get_or_init(|| Arc::new(to_single(&self.double))))
     }
 }
 
-/// What works in one precision at a time, and is kept for that asked for last: the two take turns.
+/// Holds the object for the precision that was used last. A change of precision replaces it.
 pub(super) enum LastUsed<D, S> {
     None,
     Double(D),
@@ -42,7 +42,8 @@ pub(super) enum LastUsed<D, S> {
 }
 
 impl<D, S> LastUsed<D, S> {
-    /// What works in double precision; `new` makes it, after what worked in single precision is gone.
+    /// Returns the object for double precision. If necessary, it releases that for single precision, and `new`
+    /// creates it.
     pub(super) fn double(&mut self, new: impl FnOnce() -> D) -> &mut D {
         if !matches!(self, Self::Double(_)) {
             *self = Self::None;
@@ -52,7 +53,8 @@ impl<D, S> LastUsed<D, S> {
         latest
     }
 
-    /// What works in single precision; `new` makes it, after what worked in double precision is gone.
+    /// Returns the object for single precision. If necessary, it releases that for double precision, and `new`
+    /// creates it.
     pub(super) fn single(&mut self, new: impl FnOnce() -> S) -> &mut S {
         if !matches!(self, Self::Single(_)) {
             *self = Self::None;
@@ -63,7 +65,7 @@ impl<D, S> LastUsed<D, S> {
     }
 }
 
-/// Convolution of fields of one shape in either precision. It holds the scratch of the one that was asked for last.
+/// Convolution of fields of one shape in either precision. It holds the scratch memory of the precision used last.
 pub(crate) struct MixedConvolution {
     /// The kernel, which other convolutions may share.
     pub(crate) kernel: Arc<MixedKernel>,
@@ -72,31 +74,32 @@ pub(crate) struct MixedConvolution {
 }
 
 impl MixedConvolution {
-    /// The convolution of fields of `shape` with `kernel`; see [`Convolution::new`].
+    /// Creates the convolution of fields of `shape` with `kernel`; see [`Convolution::new`].
     pub(crate) fn new(kernel: Arc<MixedKernel>, shape: [usize; 2]) -> Self {
         Self { kernel, shape, latest: LastUsed::None }
     }
 
-    /// Writes the convolution of `input` into `output`, to 1e-15 of the largest output.
+    /// Computes the convolution `output` of `input`, to 1e-15 of the largest output.
     pub(crate) fn apply(&mut self, input: &Field, output: &mut Field) {
         let Self { kernel, shape, latest } = self;
         latest.double(|| Convolution::new(kernel.double(), *shape)).apply(input, output);
     }
 
-    /// Writes the convolution of `input` into `output` in half the time, to 3e-7 of the largest output.
+    /// Computes the convolution `output` of `input` in half the time, to 3e-7 of the largest output.
     pub(crate) fn apply_single(&mut self, input: &SingleField, output: &mut SingleField) {
         let Self { kernel, shape, latest } = self;
         let new = || Convolution::new(kernel.single(Kernel::to_single), *shape);
         latest.single(new).apply(input, output);
     }
 
-    /// Gives back the scratch.
+    /// Releases the scratch memory.
     pub(crate) fn release(&mut self) {
         self.latest = LastUsed::None;
     }
 }
 
-/// Convolution of three fields of one shape with a tensor of kernels, in either precision, as [`MixedConvolution`] does it of one.
+/// Convolution of three fields of one shape with a tensor of kernels in either precision; see [`MixedConvolution`]
+/// for one field.
 pub(crate) struct MixedTensorConvolution {
     kernel: Arc<MixedTensorKernel>,
     shape: [usize; 2],
@@ -104,18 +107,18 @@ pub(crate) struct MixedTensorConvolution {
 }
 
 impl MixedTensorConvolution {
-    /// The convolution of fields of `shape` with `kernel`; see [`TensorConvolution::new`].
+    /// Creates the convolution of fields of `shape` with `kernel`; see [`TensorConvolution::new`].
     pub(crate) fn new(kernel: Arc<MixedTensorKernel>, shape: [usize; 2]) -> Self {
         Self { kernel, shape, latest: LastUsed::None }
     }
 
-    /// As [`TensorConvolution::apply`] in double precision.
+    /// [`TensorConvolution::apply`] in double precision.
     pub(crate) fn apply(&mut self, input: [Option<&Field>; 3], output: [Option<&mut Field>; 3]) {
         let Self { kernel, shape, latest } = self;
         latest.double(|| TensorConvolution::new(kernel.double(), *shape)).apply(input, output);
     }
 
-    /// As [`TensorConvolution::apply`] in half the time, to 4e-7 of the largest output.
+    /// [`TensorConvolution::apply`] in half the time, to 4e-7 of the largest output.
     pub(crate) fn apply_single(
         &mut self,
         input: [Option<&SingleField>; 3],

@@ -1,4 +1,4 @@
-//! Mathematics that several modules share.
+//! Mathematics shared by several modules.
 
 mod cholesky;
 pub(crate) mod convolution;

@@ -1,4 +1,4 @@
-//! Work on the parts of one thing, by all threads that have nothing else to do.
+//! Parallel work on parts of a task by idle threads.
 
 use std::ops::Range;
 use std::slice::{Chunks, ChunksMut};
@@ -8,9 +8,9 @@ use rayon::FnContext;
 
 use crate::grid::Field;
 
-/// Returns the results of a `task` on each of some [`Bands`], in their order.
+/// Performs a `task` on each of some [`Bands`]. Returns the results in their order.
 ///
-/// Which threads work on them changes nothing: what is summed over the bands is to be summed in this order.
+/// The result does not depend on the threads if sums over the bands use this order.
 pub(crate) fn map<T: Send, R: Send>(
     bands: impl ExactSizeIterator<Item = T>,
     task: impl Fn(T) -> R + Sync,
@@ -18,14 +18,14 @@ pub(crate) fn map<T: Send, R: Send>(
     each(bands, BANDS_AT_ONCE, &Pool::default(), || (), |(), band| task(band))
 }
 
-/// Bands that a thread takes at the least, so that it is worth its while.
+/// Smallest number of bands per thread.
 pub(crate) const BANDS_AT_ONCE: usize = 4;
 
-/// Returns the results of a `task` on each of some parts, in their order. The task has scratch that no other thread has
-/// meanwhile; `new` makes what the `pool` lacks.
+/// Performs a `task` on each of some parts. Returns the results in their order. Each thread has its own scratch
+/// memory from the `pool`; `new` creates missing memory.
 ///
-/// At least `at_once` parts go to a thread. The present thread does all parts if they are few, or if it has tasks of its own
-/// that wait for other threads: those are larger, such as the other positions of a pass, and come first.
+/// A thread takes at least `at_once` parts. The present thread performs all parts if they are few, or if its own
+/// tasks wait for other threads. Such tasks, for example the other positions of a pass, are larger and have priority.
 pub(crate) fn each<T: Send, S: Send, R: Send>(
     parts: impl ExactSizeIterator<Item = T>,
     at_once: usize,
@@ -41,7 +41,7 @@ pub(crate) fn each<T: Send, S: Send, R: Send>(
     shared(parts.collect(), at_once, &|| pool.acquire(&new), &|lent, part| task(lent.scratch(), part))
 }
 
-/// Returns the results of a `task` on each of some parts, in their order. Each part is worth a thread of its own.
+/// Performs a `task` on each of some parts, each large enough for a thread. Returns the results in their order.
 pub(crate) fn tasks<T: Send, R: Send>(
     parts: impl IntoIterator<Item = T>,
     task: impl Fn(T) -> R + Sync,
@@ -53,7 +53,7 @@ pub(crate) fn tasks<T: Send, R: Send>(
     shared(parts.collect(), 1, &|| (), &|(), part| task(part))
 }
 
-/// Returns the results of a `task` on each of the `parts`, in their order, worked on by all threads.
+/// Performs a `task` on each of the `parts` by all threads. Returns the results in their order.
 fn shared<T: Send, S, R: Send>(
     parts: Vec<T>,
     at_once: usize,
@@ -74,10 +74,10 @@ fn shared<T: Send, S, R: Send>(
     done.map(|done| done.expect("every part is done")).collect()
 }
 
-/// Performs a `task` on ranges that make up the `whole`, each of at least `at_once` numbers.
+/// Performs a `task` on ranges that cover the `whole`, each of at least `at_once` numbers.
 ///
-/// The range is halved until there are `wanted` ranges; one that another thread takes is halved further, so that threads
-/// with less to do help the others. This function is not generic: rayon is compiled for it once, whatever the task is.
+/// The range is halved until there are `wanted` ranges. A range taken by another thread is halved further, so that
+/// idle threads help the others. This function is not generic, so that rayon is compiled only once.
 fn share(whole: Range<usize>, at_once: usize, wanted: usize, task: &(dyn Fn(Range<usize>) + Sync)) {
     if wanted == 0 || whole.len() < 2 * at_once.max(1) {
         return task(whole);
@@ -93,10 +93,10 @@ fn share(whole: Range<usize>, at_once: usize, wanted: usize, task: &(dyn Fn(Rang
     );
 }
 
-/// Scratch for as many threads as have worked at the same time: it is made once, and then lent.
+/// Scratch memory for the largest number of simultaneous threads. It is created once and reused.
 pub(crate) struct Pool<S>(Mutex<Vec<S>>);
 
-/// Scratch that goes back to its pool when its holder is done.
+/// Scratch memory that returns to its pool when dropped.
 struct PoolGuard<'a, S> {
     pool: &'a Pool<S>,
     scratch: Option<S>,
@@ -131,7 +131,7 @@ impl<S> Drop for PoolGuard<'_, S> {
     }
 }
 
-/// The field of a `shape` with this `value` at each `(i, j)`, worked out row by row.
+/// Creates the field of a `shape` with this `value` at each `(i, j)`, row by row in parallel.
 pub(crate) fn field(shape: [usize; 2], value: impl Fn(usize, usize) -> f64 + Sync) -> Field {
     let mut field = Field::zeros(shape);
     let at_once = FIELD_SHARE.div_ceil(shape[1]);
@@ -147,11 +147,10 @@ pub(crate) fn field(shape: [usize; 2], value: impl Fn(usize, usize) -> f64 + Syn
     field
 }
 
-/// Values of a field that a thread works out at the least.
+/// Smallest number of values of a field per thread.
 const FIELD_SHARE: usize = 1 << 12;
 
-/// Bands of neighbouring rows, in which a grid is worked on in parallel. They depend on its shape alone, and so does all that is
-/// summed band by band.
+/// Bands of consecutive rows for parallel work on a grid. They depend only on its shape, and so do sums by band.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Bands {
     /// Rows of a band; the last may have fewer.
@@ -162,13 +161,13 @@ pub(crate) struct Bands {
     all: usize,
 }
 
-/// Cells of a band at the least: smaller grids are one.
+/// Smallest number of cells in a band; smaller grids are one band.
 const MIN_CELLS: usize = 1 << 14;
-/// Rows of a band at the least: more than what neighbouring bands have to do with each other.
+/// Smallest number of rows in a band, more than the reach of operations between neighbouring bands.
 const MIN_ROWS: usize = 32;
 
 impl Bands {
-    /// The bands of a grid of `shape`.
+    /// Creates the bands of a grid of `shape`.
     pub(crate) fn of(shape: [usize; 2]) -> Self {
         let [all, columns] = shape;
         Self { rows: MIN_CELLS.div_ceil(columns).max(MIN_ROWS), columns, all }
@@ -179,28 +178,28 @@ impl Bands {
         self.columns
     }
 
-    /// The number of the band that has a row, and that of the row in it.
+    /// Returns the band of a row, and the number of the row in the band.
     pub(crate) fn place(&self, row: usize) -> [usize; 2] {
         [row / self.rows, row % self.rows]
     }
 
-    /// The rows of each band.
+    /// Iterates over the rows of each band.
     pub(crate) fn rows(&self) -> impl ExactSizeIterator<Item = Range<usize>> + use<> {
         let Self { rows, all, .. } = *self;
         (0..all.div_ceil(rows)).map(move |band| band * rows..(band * rows + rows).min(all))
     }
 
-    /// The parts of the values of all cells, one for each band.
+    /// Splits the values of all cells by band.
     pub(crate) fn cut<'a, T>(&self, values: &'a [T]) -> Chunks<'a, T> {
         values.chunks(self.rows * self.columns)
     }
 
-    /// The parts of the values of all cells, to be changed.
+    /// Splits the mutable values of all cells by band.
     pub(crate) fn cut_mut<'a, T>(&self, values: &'a mut [T]) -> ChunksMut<'a, T> {
         values.chunks_mut(self.rows * self.columns)
     }
 
-    /// The first cell of a band.
+    /// Returns the first cell of a band.
     pub(crate) fn first(&self, band: usize) -> usize {
         band * self.rows * self.columns
     }

@@ -1,4 +1,4 @@
-//! Real Fourier transforms of many planes of one shape, with whatever is done to each bin of all planes in between.
+//! Real Fourier transforms of many planes of one shape, with operations on each bin of all planes.
 
 use std::sync::Arc;
 
@@ -7,23 +7,25 @@ use crate::math::parallel::{self, Pool};
 use asperity_transforms::num_complex::Complex64;
 use asperity_transforms::{ComplexToReal, Fft, Precision, RealToComplex};
 
-/// Room between the columns of neighbouring planes: without it those of a power of two share their places in the caches.
+/// Padding between the columns of neighbouring planes. Without it, columns with a power of two as length would map to
+/// the same cache lines.
 const ROOM: usize = 4;
-/// Rows that are turned into columns at a time: two cache lines of complex numbers.
+/// Number of rows that are transposed at a time: two cache lines of complex numbers.
 const BLOCK: usize = 8;
 
-/// Numbers in parts of work that are worth a thread.
+/// Smallest amount of numbers per thread.
 const WORTH_A_THREAD: usize = 8192;
 
-/// How many parts of work on so many numbers each a thread takes at the least.
+/// Returns the smallest number of parts per thread, for parts with this many numbers.
 pub(crate) fn together(numbers: usize) -> usize {
     (WORTH_A_THREAD / numbers.max(1)).max(1)
 }
 
-/// The plans for planes of `cells`, which are continued by zeros up to the `shape` of the transforms.
+/// Plans for planes of `cells`, which are padded with zeros to the `shape` of the transforms.
 ///
-/// The transforms go row by row, plane by plane in parallel; then column by column, ky by ky in parallel, where the caller
-/// has all planes at hand; and back. Each number is computed by one thread, whichever it is.
+/// The rows are transformed first, with the planes in parallel. Then the columns are transformed, with the ky in
+/// parallel; here the caller has access to all planes. The inverse reverses the order. A single thread computes each
+/// number.
 ///
 /// | what | indexed |
 /// |---|---|
@@ -31,7 +33,7 @@ pub(crate) fn together(numbers: usize) -> usize {
 /// | transforms of their rows | `[plane, ky, ix]`, ky = 0 … ny/2 |
 /// | columns | `[ky, plane, kx]`, with [`Planes::stride`] numbers from plane to plane, of which `shape[0]` count |
 ///
-/// Forward they are unnormalised, back they are divided by the number of bins.
+/// Forward transforms are unnormalised. Inverse transforms are divided by the number of bins.
 pub(crate) struct Planes {
     shape: [usize; 2],
     cells: [usize; 2],
@@ -42,7 +44,7 @@ pub(crate) struct Planes {
 }
 
 impl Planes {
-    /// Plans for planes of `cells` in transforms of `shape`.
+    /// Creates plans for planes of `cells` in transforms of `shape`.
     ///
     /// # Panics
     /// If the planes are larger than the transforms.
@@ -78,24 +80,24 @@ impl Planes {
         self.shape[0] + ROOM
     }
 
-    /// Room for the transforms of the rows of so many `planes`.
+    /// Allocates memory for the row transforms of this number of `planes`.
     pub(crate) fn rows(&self, planes: usize) -> Vec<Complex64> {
         vec![Complex64::default(); planes * self.half() * self.cells[0]]
     }
 
-    /// Room for the columns of so many `planes`.
+    /// Allocates memory for the columns of this number of `planes`.
     pub(crate) fn columns(&self, planes: usize) -> Vec<Complex64> {
         vec![Complex64::default(); planes * self.half() * self.stride()]
     }
 
-    /// Scratch for [`Planes::column_forward`] and [`Planes::column_back`].
+    /// Creates scratch memory for [`Planes::column_forward`] and [`Planes::column_back`].
     pub(crate) fn scratch(&self) -> Vec<Complex64> {
         let length = self.along_x.get_inplace_scratch_len().max(self.back_x.get_inplace_scratch_len());
         vec![Complex64::default(); length]
     }
 
-    /// Transforms the rows of the `planes`, each of which is contiguous. Says which of them hold anything but zeros; of
-    /// the others nothing is written.
+    /// Transforms the rows of the contiguous `planes`. Returns which of them have nonzero values. It writes
+    /// nothing for planes of zeros.
     ///
     /// # Panics
     /// If a length does not fit.
@@ -137,8 +139,7 @@ impl Planes {
         parallel::each(planes, together(nx * ny), &Pool::default(), make, each)
     }
 
-    /// Of what [`Planes::rows_forward`] has written, the numbers of a plane at `ky`, continued by zeros and transformed into
-    /// a `column`.
+    /// Pads the result of [`Planes::rows_forward`] for a plane at `ky` with zeros, and transforms it into a `column`.
     pub(crate) fn column_forward(
         &self,
         rows: &[Complex64],
@@ -157,7 +158,7 @@ impl Planes {
         self.back_x.process_with_scratch(&mut column[..self.shape[0]], scratch);
     }
 
-    /// The planes whose `columns` have been transformed back.
+    /// Computes the planes from `columns` that have been transformed back.
     ///
     /// # Panics
     /// If a length does not fit.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-/// ∫ f over `lo … hi` by five-point Gauss–Legendre on 64 panels; never evaluated at the ends.
+/// Computes ∫ f over `lo … hi` by the five-point Gauss–Legendre rule on 64 panels. f is never evaluated at the ends.
 pub(crate) fn integrate(lo: f64, hi: f64, f: impl Fn(f64) -> f64) -> f64 {
     /// Nodes and weights of one half of the symmetric rule.
     const NODES: [(f64, f64); 3] = [
@@ -20,12 +20,12 @@ pub(crate) fn integrate(lo: f64, hi: f64, f: impl Fn(f64) -> f64) -> f64 {
     half * (0..PANELS).map(|i| sum(lo + half * (2 * i + 1) as f64)).sum::<f64>()
 }
 
-/// Nodes and weights of Gauss and Legendre's rule of `n` points on −1 … 1.
+/// Computes nodes and weights of the Gauss–Legendre rule of `n` points on −1 … 1.
 pub(crate) fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
     let node = |k: usize| {
         let mut x = (PI * (k as f64 + 0.75) / (n as f64 + 0.5)).cos();
         let mut slope = 1.0;
-        // Newton's steps on Pₙ, whose guess is right to some digits.
+        // Newton steps on Pₙ from a guess with some correct digits.
         for _ in 0..6 {
             let (mut before, mut value) = (1.0, x);
             for order in 2..=n {

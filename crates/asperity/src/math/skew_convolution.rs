@@ -1,4 +1,4 @@
-//! Convolution with a kernel that is even along y alone by real Fourier transforms.
+//! Convolution with a kernel that is even only along y, by real Fourier transforms.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ pub(crate) struct SkewKernel {
 }
 
 impl SkewKernel {
-    /// The kernel with these `values` at the cyclic offsets `[i, j]`.
+    /// Creates the kernel with these `values` at the cyclic offsets `[i, j]`.
     pub(crate) fn from_values(values: &Field) -> Self {
         let plans = Plans::new([values.nrows(), values.ncols()]);
         let (mut transform, mut scratch) = (Transform::new(&plans, plans.shape), Scratch::new(&plans));
@@ -33,8 +33,8 @@ impl SkewKernel {
         Self::normalised(plans, spectrum)
     }
 
-    /// The kernel on a cyclic grid of `shape` whose transform at the bins `(kx, ky)` is `transform`, for all kx and
-    /// `ky ≤ My/2`; at the bin of half an even period along x, which is its own opposite, its real part.
+    /// Creates the kernel on a cyclic grid of `shape` with this `transform` at the bins `(kx, ky)`, for all kx
+    /// and `ky ≤ My/2`. At the Nyquist bin of an even period along x only the real part is used.
     pub(crate) fn from_transform(shape: [usize; 2], transform: impl Fn(usize, usize) -> Complex64) -> Self {
         let plans = Plans::new(shape);
         let spectrum = Array2::from_shape_fn([plans.half(), shape[0]], |(ky, kx)| {
@@ -51,7 +51,7 @@ impl SkewKernel {
     }
 }
 
-/// Convolution of fields of one shape with a [`SkewKernel`], as [`super::Convolution`] does it with an even one.
+/// Convolution of fields of one shape with a [`SkewKernel`]; see [`super::Convolution`] for even kernels.
 pub(crate) struct SkewConvolution {
     kernel: Arc<SkewKernel>,
     transform: Transform<f64>,
@@ -59,7 +59,7 @@ pub(crate) struct SkewConvolution {
 }
 
 impl SkewConvolution {
-    /// The convolution of fields of `shape`.
+    /// Creates the convolution of fields of `shape`.
     ///
     /// # Panics
     /// If the kernel is smaller than `shape`.
@@ -67,7 +67,7 @@ impl SkewConvolution {
         Self { transform: Transform::new(&kernel.plans, shape), scratch: Pool::default(), kernel }
     }
 
-    /// Writes the convolution of `input` into `output`.
+    /// Computes the convolution `output` of `input`.
     ///
     /// # Panics
     /// If a field has another shape than the plans.

@@ -1,4 +1,4 @@
-//! Convolution of fields of which each rank holds a slab.
+//! Convolution of fields divided among ranks.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -14,14 +14,14 @@ use super::transposition::Transposition;
 use crate::grid::{Field, SingleField};
 use crate::ranks::{Largest, Number, Parts, Ranks, Slab};
 
-/// Rows that are turned into columns at a time.
+/// Number of rows that are transposed at a time.
 const BLOCK: usize = 8;
 
-/// Convolution in either precision of fields of which each rank holds its rows, with a kernel of their size or a larger one;
-/// what lies beyond the fields counts as zero. It has the bits of [`super::MixedConvolution`].
+/// Convolution in either precision of fields with rows on each rank. The kernel has at least their size, and values
+/// beyond the fields are zero. The result has the bits of [`super::MixedConvolution`].
 ///
-/// Each rank transforms its rows; then each has all of some columns, which it takes through the kernel and back; then its rows
-/// again.
+/// Each rank transforms its rows. After a transposition each rank has some columns, which it transforms, multiplies
+/// by the kernel and transforms back. A second transposition returns the rows.
 pub(crate) struct SlabConvolution {
     ranks: Arc<dyn Ranks>,
     rows: Parts,
@@ -31,8 +31,8 @@ pub(crate) struct SlabConvolution {
 }
 
 impl SlabConvolution {
-    /// The convolution of the fields of a `slab` with the kernel of `shape` whose transform at the bins `(kx, ky)` is
-    /// `transform`, for `kx ≤ Mx/2`, `ky ≤ My/2`.
+    /// Creates the convolution of the fields of a `slab` with the kernel of `shape` and this `transform` at the
+    /// bins `(kx, ky)`, for `kx ≤ Mx/2`, `ky ≤ My/2`.
     pub(crate) fn from_transform(
         slab: &Slab,
         shape: [usize; 2],
@@ -46,8 +46,8 @@ impl SlabConvolution {
         Self::new(slab, plans, spectrum)
     }
 
-    /// The convolution of the fields of a `slab` with the kernel of `shape` that has the values `at(i, j)` at the offsets ±i,
-    /// ±j, for `i ≤ Mx/2`, `j ≤ My/2`.
+    /// Creates the convolution of the fields of a `slab` with the kernel of `shape` and the values `at(i, j)` at
+    /// the offsets ±i, ±j, for `i ≤ Mx/2`, `j ≤ My/2`.
     pub(crate) fn from_values(slab: &Slab, shape: [usize; 2], at: impl Fn(usize, usize) -> f64) -> Self {
         let plans = Plans::new(shape);
         let ranks = slab.ranks();
@@ -93,30 +93,30 @@ impl SlabConvolution {
         }
     }
 
-    /// Writes the convolution of `input` into `output`, to 1e-15 of the largest output.
+    /// Computes the convolution `output` of `input`, to 1e-15 of the largest output.
     pub(crate) fn apply(&mut self, input: &Field, output: &mut Field) {
         let Self { ranks, rows, kernel, latest } = self;
         latest.double(|| Workspace::new(ranks, rows, kernel.double())).apply(input, output);
     }
 
-    /// Writes the convolution of `input` into `output` in half the time, to 3e-7 of the largest output.
+    /// Computes the convolution `output` of `input` in half the time, to 3e-7 of the largest output.
     pub(crate) fn apply_single(&mut self, input: &SingleField, output: &mut SingleField) {
         let Self { ranks, rows, kernel, latest } = self;
         latest.single(|| Workspace::new(ranks, rows, kernel.single(Kernel::to_single))).apply(input, output);
     }
 
-    /// Gives back the scratch.
+    /// Releases the scratch memory.
     pub(crate) fn release(&mut self) {
         self.latest = LastUsed::None;
     }
 }
 
-/// The frequencies along y of this rank, of so many.
+/// Returns the frequencies along y of this rank, out of their total number.
 fn columns_of(ranks: &dyn Ranks, frequencies: usize) -> Range<usize> {
     Parts::even(frequencies, ranks.count()).of(ranks.rank())
 }
 
-/// A field on its way through the transforms.
+/// A field during its transforms.
 struct Workspace<T> {
     kernel: Arc<Kernel<T>>,
     transposition: Transposition<T>,

@@ -1,4 +1,4 @@
-//! Real Fourier transforms of fields of which each rank holds a slab.
+//! Real Fourier transforms of fields divided among ranks.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -12,11 +12,11 @@ use super::transposition::Transposition;
 use crate::grid::Field;
 use crate::ranks::{Parts, Ranks, Slab};
 
-/// Rows that are turned into columns at a time.
+/// Number of rows that are transposed at a time.
 const BLOCK: usize = 8;
 
-/// Transforms of real fields of one shape, as of [`super::RealFft2`], of which each rank has its rows, and of the transform its
-/// frequencies along y.
+/// Transforms of real fields of one shape, like [`super::RealFft2`]. Each rank has its rows of the field, and its
+/// frequencies along y of the transform.
 pub(crate) struct SlabTransform {
     ranks: Arc<dyn Ranks>,
     plans: Plans<f64>,
@@ -45,8 +45,8 @@ impl SlabTransform {
         Parts::even(self.plans.half(), self.ranks.count())
     }
 
-    /// The transform, unnormalised, of the field whose rows `row` sets, called for those of this rank one after another:
-    /// `[l, k]` for its frequencies l along y.
+    /// Computes the unnormalised transform of a field. `row` sets its rows and is called in order for the rows of
+    /// this rank. Returns `[l, k]` for the frequencies l of this rank along y.
     pub(crate) fn forward(&self, mut row: impl FnMut(usize, &mut [f64])) -> Array2<Complex64> {
         let Self { ranks, plans } = self;
         let [nx, ny] = plans.shape;
@@ -73,8 +73,8 @@ impl SlabTransform {
         columns
     }
 
-    /// The rows of a `slab` of the field, cut to its grid, whose transform is `columns`; the last row becomes the first if
-    /// `mirrored`.
+    /// Computes the rows of a `slab` of the field with the transform `columns`, cropped to its grid. If
+    /// `mirrored`, the last row becomes the first.
     pub(crate) fn inverse(&self, mut columns: Array2<Complex64>, slab: &Slab, mirrored: bool) -> Field {
         let Self { ranks, plans } = self;
         let [nx, ny] = plans.shape;

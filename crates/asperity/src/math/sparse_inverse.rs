@@ -1,10 +1,10 @@
 //! A factorised sparse approximate inverse of an influence matrix on some of the cells of a grid.
 
-/// The factorised sparse approximate inverse GᵀG ≈ C⁻¹ of the influence matrix C on the free cells: row i of G solves
-/// `C_JJ y = e_i` on the free ones J among the cell and its causal neighbours, divided by √y_i. Kolotilina and Yeremin, SIAM J.
-/// Matrix Anal. Appl. 14, 45 (1993).
+/// The factorised sparse approximate inverse GᵀG ≈ C⁻¹ of the influence matrix C on the free cells. Row i of G solves
+/// `C_JJ y = e_i`, divided by √y_i, where J are the free cells among the cell and its causal neighbours. Kolotilina
+/// and Yeremin, SIAM J. Matrix Anal. Appl. 14, 45 (1993).
 ///
-/// A row depends on nothing but which of the neighbours are free: there are 64.
+/// A row depends only on which of the neighbours are free, so there are 64 different rows.
 pub(crate) struct SparseInverse {
     shape: [usize; 2],
     /// The row of G for each pattern of free neighbours.
@@ -13,20 +13,20 @@ pub(crate) struct SparseInverse {
 
 /// Number of causal neighbours.
 const NEIGHBOURS: usize = 6;
-/// Rows before a cell that have neighbours of it.
+/// Number of rows before a cell with neighbours of the cell.
 pub(crate) const ROWS_ABOVE: usize = 2;
-/// Number of members of a row: the neighbours, and last the cell itself.
+/// Number of entries of a row: the neighbours, and last the cell itself.
 const MEMBERS: usize = NEIGHBOURS + 1;
 /// The nearest neighbours that come before a cell in memory.
 const CAUSAL: [(isize, isize); NEIGHBOURS] = [(-1, -1), (-1, 0), (-1, 1), (0, -1), (-2, 0), (0, -2)];
-/// One more than the largest distance of two members along each axis.
+/// One more than the largest distance between two entries along each axis.
 const REACH: [usize; 2] = [3, 4];
 
 impl SparseInverse {
-    /// The inverse on a grid of `shape` of the matrix with the coefficients `influence(i, j)` at the offsets ±i, ±j, positive
-    /// definite.
+    /// Creates the inverse on a grid of `shape` of the positive definite matrix with the coefficients
+    /// `influence(i, j)` at the offsets ±i, ±j.
     pub(crate) fn new(shape: [usize; 2], influence: impl Fn(usize, usize) -> f64) -> Self {
-        // Neighbours that the grid is too small for never occur.
+        // On small grids some neighbours never occur.
         let coefficients: [[f64; REACH[1]]; REACH[0]] = std::array::from_fn(|i| {
             std::array::from_fn(|j| if i < shape[0] && j < shape[1] { influence(i, j) } else { 0.0 })
         });
@@ -50,13 +50,13 @@ impl SparseInverse {
         Self { shape, rows }
     }
 
-    /// The pattern of the cell `[ix, iy]`: bit k is set where neighbour k `is_free`, by its flat index.
+    /// Returns the pattern of the cell `[ix, iy]`. Bit k is set if neighbour k `is_free`, by its flat index.
     #[inline]
     pub(crate) fn pattern(&self, [ix, iy]: [usize; 2], is_free: impl Fn(usize) -> bool) -> u8 {
         let ny = self.shape[1];
         let free = |(di, dj): (isize, isize)| {
             let (i, j) = (ix.wrapping_add_signed(di), iy.wrapping_add_signed(dj));
-            // Neighbours come before the cell: what is below 0 has wrapped.
+            // Neighbours come before the cell, so negative indices have wrapped.
             i <= ix && j < ny && is_free(i * ny + j)
         };
         (0..NEIGHBOURS).fold(0, |pattern, k| pattern | u8::from(free(CAUSAL[k])) << k)
@@ -64,13 +64,14 @@ impl SparseInverse {
 
     /// Adds GᵀG r to `z` for the free `cells` of some rows, each with its pattern.
     ///
-    /// `r` and `z` have, besides these rows, the [`ROWS_ABOVE`] before them, from whose first cell the cells count; there is
-    /// nothing but zeros before the first row of a grid. `r` is zero where it is not free.
+    /// In addition to these rows, `r` and `z` have the [`ROWS_ABOVE`] rows before them, and cells count from the
+    /// first cell of these. Before the first row of a grid they are zero. `r` is zero for cells that are not
+    /// free.
     pub(crate) fn add(&self, cells: impl Iterator<Item = (usize, u8)>, r: &[f32], z: &mut [f32]) {
         let back = CAUSAL.map(|(di, dj)| (-di * self.shape[1] as isize - dj) as usize);
         for (cell, pattern) in cells {
             let row = &self.rows[pattern as usize];
-            // Absent neighbours have the coefficient 0, whatever cell they are taken for.
+            // Missing neighbours have the coefficient 0, so their index does not matter.
             let neighbours = back.map(|distance| cell - distance);
             let mut product = row[NEIGHBOURS] * r[cell];
             neighbours.iter().zip(row).for_each(|(&neighbour, g)| product += g * r[neighbour]);
@@ -80,8 +81,8 @@ impl SparseInverse {
     }
 }
 
-/// The last column of the inverse of the leading `n` × `n` block, by Gaussian elimination of a positive definite
-/// matrix.
+/// Computes the last column of the inverse of the leading `n` × `n` block, by Gaussian elimination of a positive
+/// definite matrix.
 fn last_column_of_inverse(matrix: &mut [[f64; MEMBERS]; MEMBERS], n: usize) -> [f64; MEMBERS] {
     for pivot in 0..n {
         for row in pivot + 1..n {

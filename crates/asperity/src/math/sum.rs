@@ -1,10 +1,10 @@
-//! Sums of a fixed order.
+//! Sums in a fixed order.
 
-/// Partial sums that are added up side by side.
+/// Number of partial sums.
 const LANES: usize = 8;
 
-/// The sums of what `terms` makes of each index and value, taken in eight lanes: faster than one after another, and
-/// rounded less.
+/// Returns the sums of `terms` of each index and value, in eight lanes. This is faster than one sum and has smaller
+/// rounding errors.
 pub(crate) fn sums<T: Copy, const N: usize>(values: &[T], terms: impl Fn(usize, T) -> [f64; N]) -> [f64; N] {
     let mut lanes = [[0.0; LANES]; N];
     let chunks = values.chunks_exact(LANES);

@@ -29,21 +29,22 @@ const PARITIES: [[Parity; 2]; 6] = [
 /// zx   zy   zz     zx, zy       odd in x, in y
 /// ```
 ///
-/// What is odd at an offset of half an even period, which is its own opposite, counts as zero.
+/// At an offset of half an even period odd components are zero.
 pub(crate) struct TensorKernel<T> {
     plans: Plans<T>,
-    /// xx, xy, yy, zx, zy, zz, over the unit; zx and zy as the imaginary parts of what has no real one. Kernels of either precision
-    /// share them.
+    /// xx, xy, yy, zx, zy, zz, over the unit. zx and zy are the imaginary parts of imaginary coefficients.
+    /// Kernels of both precisions share them.
     spectra: Arc<[Field; 6]>,
-    /// A power of two, of the size of the largest of the spectra: within the range of single precision they are shares of it.
+    /// A power of two of the size of the largest spectrum. The spectra over this unit are in the range of single
+    /// precision.
     unit: f64,
     /// Whether zx or zy are not zero.
     coupled: bool,
 }
 
 impl TensorKernel<f64> {
-    /// The tensor on a cyclic grid of `shape` with the values `at(i, j)` (xx, xy, yy, zx, zy, zz) at the offsets i, j,
-    /// for `i ≤ Mx/2`, `j ≤ My/2`.
+    /// Creates the tensor on a cyclic grid of `shape` with the values `at(i, j)` (xx, xy, yy, zx, zy, zz) at the
+    /// offsets i, j, for `i ≤ Mx/2`, `j ≤ My/2`.
     pub(crate) fn from_values(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> Self {
         let plans = Plans::new(shape);
         let tables = tables(shape, at);
@@ -55,8 +56,8 @@ impl TensorKernel<f64> {
         Self::new(plans, spectra)
     }
 
-    /// The tensor on a cyclic grid of `shape` with the transforms `at(kx, ky)` (xx, xy, yy, zx/i, zy/i, zz) at its
-    /// bins, for `kx ≤ Mx/2`, `ky ≤ My/2`.
+    /// Creates the tensor on a cyclic grid of `shape` with the transforms `at(kx, ky)` (xx, xy, yy, zx/i, zy/i,
+    /// zz) at its bins, for `kx ≤ Mx/2`, `ky ≤ My/2`.
     pub(crate) fn from_transforms(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> Self {
         let own_opposite = |k: usize, n: usize| k == 0 || 2 * k == n;
         let mut spectra =
@@ -83,7 +84,7 @@ impl TensorKernel<f64> {
         Self { plans, spectra: Arc::new(spectra), unit, coupled }
     }
 
-    /// The same kernel for transforms in single precision.
+    /// Returns the kernel for transforms in single precision.
     pub(crate) fn to_single(&self) -> TensorKernel<f32> {
         let plans = Plans::new(self.plans.shape);
         TensorKernel { plans, spectra: Arc::clone(&self.spectra), unit: self.unit, coupled: self.coupled }
@@ -101,9 +102,9 @@ fn tables(shape: [usize; 2], at: impl Fn(usize, usize) -> [f64; 6]) -> [Field; 6
     tables
 }
 
-/// Convolution of three fields of one shape with a [`TensorKernel`], as [`super::Convolution`] does it of one.
+/// Convolution of three fields of one shape with a [`TensorKernel`]; see [`super::Convolution`] for one field.
 ///
-/// Each field given is transformed once, each field asked for transformed back once.
+/// Each given field is transformed once, and each requested field is transformed back once.
 pub(crate) struct TensorConvolution<T> {
     kernel: Arc<TensorKernel<T>>,
     transforms: [Transform<T>; 3],
@@ -112,7 +113,7 @@ pub(crate) struct TensorConvolution<T> {
 }
 
 impl<T: Precision> TensorConvolution<T> {
-    /// The convolution of fields of `shape`.
+    /// Creates the convolution of fields of `shape`.
     ///
     /// # Panics
     /// If the kernel is smaller than `shape`.
@@ -125,7 +126,7 @@ impl<T: Precision> TensorConvolution<T> {
         }
     }
 
-    /// Writes into the fields asked for the convolution of the fields given; those that are not given are zero.
+    /// Computes the requested fields by convolution of the given fields. Missing fields are zero.
     ///
     /// # Panics
     /// If a field has another shape than the plans.
@@ -134,7 +135,7 @@ impl<T: Precision> TensorConvolution<T> {
         let plans = &kernel.plans;
         let given = input.map(|field| field.is_some());
         let asked = output.each_ref().map(|field| field.is_some());
-        // Without coupling the fields in the plane and the one along z do not meet.
+        // Without coupling, the fields in the plane and the field along z are independent.
         let meet = |flags: [bool; 3]| match kernel.coupled {
             true => [flags.contains(&true); 3],
             false => [flags[0] || flags[1], flags[0] || flags[1], flags[2]],
@@ -186,7 +187,7 @@ fn scratch<T: Precision>(plans: &Plans<T>) -> [Scratch<T>; 3] {
 }
 
 impl<T: Precision> TensorKernel<T> {
-    /// Multiplies the columns of three strips by the tensor; `in_plane` where there is nothing along z.
+    /// Multiplies the columns of three strips by the tensor; `in_plane` means that the field along z is zero.
     fn multiply(&self, strips: &[Strip<T>; 3], scratch: &mut [Scratch<T>; 3], in_plane: bool) {
         let half = self.plans.shape[0] / 2 + 1;
         let [x, y, z] = scratch;
@@ -196,7 +197,7 @@ impl<T: Precision> TensorKernel<T> {
                 let columns = spectrum.ncols();
                 &spectrum.as_slice().expect("standard layout")[ky * columns..][..columns]
             });
-            // The bins of negative kx, of which those of opposite sign are known: what is odd in x changes its sign.
+            // The bins of negative kx follow from those of positive kx: components that are odd in x change their sign.
             let opposite = spectra.map(|spectrum| &spectrum[1..]);
             let ((x, x_back), (y, y_back)) = (x.split_at_mut(half), y.split_at_mut(half));
             let (x_back, y_back) = (x_back.iter_mut().rev(), y_back.iter_mut().rev());
@@ -212,7 +213,7 @@ impl<T: Precision> TensorKernel<T> {
     }
 }
 
-/// Multiplies the bins of the three fields by the tensor, whose parts that are odd in x have this `sign`.
+/// Multiplies the bins of the three fields by the tensor, whose components that are odd in x have this `sign`.
 fn multiply<'a, T: Precision>(
     x: impl Iterator<Item = &'a mut Complex<T>>,
     y: impl Iterator<Item = &'a mut Complex<T>>,
@@ -232,7 +233,7 @@ fn multiply<'a, T: Precision>(
     }
 }
 
-/// As [`multiply`] where there is nothing along z.
+/// [`multiply`] without a field along z.
 fn multiply_in_plane<'a, T: Precision>(
     x: impl Iterator<Item = &'a mut Complex<T>>,
     y: impl Iterator<Item = &'a mut Complex<T>>,
@@ -255,7 +256,7 @@ fn times_i<T: Precision>(value: Complex<T>) -> Complex<T> {
 mod tests {
     use super::*;
 
-    /// A tensor of the right parities on offsets within a few cells, on a cyclic grid of `shape`.
+    /// A tensor with the correct parities on offsets of a few cells, on a cyclic grid of `shape`.
     fn value(shape: [usize; 2], offset: [isize; 2]) -> [f64; 6] {
         let [i, j] = [0, 1].map(|axis| {
             let n = shape[axis] as isize;

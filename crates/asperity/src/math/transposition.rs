@@ -1,4 +1,4 @@
-//! Rows of a grid by ranks that become columns by ranks, and rows again.
+//! Transposition of a grid between rows by rank and columns by rank.
 
 use std::sync::Arc;
 
@@ -6,23 +6,24 @@ use asperity_transforms::num_complex::Complex;
 
 use crate::ranks::{Number, Parts, Ranks};
 
-/// Complex numbers `[row, column]` of which each rank holds its rows, or its columns.
+/// Complex numbers `[row, column]` with rows, or columns, on each rank.
 ///
-/// Between ranks go their common cells, column by column. Memory: both forms, two real numbers for each cell in each.
+/// Two ranks exchange the cells in the rows of one and the columns of the other, column by column. The memory is two
+/// real numbers per cell in each of the two forms.
 pub(crate) struct Transposition<T> {
     ranks: Arc<dyn Ranks>,
     rows: Parts,
     columns: Parts,
-    /// The rows of this rank: for each rank its columns.
+    /// The rows of this rank, split into the columns of each rank.
     by_rows: Vec<T>,
-    /// The columns of this rank: for each rank its rows.
+    /// The columns of this rank, split into the rows of each rank.
     by_columns: Vec<T>,
     row_counts: Vec<usize>,
     column_counts: Vec<usize>,
 }
 
 impl<T: Number> Transposition<T> {
-    /// Of which each of the `ranks` holds these `rows`, or these `columns`.
+    /// Creates zeros with these `rows`, and these `columns`, on each of the `ranks`.
     pub(crate) fn new(ranks: Arc<dyn Ranks>, rows: Parts, columns: Parts) -> Self {
         let (own_rows, own_columns) = (rows.of(ranks.rank()).len(), columns.of(ranks.rank()).len());
         let row_counts: Vec<usize> = columns.all().map(|part| 2 * own_rows * part.len()).collect();
@@ -38,7 +39,7 @@ impl<T: Number> Transposition<T> {
         }
     }
 
-    /// Sets consecutive rows of this rank, which begin at its row `first`; `values` holds one after another.
+    /// Sets consecutive rows of this rank from its row `first` on, from `values` row by row.
     pub(crate) fn set_rows(&mut self, first: usize, values: &[Complex<T>]) {
         let (width, own) = (self.columns.lines(), self.own_rows());
         let count = values.len() / width;
@@ -50,7 +51,7 @@ impl<T: Number> Transposition<T> {
         }
     }
 
-    /// Reads what [`Self::set_rows`] sets.
+    /// Reads consecutive rows, the inverse of [`Self::set_rows`].
     pub(crate) fn rows(&self, first: usize, values: &mut [Complex<T>]) {
         let (width, own) = (self.columns.lines(), self.own_rows());
         let count = values.len() / width;
@@ -62,7 +63,7 @@ impl<T: Number> Transposition<T> {
         }
     }
 
-    /// Sets a column of this rank, counted from its first: a value for each row of the grid.
+    /// Sets a column of this rank, counted from its first column, with a value for each row of the grid.
     pub(crate) fn set_column(&mut self, column: usize, values: &[Complex<T>]) {
         let width = self.own_columns();
         for part in self.rows.all() {
@@ -73,7 +74,7 @@ impl<T: Number> Transposition<T> {
         }
     }
 
-    /// Reads what [`Self::set_column`] sets.
+    /// Reads a column, the inverse of [`Self::set_column`].
     pub(crate) fn column(&self, column: usize, values: &mut [Complex<T>]) {
         let width = self.own_columns();
         for part in self.rows.all() {
@@ -84,13 +85,13 @@ impl<T: Number> Transposition<T> {
         }
     }
 
-    /// Makes columns of the rows of all ranks.
+    /// Transposes the rows of all ranks to columns.
     pub(crate) fn make_columns(&mut self) {
         let Self { ranks, by_rows, by_columns, row_counts, column_counts, .. } = self;
         T::exchange(&**ranks, by_rows, row_counts, by_columns, column_counts);
     }
 
-    /// Makes rows of the columns of all ranks.
+    /// Transposes the columns of all ranks to rows.
     pub(crate) fn make_rows(&mut self) {
         let Self { ranks, by_rows, by_columns, row_counts, column_counts, .. } = self;
         T::exchange(&**ranks, by_columns, column_counts, by_rows, row_counts);

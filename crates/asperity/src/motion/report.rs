@@ -33,7 +33,7 @@ pub struct PassReport<'a> {
     pub warm: &'a WarmStart,
     /// The plastic state below the surfaces after unloading; empty for other than elasto-plastic bodies.
     pub plastic_volumes: &'a [PlasticVolume],
-    /// The plastic state under the load at the [selected position](crate::motion::Simulation::looking_at); empty if none is
+    /// The plastic state under the load at the [selected position](crate::motion::Simulation::with_state_under_load); empty if none is
     /// selected.
     pub states_under_load: &'a [PlasticState],
 }

@@ -1,4 +1,4 @@
-//! What lies beyond the edges of a contact.
+//! Boundary of a contact: its continuation beyond the edges.
 
 use serde::Serialize;
 
@@ -8,23 +8,23 @@ use crate::kernel::Line;
 use crate::math::good_size;
 use crate::units::Metre;
 
-/// What lies beyond the edges of the contact along one axis.
+/// Continuation of the contact beyond its edges along one axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Edge {
     /// An unloaded half-space.
     #[default]
     Free,
-    /// The contact itself, over and over.
+    /// Copies of the contact.
     Periodic,
 }
 
 choice!(Edge: "free" => Free, "periodic" => Periodic);
 
-/// What lies beyond the edges of the contact along x and along y.
+/// Continuation of the contact beyond its edges along x and along y.
 ///
-/// Where one axis is free and the other periodic, the contact is a line of itself, and a load on it sinks without bound
-/// with the distance at which it is looked at: the displacement that is uniform along the line is −(2/πE*) ln(r/r₀) under
-/// a unit force per length, 0 at the distance r₀ of the [`super::Operators`], to which the approach refers.
+/// With one free and one periodic axis the contact is an endless line of copies. The displacement under a load then
+/// has no bound relative to distant points. Its uniform part along the line is −(2/πE*) ln(r/r₀) under a unit force
+/// per length. It is 0 at the distance r₀ of the [`super::Operators`], to which the approach refers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(into = "Words")]
 pub struct Boundary(pub [Edge; 2]);
@@ -32,25 +32,25 @@ pub struct Boundary(pub [Edge; 2]);
 impl Boundary {
     /// An unloaded half-space all around.
     pub const FREE: Self = Self([Edge::Free; 2]);
-    /// The contact itself, over and over along both axes.
+    /// Copies of the contact along both axes.
     pub const PERIODIC: Self = Self([Edge::Periodic; 2]);
 
-    /// Whether the surface repeats itself along an axis.
+    /// Whether the surface is periodic along an axis.
     pub fn repeats(self, axis: usize) -> bool {
         self.0[axis] == Edge::Periodic
     }
 
-    /// Along which axes the surface repeats itself.
+    /// Returns, for each axis, whether the surface is periodic.
     pub fn wraps(self) -> [bool; 2] {
         self.0.map(|edge| edge == Edge::Periodic)
     }
 
-    /// Whether it repeats itself along both axes, so that a uniform pressure moves it without any resistance.
+    /// Whether the surface is periodic along both axes, so that a uniform pressure moves it without resistance.
     pub fn leaves_mean_free(self) -> bool {
         self == Self::PERIODIC
     }
 
-    /// The axis along which alone it repeats itself.
+    /// Returns the only periodic axis, if there is exactly one.
     fn single_period(self) -> Option<usize> {
         match self.0 {
             [Edge::Periodic, Edge::Free] => Some(0),
@@ -59,23 +59,25 @@ impl Boundary {
         }
     }
 
-    /// The r₀ of operators on grids no larger than this one: its length along the free axis.
+    /// Returns the r₀ of operators on grids up to this one: its length along the free axis.
     pub(crate) fn datum(self, largest: &Grid) -> Metre {
         self.single_period().map_or(0.0, |axis| largest.extent()[1 - axis])
     }
 
-    /// The line of its images that a cell of `grid` stands in, for a given r₀.
+    /// Returns the line of the periodic images of a cell of `grid`, for a given r₀.
     pub(crate) fn line(self, grid: &Grid, datum: Metre) -> Option<Line> {
         self.single_period().map(|axis| Line { axis, period: grid.extent()[axis], datum })
     }
 
-    /// Size of transforms on which the cyclic convolution of fields of `shape` is that of this boundary.
+    /// Returns the size of transforms whose cyclic convolution of fields of `shape` is the convolution with this
+    /// boundary.
     pub(crate) fn padded(self, shape: [usize; 2]) -> [usize; 2] {
         [0, 1].map(|axis| if self.repeats(axis) { shape[axis] } else { good_size(2 * shape[axis] - 1) })
     }
 
-    /// The grid of about half as many cells along each axis: along a free one its cells are two cells of `grid`, the last
-    /// one hanging over where their number is odd; along a periodic one the period stays.
+    /// Returns the grid of about half as many cells along each axis. Along a free axis a coarse cell is two cells
+    /// of `grid`, and the last coarse cell extends beyond an odd number of cells. Along a periodic axis the
+    /// period is preserved.
     pub(super) fn coarse(self, grid: &Grid) -> Grid {
         let shape = grid.shape.map(|n| n.div_ceil(2));
         let pitch = [0, 1].map(|axis| {
@@ -85,7 +87,7 @@ impl Boundary {
     }
 }
 
-/// A boundary as it is written: a word for both axes, or one for each.
+/// A boundary in serialised form: a word for both axes, or one for each.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Words {

@@ -1,4 +1,4 @@
-//! Cells that give way to their own pressure besides.
+//! Cells with an additional compliance under their own pressure.
 
 use std::ops::DerefMut;
 
@@ -7,8 +7,8 @@ use crate::grid::{CellValues, Field, Grid, SingleField};
 use crate::operator::{Boundary, Operator};
 use crate::ranks::Slab;
 
-/// Another operator, and a compliance κ of each cell by itself: `u = C p + κ p`, as of bodies whose cells wear or creep by κ p
-/// while they are pressed, or of a layer of springs between them.
+/// An operator with an additional compliance κ of each cell: `u = C p + κ p`. Examples are bodies whose cells wear or
+/// creep by κ p under pressure, and a layer of springs between bodies.
 pub struct Compliant<P> {
     grid: Grid,
     operator: P,
@@ -17,7 +17,8 @@ pub struct Compliant<P> {
 }
 
 impl<'o, P: DerefMut<Target = dyn Operator + 'o>> Compliant<P> {
-    /// Cells of this `compliance`, m/Pa, ≥ 0, a number or a field, on an `operator`, borrowed or boxed.
+    /// Creates cells with this additional `compliance`, m/Pa, ≥ 0, a number or a field, on an `operator`,
+    /// borrowed or boxed.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] for a compliance that is not finite and at least 0.

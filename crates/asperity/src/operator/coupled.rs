@@ -1,4 +1,4 @@
-//! Traction in all directions in, displacement in all directions out.
+//! Displacement in all directions under traction in all directions.
 
 use std::sync::Arc;
 
@@ -8,27 +8,29 @@ use crate::math::fft::angular_frequency;
 use crate::math::{MixedTensorConvolution, MixedTensorKernel, TensorKernel};
 use crate::operator::{DirectSum, Operator};
 
-/// The displacement of a pair of bodies under normal and tangential traction, in the order x, y, z of
-/// [`Coefficients`]: in the plane that of the lower body less that of the upper one, along z what opens the gap.
+/// Displacement of a pair of bodies under normal and tangential traction, in the order x, y, z of [`Coefficients`].
+/// In the plane it is the displacement of the lower body minus that of the upper body. Along z it is positive if it
+/// opens the gap.
 pub trait CoupledOperator: Send {
-    /// The grid that it acts on.
+    /// Returns the grid of the operator.
     fn grid(&self) -> &Grid;
 
     /// Whether a pressure displaces tangentially and a shear normally.
     fn couples(&self) -> bool;
 
-    /// Displacement of a cell per unit traction on itself, m/Pa.
+    /// Returns the displacement of a cell per unit traction on itself, m/Pa.
     fn self_influence(&self) -> Coefficients;
 
-    /// The part of it that is normal.
+    /// Returns its normal part.
     fn normal(&mut self) -> &mut dyn Operator;
 
-    /// Writes into the displacements asked for those under the tractions given; what is not given is zero. All have the
-    /// grid's shape.
+    /// Computes the requested displacements under the given tractions; missing tractions are zero. All fields
+    /// have the shape of the grid.
     fn apply(&mut self, traction: [Option<&Field>; 3], displacement: [Option<&mut Field>; 3]);
 
-    /// Writes the tangential displacement under a shear as [`CoupledOperator::apply`] does, in single precision: to about 3e-7 of the
-    /// largest displacement, in half the time where the operator has its own.
+    /// Computes the tangential displacement under a shear like [`CoupledOperator::apply`], but in single
+    /// precision. The error is about 3e-7 of the largest displacement. Operators with their own implementation
+    /// take half the time.
     fn apply_shear_single(&mut self, shear: &[SingleField; 2], displacement: &mut [SingleField; 2]) {
         let [x, y] = shear.each_ref().map(|q| q.mapv(f64::from));
         let mut double = [x.clone(), y.clone()];
@@ -40,7 +42,7 @@ pub trait CoupledOperator: Send {
     }
 }
 
-/// The free boundary by direct summation of the nine influence coefficients: what the transforms are measured against.
+/// Free boundary by direct summation of the nine influence coefficients, the reference of the transforms.
 pub struct CoupledSum {
     normal: DirectSum,
     couples: bool,
@@ -48,10 +50,11 @@ pub struct CoupledSum {
 }
 
 impl CoupledSum {
-    /// The operator on `grid` for bodies of this `response`, such as the [`crate::material::Compliances`] of two half-spaces.
+    /// Creates the operator on `grid` for bodies with this `response`, such as the
+    /// [`crate::material::Compliances`] of two half-spaces.
     ///
     /// # Panics
-    /// If the response is known in the normal direction only.
+    /// If the response is only known in the normal direction.
     pub fn new(grid: Grid, response: impl Into<SharedResponse>) -> Self {
         let response = response.into();
         let coupled = response.coupled().expect("a response to shear");
@@ -97,14 +100,15 @@ impl CoupledOperator for CoupledSum {
     }
 }
 
-/// What all coupled operators of one cyclic grid share.
+/// Data shared by all coupled operators of one cyclic grid.
 pub(super) struct CoupledKernel {
     kernel: Arc<MixedTensorKernel>,
     self_influence: Coefficients,
 }
 
 impl CoupledKernel {
-    /// The kernel for grids that fit into the `padded` one, free at their edges but along the `line` of their images.
+    /// Creates the kernel for grids that fit into the `padded` one. Their edges are free except along the `line`
+    /// of their images.
     pub(super) fn free(
         padded: [usize; 2],
         pitch: [f64; 2],
@@ -124,7 +128,7 @@ impl CoupledKernel {
         Arc::new(Self { kernel: MixedTensorKernel::new(kernel), self_influence: at(0, 0) })
     }
 
-    /// The kernel for the periodic `grid`.
+    /// Creates the kernel for the periodic `grid`.
     pub(super) fn periodic(grid: &Grid, response: &dyn CoupledResponse) -> Arc<Self> {
         let q = |bin: usize, axis: usize| angular_frequency(bin, grid.shape[axis], grid.pitch[axis]);
         let kernel = MixedTensorKernel::new(TensorKernel::from_transforms(grid.shape, |kx, ky| {
@@ -143,7 +147,7 @@ impl CoupledKernel {
         Arc::new(Self { kernel, self_influence: Coefficients { xx, xy, yy, zx, zy, zz } })
     }
 
-    /// The operator on `grid`, beside its `normal` part.
+    /// Creates the operator on `grid` from its `normal` part.
     pub(super) fn operator(&self, grid: Grid, couples: bool, normal: Box<dyn Operator>) -> CoupledFft {
         let convolution = MixedTensorConvolution::new(Arc::clone(&self.kernel), grid.shape);
         CoupledFft { grid, couples, self_influence: self.self_influence, normal, convolution }
@@ -154,10 +158,10 @@ fn in_order(at: Coefficients) -> [f64; 6] {
     [at.xx, at.xy, at.yy, at.zx, at.zy, at.zz]
 }
 
-/// All nine coefficients by real transforms, free or periodic as the normal part is: three transforms forth and three
-/// back for a whole traction, fewer where less is given or asked for.
+/// All nine coefficients by real transforms, with the boundary of the normal part. A full traction takes three
+/// forward and three inverse transforms; fewer components take fewer transforms.
 ///
-/// With a periodic boundary the mean displacement is free in all directions, and taken as zero.
+/// With a periodic boundary the mean displacement is free in all directions, and is set to zero.
 pub struct CoupledFft {
     grid: Grid,
     couples: bool,
@@ -272,7 +276,7 @@ mod tests {
         let (c, s) = (kx / k, ky / k);
         let cos = wave(f64::cos);
         let mut operator = Operators::new(grid, pair, Boundary::PERIODIC).coupled_on(grid.shape);
-        // Across the crests (along k): plane strain, as stiff as under pressure, and it lifts the surface.
+        // Across the crests (along k): plane strain, with the stiffness of a pressure, and with a normal displacement.
         let across = displacement(operator.as_mut(), &[c * &cos, s * &cos, grid.zeros()]);
         let lifted = wave(f64::sin);
         // Along the crests: antiplane, 1/E* + 1/N* = Σ 1/2G.

@@ -1,12 +1,12 @@
-//! The sum over all pairs of cells, without any transform.
+//! Sum over all pairs of cells, without transforms.
 
 use crate::grid::{Field, Grid};
 use crate::kernel::SharedResponse;
 use crate::operator::{Boundary, Operator};
 
-/// The free boundary by direct summation of the influence coefficients: O(n²) for n cells, exact to round-off.
+/// Free boundary by direct summation of the influence coefficients: O(n²) for n cells, exact to round-off.
 ///
-/// What the transforms are measured against, and the fastest for a handful of cells.
+/// It is the reference of the transforms, and the fastest operator for a few cells.
 pub struct DirectSum {
     grid: Grid,
     response: SharedResponse,
@@ -14,7 +14,8 @@ pub struct DirectSum {
 }
 
 impl DirectSum {
-    /// The operator on `grid` for bodies of this `response`, such as the composite modulus E* of two half-spaces.
+    /// Creates the operator on `grid` for bodies with this `response`, such as the composite modulus E* of two
+    /// half-spaces.
     pub fn new(grid: Grid, response: impl Into<SharedResponse>) -> Self {
         let response = response.into();
         let table = response.influence(grid.pitch).table(grid.shape, grid.pitch);

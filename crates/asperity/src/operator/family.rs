@@ -1,4 +1,4 @@
-//! Operators of every size that a motion needs.
+//! Operators of all sizes in a motion.
 
 use std::sync::Arc;
 
@@ -8,10 +8,10 @@ use crate::operator::coupled::CoupledKernel;
 use crate::operator::shared::Shared;
 use crate::operator::{Boundary, CoupledOperator, FreeFamily, Operator, PeriodicKernel};
 
-/// Makes operators of one cell size, pair of bodies and boundary, which share the spectra of their coefficients.
+/// Creates operators for one cell size, pair of bodies and boundary. They share the spectra of their coefficients.
 ///
-/// Along a free axis the coefficients of a smaller contact are the leading block of those of the larger one, so
-/// that the operators of all overlaps need but a few spectra; a period has its own.
+/// Along a free axis the coefficients of a smaller contact are the leading block of those of a larger one, so that
+/// the operators of all overlaps need only a few spectra. Each period has its own spectrum.
 pub struct Operators {
     largest: Grid,
     response: SharedResponse,
@@ -27,12 +27,12 @@ enum Normal {
 }
 
 impl Operators {
-    /// Operators for contacts on the cells of a `largest` grid, bodies of this `response`, such as the
-    /// [`crate::material::Compliances`] of two half-spaces, and `boundary`. Where that is periodic along one axis, r₀ is the
-    /// length of the grid along the other, and smaller contacts share it.
+    /// Creates the operators for contacts on the cells of a `largest` grid, for bodies with this `response`, such
+    /// as the [`crate::material::Compliances`] of two half-spaces, and this `boundary`. If only one axis is
+    /// periodic, r₀ is the length of the grid along the other, also for smaller contacts.
     ///
     /// # Panics
-    /// An operator, if the boundary is periodic along one axis and the response knows no line.
+    /// On use of an operator, if the boundary is periodic along one axis and the response has no line.
     pub fn new(largest: Grid, response: impl Into<SharedResponse>, boundary: Boundary) -> Self {
         let response = response.into();
         let normal = if boundary.leaves_mean_free() {
@@ -43,7 +43,7 @@ impl Operators {
         Self { largest, response, boundary, normal, coupled: Shared::default() }
     }
 
-    /// The normal operator on `shape` cells.
+    /// Returns the normal operator on `shape` cells.
     pub fn on(&self, shape: [usize; 2]) -> Box<dyn Operator> {
         match &self.normal {
             Normal::Free(family) => Box::new(family.operator(shape)),
@@ -54,7 +54,7 @@ impl Operators {
         }
     }
 
-    /// The coupled operator on `shape` cells.
+    /// Returns the coupled operator on `shape` cells.
     ///
     /// # Panics
     /// If the response is known in the normal direction only.
@@ -72,7 +72,7 @@ impl Operators {
         Box::new(kernel.operator(grid, response.couples(), self.on(shape)))
     }
 
-    /// Largest displacement under a uniform unit pressure on `shape` cells, m/Pa.
+    /// Returns the largest displacement under a uniform unit pressure on `shape` cells, m/Pa.
     pub(crate) fn most_under_uniform(&self, shape: [usize; 2]) -> f64 {
         let mut displacement = Field::zeros(shape);
         self.on(shape).apply(&Field::ones(shape), &mut displacement);
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
     use crate::kernel::{Influence, Response};
 
-    /// Bodies whose coefficients are computed in parallel, by threads that take up other tasks meanwhile.
+    /// Bodies whose coefficients are computed in parallel, by threads that perform other tasks meanwhile.
     #[derive(Debug)]
     struct InParallel;
 

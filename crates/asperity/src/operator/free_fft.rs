@@ -1,4 +1,4 @@
-//! The boundary that is free along one axis or both, by transforms padded with zeros there, pruned to what is not zero.
+//! Boundaries with at least one free axis, by zero-padded transforms that skip zero rows.
 
 use std::sync::Arc;
 
@@ -9,30 +9,31 @@ use crate::operator::shared::Shared;
 use crate::operator::{Boundary, Operator};
 use crate::units::Metre;
 
-/// All operators of one pitch, response and boundary that is free along an axis: they share the spectra of the influence
+/// All operators of one pitch, response and boundary with a free axis. They share the spectra of the influence
 /// coefficients.
 ///
-/// A spectrum belongs to a padded size, and serves every grid that fits into it: the growing overlaps of a pass
-/// need only a few.
+/// A spectrum belongs to a padded size, and serves every grid that fits into it. The growing overlaps of a pass need
+/// only a few.
 pub struct FreeFamily {
     pitch: [Metre; 2],
     response: SharedResponse,
     boundary: Boundary,
     datum: Metre,
-    /// The influence of a cell that stands alone.
+    /// The influence of a single cell.
     influence: Shared<(), dyn Influence>,
-    /// By the size of their transforms.
+    /// Kernels by the size of their transforms.
     kernels: Shared<[usize; 2], MixedKernel>,
-    /// One for each coarse pitch, by its bits: it depends on the number of cells along a periodic axis.
+    /// Families by the bits of their coarse pitch, which depends on the number of cells along a periodic axis.
     coarse: Shared<[u64; 2], FreeFamily>,
 }
 
 impl FreeFamily {
-    /// The family of the cells of a `largest` grid, bodies of this `response` and boundary. Where that is periodic along one
-    /// axis, r₀ is the length of the grid along the other.
+    /// Creates the family for the cells of a `largest` grid, bodies with this `response` and this boundary. If
+    /// one axis is periodic, r₀ is the length of the grid along the other.
     ///
     /// # Panics
-    /// If the boundary is periodic along both axes; an operator, if it is so along one and the response knows no line.
+    /// If the boundary is periodic along both axes. An operator panics if one axis is periodic and the response
+    /// has no line.
     pub fn new(largest: &Grid, response: impl Into<SharedResponse>, boundary: Boundary) -> Arc<Self> {
         assert!(boundary != Boundary::PERIODIC, "a free axis");
         Self::with_datum(largest.pitch, response.into(), boundary, boundary.datum(largest))
@@ -55,7 +56,7 @@ impl FreeFamily {
         })
     }
 
-    /// The operator on a grid of `shape` cells.
+    /// Returns the operator on a grid of `shape` cells.
     pub fn operator(self: &Arc<Self>, shape: [usize; 2]) -> FreeFft {
         let grid = Grid { shape, pitch: self.pitch };
         let influence = self.influence(&grid);
@@ -85,8 +86,8 @@ impl FreeFamily {
     }
 }
 
-/// A pair loaded on a finite grid, or on one that repeats itself along one axis: the discrete convolution with the
-/// influence of a cell, or of a [`crate::kernel::Line`] of them, exact to round-off.
+/// A pair loaded on a finite grid, or on a grid that is periodic along one axis. It is the discrete convolution with
+/// the influence of a cell, or of a [`crate::kernel::Line`] of cells, exact to round-off.
 pub struct FreeFft {
     grid: Grid,
     influence: Arc<dyn Influence>,
@@ -95,8 +96,8 @@ pub struct FreeFft {
 }
 
 impl FreeFft {
-    /// The operator on `grid` for bodies of this `response`, such as the composite modulus E* of two half-spaces; free at all
-    /// its edges.
+    /// Creates the operator on `grid` with free edges for bodies with this `response`, such as the composite
+    /// modulus E* of two half-spaces.
     pub fn new(grid: Grid, response: impl Into<SharedResponse>) -> Self {
         FreeFamily::new(&grid, response, Boundary::FREE).operator(grid.shape)
     }

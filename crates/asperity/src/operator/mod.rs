@@ -1,4 +1,4 @@
-//! Operators: traction in, displacement out.
+//! Operators: displacement under traction.
 
 mod boundary;
 mod compliant;
@@ -24,53 +24,53 @@ use crate::ranks::Slab;
 
 /// The composite normal displacement of a pair of bodies under pressure: `u = C p`.
 ///
-/// An operator owns its scratch; its answer never depends on it.
+/// An operator owns its scratch memory. Its result never depends on it.
 pub trait Operator: Send {
-    /// The grid that it acts on.
+    /// Returns the grid of the operator.
     fn grid(&self) -> &Grid;
 
-    /// The slab that [`Operator::grid`] is of a grid divided among ranks, which then apply it all together: the whole grid
-    /// where there are none. Boundary, influence and harmonics are those of the whole.
+    /// Returns the slab of this rank if the grid is divided among ranks, which then apply the operator together;
+    /// otherwise the whole grid. Boundary, influence and harmonics refer to the whole grid.
     fn slab(&self) -> Slab {
         Slab::whole(*self.grid())
     }
 
-    /// What lies beyond the edges of the grid.
+    /// Returns the boundary of the grid.
     fn boundary(&self) -> Boundary;
 
-    /// Whether no pressure displaces the cells in the mean: nothing then tells a uniform pressure from another.
+    /// Whether no pressure causes a mean displacement. A uniform pressure is then undetermined.
     fn leaves_mean_free(&self) -> bool {
         self.boundary().leaves_mean_free()
     }
 
-    /// Displacement per unit pressure of the harmonic of angular wavenumber `(qx, qy)` ≠ 0, m/Pa, > 0: what the solvers
-    /// precondition with. It need not be exact.
+    /// Returns the displacement per unit pressure of the harmonic of angular wavenumber `(qx, qy)` ≠ 0, m/Pa, >
+    /// 0. It serves the preconditioner of the solvers, and need not be exact.
     fn harmonic_displacement(&self, qx: f64, qy: f64) -> f64;
 
-    /// Displacement of a cell per unit pressure on the one `i` and `j` cells away, m/Pa; `[i, j]` inside the grid.
+    /// Returns the displacement of a cell per unit pressure on the cell at a distance of `i` and `j` cells, m/Pa;
+    /// `[i, j]` is inside the grid.
     fn influence(&self, i: usize, j: usize) -> f64;
 
-    /// Displacement of each cell per unit pressure on itself, m/Pa, > 0: that of [`Operator::influence`], which is the mean where
-    /// cells differ in it.
+    /// Returns the displacement of each cell per unit pressure on itself, m/Pa, > 0. If cells differ,
+    /// [`Operator::influence`] is its mean.
     fn self_influence(&self) -> CellValues {
         CellValues::Uniform(self.influence(0, 0))
     }
 
-    /// Writes the displacement under `pressure` into `displacement`. Both have the grid's shape.
+    /// Computes the `displacement` under `pressure`. Both have the shape of the grid.
     fn apply(&mut self, pressure: &Field, displacement: &mut Field);
 
-    /// The displacement as of [`Operator::apply`], in single precision: to about 3e-7 of the largest displacement, in
-    /// half the time where
-    /// the operator has its own.
+    /// Computes the displacement like [`Operator::apply`], but in single precision. The error is about 3e-7 of
+    /// the largest displacement. Operators with their own implementation take half the time.
     fn apply_single(&mut self, pressure: &SingleField, displacement: &mut SingleField) {
         let mut double = Field::zeros(pressure.raw_dim());
         self.apply(&pressure.mapv(f64::from), &mut double);
         displacement.zip_mut_with(&double, |single, double| *single = *double as f32);
     }
 
-    /// Gives back the room that convolutions work in, if there is any: the next one makes it anew.
+    /// Releases the scratch memory of convolutions. The next convolution allocates it again.
     fn release(&mut self) {}
 
-    /// An operator of the same bodies on a grid of about half as many cells along each axis.
+    /// Returns an operator of the same bodies on a grid of about half as many cells along each axis.
     fn coarse(&self) -> Box<dyn Operator>;
 }

@@ -8,7 +8,7 @@ use crate::math::{Kernel, MixedConvolution, MixedKernel, fft::angular_frequency,
 use crate::operator::shared::Shared;
 use crate::operator::{Boundary, Operator};
 
-/// What all operators of one periodic grid share: the spectrum of the influence coefficients.
+/// Data shared by all operators of one periodic grid: the spectrum of the influence coefficients.
 pub struct PeriodicKernel {
     grid: Grid,
     response: SharedResponse,
@@ -19,7 +19,7 @@ pub struct PeriodicKernel {
 }
 
 impl PeriodicKernel {
-    /// The coefficients of `grid` for bodies of this `response`.
+    /// Computes the coefficients of `grid` for bodies with this `response`.
     pub fn new(grid: Grid, response: impl Into<SharedResponse>) -> Arc<Self> {
         let response = response.into();
         let [nx, ny] = grid.shape;
@@ -36,23 +36,24 @@ impl PeriodicKernel {
         Arc::new(Self { grid, response, kernel, influence, coarse: Shared::default() })
     }
 
-    /// An operator with these coefficients.
+    /// Creates an operator with these coefficients.
     pub fn operator(self: &Arc<Self>) -> PeriodicFft {
         let convolution = MixedConvolution::new(Arc::clone(&self.kernel), self.grid.shape);
         PeriodicFft { shared: Arc::clone(self), convolution }
     }
 }
 
-/// A pair that repeats itself beyond the grid: of half-spaces û(q) = 2 p̂(q)/(E*|q|).
+/// A pair that is periodic along both axes; for half-spaces û(q) = 2 p̂(q)/(E*|q|).
 ///
-/// The mean displacement is free and taken as zero: under load it is part of the approach.
+/// The mean displacement is free and set to zero. Under load it is part of the approach.
 pub struct PeriodicFft {
     shared: Arc<PeriodicKernel>,
     convolution: MixedConvolution,
 }
 
 impl PeriodicFft {
-    /// The operator on `grid` for bodies of this `response`, such as the composite modulus E* of two half-spaces.
+    /// Creates the operator on `grid` for bodies with this `response`, such as the composite modulus E* of two
+    /// half-spaces.
     pub fn new(grid: Grid, response: impl Into<SharedResponse>) -> Self {
         PeriodicKernel::new(grid, response).operator()
     }

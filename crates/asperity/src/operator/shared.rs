@@ -1,19 +1,19 @@
-//! What several operators share.
+//! Data shared by several operators.
 
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Values that are made when they are first asked for, one for each key.
+/// Values that are computed on first use, one for each key.
 ///
-/// A value is made without the lock. Its maker may work in parallel, and a thread that waits for the others may take up a
-/// task meanwhile that asks for a value, too: under the lock it would wait for itself. Threads that ask at the same time make
-/// the same value, of which one is kept.
+/// A value is computed without the lock. The computation may be parallel, and a waiting thread may perform another
+/// task that requests a value too. Under the lock it would wait for itself. Threads with simultaneous requests
+/// compute the same value, and one of the results is stored.
 #[derive(Debug)]
 pub(super) struct Shared<K, V: ?Sized>(Mutex<HashMap<K, Arc<V>>>);
 
 impl<K: Eq + Hash, V: ?Sized> Shared<K, V> {
-    /// The value of a `key`, which `make` makes if it is not there.
+    /// Returns the value of a `key`, computed by `make` if it is missing.
     pub(super) fn get(&self, key: K, make: impl FnOnce() -> Arc<V>) -> Arc<V> {
         let known = self.lock(|values| values.get(&key).cloned());
         known.unwrap_or_else(|| {

@@ -1,4 +1,4 @@
-//! Any boundary, on a grid that is divided among ranks.
+//! Operators with any boundary on a grid that is divided among ranks.
 
 use std::sync::Arc;
 
@@ -9,9 +9,10 @@ use crate::operator::{Boundary, FreeFamily, Operator, PeriodicFft};
 use crate::ranks::Slab;
 use crate::units::Metre;
 
-/// A pair loaded on a grid of which each rank holds a slab: [`super::FreeFft`] or [`PeriodicFft`], to the bit.
+/// A pair loaded on a grid with a slab on each rank. Its results have the bits of [`super::FreeFft`] or
+/// [`PeriodicFft`].
 ///
-/// All ranks make it and apply it together; each gives the pressure on its rows and has their displacement.
+/// All ranks create it and apply it together. Each rank passes the pressure on its rows and gets their displacement.
 pub struct SlabFft {
     slab: Slab,
     /// The grid of the rows of this rank.
@@ -25,20 +26,22 @@ pub struct SlabFft {
 
 /// Displacements of a cell per unit pressure on another.
 enum Coefficients {
-    /// Of cells that stand alone, or in lines.
+    /// Displacements by single cells, or by lines of cells.
     Cells(Arc<dyn Influence>),
-    /// Of cells that repeat themselves along both axes, up to [`NEAR`] cells away; last, the one farthest away.
+    /// Displacements by cells that are periodic along both axes, up to [`NEAR`] cells away, and at the largest
+    /// distance.
     Periodic(Field, f64),
 }
 
-/// Distance, in cells, of coefficients that the solver asks for.
+/// Largest distance in cells of coefficients that the solver uses.
 const NEAR: usize = 5;
 
 impl SlabFft {
-    /// The operator of a `slab` for bodies of this `response`, such as the composite modulus E* of two half-spaces.
+    /// Creates the operator of a `slab` for bodies with this `response`, such as the composite modulus E* of two
+    /// half-spaces.
     ///
     /// # Panics
-    /// If the boundary is periodic along one axis and the response knows no line.
+    /// If the boundary is periodic along one axis and the response has no line.
     pub fn new(slab: Slab, response: impl Into<SharedResponse>, boundary: Boundary) -> Self {
         let datum = boundary.datum(&slab.whole_grid());
         Self::with_datum(slab, response.into(), boundary, datum)
@@ -67,7 +70,7 @@ impl SlabFft {
         Self { slab, grid, response, boundary, datum, coefficients, convolution }
     }
 
-    /// The displacement of a periodic cell, by the sum over all its harmonics.
+    /// Computes the displacement of a periodic cell by the sum over all its harmonics.
     fn sum_of_harmonics(&self, i: usize, j: usize) -> f64 {
         let Grid { shape: [nx, ny], pitch } = self.slab.whole_grid();
         let harmonics = (0..nx).flat_map(|k| (0..ny).map(move |l| (k, l)));
@@ -82,7 +85,7 @@ impl SlabFft {
     }
 }
 
-/// The displacements near a loaded cell, and farthest from it.
+/// Computes the displacements near a loaded cell, and at the largest distance from it.
 fn periodic_coefficients(slab: &Slab, convolution: &mut SlabConvolution) -> Coefficients {
     let [nx, ny] = slab.whole_grid().shape;
     let (mut unit, mut displacement) = (slab.grid().zeros(), slab.grid().zeros());
@@ -169,7 +172,7 @@ mod tests {
     use crate::ranks::threads::on_ranks;
     use ndarray::s;
 
-    /// What one process has for a grid.
+    /// Result of one process for a grid.
     fn alone(grid: Grid, boundary: Boundary) -> Box<dyn Operator> {
         if boundary == Boundary::PERIODIC {
             Box::new(PeriodicFft::new(grid, 115e9))

@@ -1,14 +1,14 @@
-//! The bounds of the pressure, cell by cell.
+//! Bounds of the pressure of each cell.
 
 use crate::error::{Result, check_in};
 use crate::grid::CellValues;
 use crate::ranks::Slab;
 use crate::units::{Dimension, Pascal};
 
-/// Bounds of the pressure, cell by cell: lowerᵢ ≤ pᵢ ≤ upperᵢ, Pa.
+/// Bounds of the pressure of each cell: lowerᵢ ≤ pᵢ ≤ upperᵢ, Pa.
 ///
-/// Without adhesion the lower bound is 0. The upper one is the hardness, or what of it a shear or a film leaves to a
-/// cell; infinite where the bodies are elastic.
+/// Without adhesion the lower bound is 0. The upper bound is the hardness, possibly reduced by shear or by a film. It
+/// is infinite for elastic bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bounds {
     lower: CellValues,
@@ -20,13 +20,13 @@ impl Bounds {
     pub const ELASTIC: Self =
         Self { lower: CellValues::Uniform(0.0), upper: CellValues::Uniform(f64::INFINITY) };
 
-    /// Bounds for bodies without adhesion that bear at most the pressure `upper`, a number or a field:
-    /// 0 ≤ p ≤ upper.
+    /// Creates bounds for bodies without adhesion and with a largest pressure `upper`, a number or a field: 0 ≤ p
+    /// ≤ upper.
     pub fn up_to(upper: impl Into<CellValues>) -> Self {
         Self { lower: CellValues::Uniform(0.0), upper: upper.into() }
     }
 
-    /// The same upper bounds above `lower` ones: finite, 0 or below it where the bodies attract each other.
+    /// Sets the lower bounds: finite, and 0 or below 0 for bodies that attract each other.
     pub fn above(self, lower: impl Into<CellValues>) -> Self {
         Self { lower: lower.into(), ..self }
     }
@@ -46,28 +46,29 @@ impl Bounds {
         pressure > self.lower.at(cell)
     }
 
-    /// Whether a cell at `pressure` is capped: at its upper bound, and that above the lower one.
+    /// Whether a cell at `pressure` is capped: at its upper bound, and above its lower bound.
     pub fn caps(&self, cell: usize, pressure: Pascal) -> bool {
         pressure >= self.upper.at(cell) && self.touches(cell, pressure)
     }
 
-    /// The bounds of a flat `cell`.
+    /// Returns the bounds of a flat `cell`.
     #[inline]
     pub(super) fn at(&self, cell: usize) -> Interval {
         Interval { lower: self.lower.at(cell), upper: self.upper.at(cell) }
     }
 
-    /// The bounds of all cells, where they are given as one.
+    /// Returns the bounds of all cells, if they are uniform.
     pub(super) fn uniform(&self) -> Option<Interval> {
         Some(Interval { lower: self.lower.uniform()?, upper: self.upper.uniform()? })
     }
 
-    /// The bounds on a grid of about half as many cells along each axis: means over the cells that one stands for.
+    /// Returns the bounds on a grid of about half as many cells along each axis: means over the fine cells of
+    /// each coarse cell.
     pub(crate) fn coarse(&self) -> Self {
         Self { lower: self.lower.coarse(), upper: self.upper.coarse() }
     }
 
-    /// The bounds of the whole grid of which each rank has those of its `slab`.
+    /// Gathers the bounds of the whole grid from the slabs of all ranks.
     pub(super) fn collected(&self, slab: &Slab) -> Self {
         let collected = |values: &CellValues| match values {
             CellValues::Uniform(value) => CellValues::Uniform(*value),
@@ -76,7 +77,7 @@ impl Bounds {
         Self { lower: collected(&self.lower), upper: collected(&self.upper) }
     }
 
-    /// Whether these are bounds for a grid of that shape, and each has a meaning.
+    /// Returns an error if a bound is out of range.
     pub(super) fn validate(&self, shape: [usize; 2]) -> Result<()> {
         assert!(self.lower.fits(shape) && self.upper.fits(shape), "shape of the bounds");
         let wrong = |value: &f64| !(value.is_finite() && *value <= 0.0);
@@ -104,7 +105,7 @@ impl Bounds {
 }
 
 impl From<Pascal> for Bounds {
-    /// Bounds for bodies of that hardness, see [`Bounds::up_to`].
+    /// Creates the bounds for bodies with this hardness, see [`Bounds::up_to`].
     fn from(hardness: Pascal) -> Self {
         Self::up_to(hardness)
     }
@@ -118,21 +119,21 @@ pub(super) struct Interval {
 }
 
 impl Interval {
-    /// The nearest pressure between the bounds.
+    /// Returns the nearest pressure within the bounds.
     #[inline]
     pub(super) fn clamp(self, pressure: Pascal) -> Pascal {
         pressure.clamp(self.lower, self.upper)
     }
 
-    /// Whether a pressure is at neither bound.
+    /// Whether a pressure lies strictly between the bounds.
     #[inline]
     pub(super) fn is_free(self, pressure: Pascal) -> bool {
         self.lower < pressure && pressure < self.upper
     }
 }
 
-/// Evaluates an expression with `$of` the [`Interval`] of a cell, once for uniform bounds, which then cost no more than
-/// two numbers, and once for fields.
+/// Evaluates an expression with `$of`, the [`Interval`] of a cell. The code is generated twice, for uniform bounds
+/// and for fields, so that uniform bounds cost no more than two numbers.
 macro_rules! with_bounds {
     ($bounds:expr, $of:ident => $do:expr) => {{
         let bounds = &$bounds;

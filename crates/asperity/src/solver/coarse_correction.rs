@@ -1,5 +1,5 @@
-//! The coarse level of the preconditioner: the stiffness of long waves, on a grid with a sixteenth of the cells along each
-//! axis.
+//! Coarse level of the preconditioner: the stiffness of long waves, on a grid with a sixteenth of the cells along
+//! each axis.
 
 use std::f64::consts::{FRAC_PI_3, TAU};
 use std::ops::Range;
@@ -13,25 +13,27 @@ use crate::solver::sets::Sets;
 
 /// Fine cells per coarse cell, along each axis.
 const COARSENING: usize = 16;
-/// Share of free cells added in the weight, which stays finite in sparsely covered coarse cells; see [`CoarseCorrection`].
+/// Fraction of free cells added in the weight, so that it stays finite in sparsely covered coarse cells; see
+/// [`CoarseCorrection`].
 const MIN_COVER: f32 = 0.2;
 
-/// The correction P D B D Pᵀ: P interpolates bilinearly from the coarse nodes, B is the stiffness of the coarse harmonics, of half-spaces E*|q|/2, D a
-/// weight.
+/// The correction P D B D Pᵀ. P interpolates bilinearly from the coarse nodes, B is the stiffness of the coarse
+/// harmonics (E*|q|/2 for half-spaces), and D is a weight.
 ///
-/// A pressure that is uniform over the free cells of a coarse cell, a share θ of it, has θ of the mean pressure; a
-/// displacement that is uniform there has θ of the sum. Dividing by θ on the way there and back makes both right:
-/// D = 1/(θ + 0.2), finite where a few cells are free, for which the uniform pressure is a bad guess anyway.
+/// Let θ be the fraction of free cells in a coarse cell. A pressure that is uniform over the free cells has θ times
+/// the mean pressure, and a uniform displacement there has θ times the sum. Division by θ in both directions corrects
+/// both: D = 1/(θ + 0.2). It stays finite if few cells are free, for which a uniform pressure is a poor guess anyway.
 ///
-/// The mean of a periodic surface is softer than any wave, and counts under approach control alone: a uniform pressure
-/// around valleys of width a, a share φ of the surface, displaces them by about −a p/E*, and the rest by φ of that. With
-/// a in proportion to φ, as for valleys at given distances, the stiffness of the mean goes as 1/φ².
+/// The mean of a periodic surface is more compliant than any wave, and matters only under approach control. Consider
+/// valleys of width a that cover a fraction φ of the surface. A uniform pressure around them displaces the valleys by
+/// about −a p/E*, and the rest by φ times this. For valleys at given distances, a is proportional to φ, so the
+/// stiffness of the mean is proportional to 1/φ².
 pub(super) struct CoarseCorrection {
     /// Stiffness of the coarse harmonics, divided by the fine cells in a coarse one.
     stiffness: Convolution<f32>,
-    /// Stiffness of the mean where valleys are as wide as the grid, divided by the fine cells in a coarse one.
+    /// Stiffness of the mean for valleys as wide as the grid, divided by the fine cells in a coarse one.
     mean_stiffness: f32,
-    /// Share of cells that are not free.
+    /// Fraction of cells that are not free.
     open: f32,
     /// Fine cells in a coarse one.
     cells: f32,
@@ -45,7 +47,7 @@ pub(super) struct CoarseCorrection {
 }
 
 impl CoarseCorrection {
-    /// The correction on the rows of a `halo` of the operator's grid.
+    /// Creates the correction on the rows of a `halo` of the operator's grid.
     pub(super) fn new(operator: &dyn Operator, halo: &Halo) -> Self {
         let slab = operator.slab();
         let grid = slab.whole_grid();
@@ -84,7 +86,7 @@ impl CoarseCorrection {
         }
     }
 
-    /// Adapts to the free cells of `sets`, so many on all ranks.
+    /// Adapts to the free cells of `sets`, with their number on all ranks.
     pub(super) fn adapt(&mut self, sets: &Sets, free: f64) {
         let (free, all) = (free as f32, self.bilinear.slab.whole_grid().cells() as f32);
         self.open = 1.0 - (free - 1.0) / all;
@@ -101,8 +103,8 @@ impl CoarseCorrection {
         self.solved *= &self.weight;
     }
 
-    /// Writes the restricted residual without its smooth part into `rest`, for the free cells of some `rows`, the first of which
-    /// begins at `rest[0]`: `(I − T) A r` with T = P D Pᵀ, a smoothing.
+    /// Writes the local part of the residual to `rest`, for the free cells of `rows`, whose first begins at
+    /// `rest[0]`: `(I − T) A r` with the smoothing T = P D Pᵀ.
     pub(super) fn without_smooth_part(&self, sets: &Sets, rows: Range<usize>, r: &[f32], rest: &mut [f32]) {
         let columns = sets.bands().columns();
         let scale = 1.0 / self.cells;
@@ -112,8 +114,8 @@ impl CoarseCorrection {
         });
     }
 
-    /// Takes the smooth part out of `z`, and adds the coarse solution for the `r` that was solved for before:
-    /// `(I − T)ᵀ z + P D B D Pᵀ A r`. Returns Σ z, Σ r and Σ r z of the free cells.
+    /// Removes the smooth part of `z`, and adds the coarse solution for the last `r`: `(I − T)ᵀ z + P D B D Pᵀ A
+    /// r`. Returns Σ z, Σ r and Σ r z of the free cells.
     pub(super) fn join(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) -> [f64; 3] {
         self.restrict(sets, z);
         self.solved.scaled_add(-1.0 / self.cells, &self.restricted);
@@ -140,12 +142,12 @@ impl CoarseCorrection {
 
 /// Bilinear interpolation from coarse nodes, cyclic, to the free cells of a grid.
 struct Bilinear {
-    /// For each row (column) of cells: the node before it, and how far it is from there to the next, 0 … 1.
+    /// For each row (column) of cells, the node before it and the fraction of the distance to the next node, 0 … 1.
     along: [Vec<(usize, f32)>; 2],
     slab: Slab,
-    /// The rows of this rank among them, which alone are restricted.
+    /// The rows of this rank, the only ones that are restricted.
     own: Range<usize>,
-    /// The rows of nodes that the cells of each rank have a share in.
+    /// The rows of nodes to which the cells of each rank contribute.
     reached: Vec<NodeRows>,
 }
 
@@ -157,16 +159,16 @@ struct NodeRows {
 }
 
 impl NodeRows {
-    /// The nodes around some rows `along` which they stand, of a grid of so many rows and `all` rows of nodes.
+    /// Returns the rows of nodes around the rows of cells with positions `along`, on a grid with `all` rows of nodes.
     fn new(along: &[(usize, f32)], rows: usize, all: usize) -> Self {
-        // Between the nodes before the first row and after the last one; where these go round, all.
+        // The nodes before the first row to those after the last one; all nodes if these overlap cyclically.
         let count = ((along.len() * all).div_ceil(rows) + 2).min(all);
         Self { first: along[0].0, count }
     }
 }
 
 impl Bilinear {
-    /// Between `coarse` nodes and the rows of a `halo` of a slab.
+    /// Creates the interpolation between `coarse` nodes and the rows of a `halo` of a slab.
     fn new(slab: Slab, halo: &Halo, coarse: [usize; 2]) -> Self {
         let fine = slab.whole_grid().shape;
         let mut along = [0, 1].map(|axis| nodes(fine[axis], coarse[axis]));
@@ -178,7 +180,7 @@ impl Bilinear {
         Self { along, slab, own, reached }
     }
 
-    /// `f` of each free cell of some rows and its value between `nodes`.
+    /// Calls `f` with each free cell of `rows` and its value interpolated from `nodes`.
     fn interpolate(
         &self,
         sets: &Sets,
@@ -186,7 +188,7 @@ impl Bilinear {
         nodes: &SingleField,
         mut f: impl FnMut(usize, f32),
     ) {
-        // Values at the nodes along a row of cells, the first once more at the end.
+        // Values at the nodes along a row of cells; the first value is repeated at the end.
         let mut line = vec![0.0; nodes.ncols() + 1];
         for row in rows {
             let (cells, start) = sets.row(row);
@@ -207,7 +209,7 @@ impl Bilinear {
         }
     }
 
-    /// The transpose: shares `value` of each free cell out to the nodes around it.
+    /// Applies the transpose: distributes `value` of each free cell to the nodes around it.
     fn restrict(&self, sets: &Sets, value: impl Fn(usize) -> f32 + Sync + Send, nodes: &mut SingleField) {
         let shape = [nodes.nrows(), nodes.ncols()];
         let bands: Vec<_> =
@@ -223,12 +225,12 @@ impl Bilinear {
         self.merge(nodes);
     }
 
-    /// Of some rows those of this rank.
+    /// Returns the part of the rows that belongs to this rank.
     fn own_of(&self, rows: Range<usize>) -> Range<usize> {
         rows.start.max(self.own.start)..rows.end.min(self.own.end)
     }
 
-    /// Adds up what the ranks have for the `nodes`.
+    /// Sums the contributions of all ranks to the `nodes`.
     fn merge(&self, nodes: &mut SingleField) {
         if self.slab.is_whole() {
             return;
@@ -247,8 +249,8 @@ impl Bilinear {
         }
     }
 
-    /// As [`Self::restrict`] for some rows: the first row of nodes that they have a share in, and what they add to it and to
-    /// those after it.
+    /// [`Self::restrict`] for some rows. Returns the first row of nodes to which they contribute, and the
+    /// contributions to it and to the rows after it.
     fn restrict_rows(
         &self,
         sets: &Sets,
@@ -293,7 +295,7 @@ impl Bilinear {
     }
 }
 
-/// For each of `fine` cells the one of `coarse` nodes (cyclic) before it, and the weight of the next.
+/// Returns, for each of `fine` cells, the (cyclic) one of `coarse` nodes before it, and the weight of the next node.
 fn nodes(fine: usize, coarse: usize) -> Vec<(usize, f32)> {
     let factor = fine as f64 / coarse as f64;
     (0..fine)

@@ -8,16 +8,16 @@ use crate::math::Cholesky;
 use crate::operator::Operator;
 use crate::solver::feasible::{Bounded, make_feasible};
 use crate::solver::sets::Set;
-use crate::solver::watch::go_on;
+use crate::solver::watch::check_stop;
 use crate::solver::{Answer, Control, Params, Problem, Settings, Stats};
 use crate::units::Metre;
 
-/// Cells between the bounds above which the dense matrix would be out of proportion (3 GB).
+/// Largest number of cells between the bounds; the dense matrix then takes 3 GB.
 const MAX_FREE_CELLS: usize = 20_000;
 
 /// Solves by block principal pivoting (Júdice and Pires, Comput. Oper. Res. 21, 587 (1994)) with a Cholesky
-/// factorisation of the block between the bounds; under load control inside a bracketed Newton iteration on the
-/// approach, which ends exactly because the load is piecewise linear in it.
+/// factorisation of the block between the bounds. Under load control a bracketed Newton iteration finds the approach.
+/// It ends exactly, because the load is piecewise linear in the approach.
 pub(super) fn solve(
     operator: &mut dyn Operator,
     problem: &Problem,
@@ -26,17 +26,17 @@ pub(super) fn solve(
 ) -> Result<Answer> {
     let mut pivoting = Pivoting::new(operator, problem);
     let sets = start.map(|start| problem.sets_of(start));
-    let (mut answer, approach) = match problem.terms.control {
+    let (mut answer, approach) = match problem.settings.control {
         Control::Approach(approach) => {
             let first = sets.unwrap_or_else(|| problem.sets_at(approach));
             (pivoting.solve(approach, first)?, approach)
         }
-        Control::Load(load) => pivoting.solve_load(load / problem.terms.cell_area, sets)?,
+        Control::Load(load) => pivoting.solve_load(load / problem.settings.cell_area, sets)?,
     };
-    if !problem.terms.bears_the_load(answer.pressure.sum()) {
-        // Between one approach and the next in double precision.
+    if !problem.settings.carries_the_load(answer.pressure.sum()) {
+        // The bracket is at the rounding of double precision.
         let mut cells = Bounded { pressure: &mut answer.pressure, bounds: problem.bounds };
-        make_feasible(&mut cells, &problem.terms);
+        make_feasible(&mut cells, &problem.settings);
         pivoting.convolve(&answer.pressure, &mut answer.displacement);
     }
     let stats = Stats {
@@ -59,25 +59,25 @@ pub(super) fn solve(
 }
 
 impl Problem<'_> {
-    /// The residual η at a known approach, also under load control.
+    /// Computes the residual η at a known approach, also under load control.
     fn residual_at(&self, pressure: &Field, displacement: &Field, approach: Metre) -> f64 {
-        let terms = Settings { control: Control::Approach(approach), ..self.terms };
-        let problem = Problem { terms, ..*self };
+        let settings = Settings { control: Control::Approach(approach), ..self.settings };
+        let problem = Problem { settings, ..*self };
         problem.residual(pressure, displacement).eta
     }
 
-    /// The set of each cell under a pressure.
+    /// Returns the set of each cell under a pressure.
     fn sets_of(&self, pressure: &Field) -> Array2<Set> {
         let sets = pressure.iter().enumerate().map(|(cell, p)| Set::of(*p, self.bounds.at(cell)));
         Array2::from_shape_vec(pressure.raw_dim(), sets.collect()).expect("a set for each cell")
     }
 
-    /// The sets of undeformed bodies at an approach: the cells that overlap are free.
+    /// Returns the sets of undeformed bodies at an approach: the overlapping cells are free.
     fn sets_at(&self, approach: Metre) -> Array2<Set> {
         self.initial_gap.mapv(|h| if h < approach { Set::Free } else { Set::Lower })
     }
 
-    /// The pressure of the cells at their bounds, 0 at the free ones.
+    /// Returns the pressure of the cells at their bounds, and 0 for free cells.
     fn pressure_at_bounds(&self, sets: &Array2<Set>) -> Field {
         let at_bound = |(cell, set): (usize, &Set)| match set {
             Set::Lower => self.bounds.at(cell).lower,
@@ -89,7 +89,7 @@ impl Problem<'_> {
     }
 }
 
-/// The exact answer at one approach.
+/// The exact solution at one approach.
 struct SolutionAtApproach {
     pressure: Field,
     displacement: Field,
@@ -104,8 +104,8 @@ struct Pivoting<'a, 'b> {
     influence: Field,
     /// Displacement of each cell per unit pressure on itself.
     self_influence: CellValues,
-    /// The s of the matrix s 1 1ᵀ that is added to C where the boundary is periodic: it makes C positive definite, and changes
-    /// the approach alone, by s Σ p.
+    /// The factor s of the matrix s 1 1ᵀ that is added to C for a periodic boundary. It makes C positive
+    /// definite, and changes only the approach, by s Σ p.
     stiffening: f64,
     factorisations: usize,
     convolutions: usize,
@@ -115,7 +115,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
     fn new(operator: &'a mut dyn Operator, problem: &'a Problem<'b>) -> Self {
         let shape = operator.grid().shape;
         let influence = Field::from_shape_fn(shape, |(i, j)| operator.influence(i, j));
-        let load_controlled = matches!(problem.terms.control, Control::Load(_));
+        let load_controlled = matches!(problem.settings.control, Control::Load(_));
         let free_mean = operator.leaves_mean_free() && load_controlled;
         let stiffening = if free_mean { stiffening(operator, problem) } else { 0.0 };
         let self_influence = operator.self_influence();
@@ -127,7 +127,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         let mut displacement = Field::zeros(sets.raw_dim());
         let mut pivots = 0;
         loop {
-            go_on(self.problem.terms.watch)?;
+            check_stop(self.problem.settings.watch)?;
             self.anchor(approach, &mut sets)?;
             let (pressure, slope) = self.between_bounds(approach, &sets)?;
             self.convolve(&pressure, &mut displacement);
@@ -155,7 +155,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
             pivots += 1;
             let last = match wrong.last() {
                 Some(last) if pivots < MAX_PIVOTS => *last,
-                // Where the pivots are given up the residual tells how far they have come.
+                // If pivoting stops early, the residual shows its error.
                 given_up => {
                     let given_up = given_up.is_some();
                     let mut pressure = pressure;
@@ -180,9 +180,9 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         }
     }
 
-    /// A periodic contact whose cells are all between their bounds has no stiffness against a change of their mean: under an
-    /// approach beyond the mean gap it rises until the cell nearest to its upper bound is at it, under a lesser one it falls
-    /// until the cell nearest to its lower bound is at that.
+    /// Puts one cell at a bound if all cells of a periodic contact are free. Such a contact has no stiffness
+    /// against a change of its mean pressure. At an approach beyond the mean gap the mean rises until a cell
+    /// reaches its upper bound. At a smaller approach it falls until a cell reaches its lower bound.
     fn anchor(&mut self, approach: Metre, sets: &mut Array2<Set>) -> Result<()> {
         let free_mean = self.operator.leaves_mean_free() && self.stiffening == 0.0;
         let floats = free_mean && sets.iter().all(|set| *set == Set::Free);
@@ -210,7 +210,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         Ok(())
     }
 
-    /// Computes the displacement of a pressure, that of the stiffened matrix.
+    /// Computes the displacement of a pressure with the stiffened matrix.
     fn convolve(&mut self, pressure: &Field, displacement: &mut Field) {
         self.operator.apply(pressure, displacement);
         self.convolutions += 1;
@@ -219,7 +219,8 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         }
     }
 
-    /// The pressure that closes the gap at the free cells while the others stay at their bounds, and its slope.
+    /// Computes the pressure that closes the gap at the free cells while the others stay at their bounds, and the
+    /// slope of its sum.
     fn between_bounds(&mut self, approach: Metre, sets: &Array2<Set>) -> Result<(Field, f64)> {
         let mut pressure = self.problem.pressure_at_bounds(sets);
         let cells = |is: fn(&Set, f64) -> bool| -> Vec<(usize, usize)> {
@@ -244,7 +245,7 @@ impl<'a, 'b> Pivoting<'a, 'b> {
             };
             influence + self.stiffening
         };
-        // Only its lower triangle is read.
+        // The factorisation reads only the lower triangle.
         let lower = |(i, j)| if j <= i { coefficient(free[i], free[j]) } else { 0.0 };
         let matrix = Field::from_shape_fn([free.len(); 2], lower);
         let interference = |cell: &(usize, usize)| {
@@ -262,16 +263,16 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         Ok((pressure, factor.solve(&vec![1.0; free.len()]).iter().sum()))
     }
 
-    /// The answer under a load, and its approach, by a bracketed Newton iteration on the approach.
+    /// Computes the solution under a load, and its approach, by a bracketed Newton iteration on the approach.
     fn solve_load(
         &mut self,
         wanted: f64,
         mut sets: Option<Array2<Set>>,
     ) -> Result<(SolutionAtApproach, Metre)> {
-        let Settings { self_influence, .. } = self.problem.terms;
-        let scale = self.problem.terms.sum_scale(wanted);
+        let Settings { self_influence, .. } = self.problem.settings;
+        let scale = self.problem.settings.sum_scale(wanted);
         let lowest = self.first_touch();
-        // A cell that bears the whole load alone is an upper start; the slope then leads back.
+        // A single cell under the whole load gives an upper start; the slope then leads back.
         let mut approach = lowest
             + self_influence * (scale / 4.0).min(self.problem.bounds.upper().max())
             + self.stiffening * wanted;
@@ -289,7 +290,8 @@ impl<'a, 'b> Pivoting<'a, 'b> {
             }
             let newton = approach - excess / answer.slope;
             let exhausted = high.is_finite() && high - low <= BRACKET_ROUNDING * high.abs().max(low.abs());
-            if excess.abs() <= self.problem.terms.sum_accuracy(wanted) || exhausted || trials == MAX_TRIALS {
+            if excess.abs() <= self.problem.settings.sum_accuracy(wanted) || exhausted || trials == MAX_TRIALS
+            {
                 return Ok((answer, approach));
             }
             approach = if answer.slope > 0.0 && low < newton && newton < high {
@@ -303,11 +305,11 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         }
     }
 
-    /// The approach up to which all cells are at their lower bounds.
+    /// Computes the approach up to which all cells are at their lower bounds.
     fn first_touch(&mut self) -> Metre {
         let gap = self.problem.initial_gap;
         let lowest = |touch: &Field| touch.iter().copied().fold(f64::INFINITY, f64::min);
-        if self.problem.terms.attraction == 0.0 {
+        if self.problem.settings.attraction == 0.0 {
             return lowest(gap);
         }
         let pressure = self.problem.pressure_at_bounds(&gap.mapv(|_| Set::Lower));
@@ -318,18 +320,18 @@ impl<'a, 'b> Pivoting<'a, 'b> {
     }
 }
 
-/// The s of s 1 1ᵀ with which the compliance of the mean is one among those of the waves.
+/// Returns the factor s of s 1 1ᵀ for which the compliance of the mean is comparable to those of the waves.
 fn stiffening(operator: &dyn Operator, problem: &Problem) -> f64 {
-    problem.terms.self_influence / (operator.grid().cells() as f64).sqrt()
+    problem.settings.self_influence / (operator.grid().cells() as f64).sqrt()
 }
 
-/// Pivoting steps at one approach after which the sets are taken as they are.
+/// Largest number of pivoting steps at one approach.
 const MAX_PIVOTS: usize = 2000;
 /// Block steps without progress after which a single cell changes its set at a time.
 const MAX_STALLED_BLOCKS: usize = 10;
-/// Approaches tried for a load, after which the last is taken.
+/// Largest number of approaches tried for a load.
 const MAX_TRIALS: usize = 200;
-/// Relative width of a bracket of approaches that holds no more numbers to try.
+/// Relative width of a bracket of approaches at the rounding of double precision.
 const BRACKET_ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// Rounding of pressures and displacements, as a share of the largest.
+/// Rounding of pressures and displacements, relative to the largest.
 const ROUNDING: f64 = 1e-14;

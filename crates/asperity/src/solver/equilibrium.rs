@@ -13,7 +13,7 @@ pub enum Equilibrium {
 }
 
 impl Equilibrium {
-    /// The normal problem: pressure, displacement and approach.
+    /// Returns the solution of the normal problem: pressure, displacement and approach.
     pub fn normal(&self) -> &Solution {
         match self {
             Self::Frictionless(solution) => solution,
@@ -21,7 +21,7 @@ impl Equilibrium {
         }
     }
 
-    /// The solution with its tangential problem; none without friction.
+    /// Returns the solution of both problems; none without friction.
     pub fn frictional(&self) -> Option<&FrictionalSolution> {
         match self {
             Self::Frictionless(_) => None,

@@ -1,4 +1,4 @@
-//! The feasible pressures: within their bounds, and under load of a given sum.
+//! Feasible pressures: within their bounds, and with a given sum under load control.
 
 use crate::grid::{CellValues, Field};
 use crate::math::sum::sums;
@@ -9,23 +9,23 @@ use crate::units::Pascal;
 
 /// Relative error of the load of a feasible pressure.
 const LOAD_ACCURACY: f64 = 1e-11;
-/// Relative error at which a sum of pressures is met: above the rounding of millions of terms.
+/// Relative tolerance of a sum of pressures, above the rounding of millions of terms.
 const SUM_ACCURACY: f64 = 1e-13;
-/// Scalings of the pressures to a sum before they are offset instead.
+/// Number of scalings of the pressures to a sum; afterwards they are offset.
 const MAX_SCALINGS: usize = 60;
-/// Newton steps and bisections for the offset.
+/// Largest number of Newton steps and bisections for the offset.
 const MAX_OFFSETS: usize = 200;
 
-/// Pressures with their bounds that are summed and changed all together.
+/// Pressures with bounds that are summed and changed together.
 pub(super) trait Cells {
-    /// The sums over the cells of `terms` of each pressure and its bounds.
+    /// Returns the sums over the cells of `terms` of each pressure and its bounds.
     fn sum<const N: usize>(&mut self, terms: impl Fn(Pascal, Interval) -> [f64; N] + Sync + Send)
     -> [f64; N];
 
     /// Replaces each pressure by a function of it and its bounds.
     fn map(&mut self, change: impl Fn(Pascal, Interval) -> Pascal + Sync + Send);
 
-    /// The range of the pressures and of their bounds.
+    /// Returns the range of the pressures and of their bounds.
     fn range(&mut self) -> Range;
 }
 
@@ -53,7 +53,8 @@ impl Cells for Bounded<'_> {
     }
 }
 
-/// The sums over some cells, the `first` of which is that of the grid, of `terms` of each value and the bounds of its cell.
+/// Sums `terms` of each value and the bounds of its cell over some cells, beginning with the flat cell `first` of the
+/// grid.
 pub(super) fn sum_within<T: Copy, const N: usize>(
     values: &[T],
     first: usize,
@@ -63,7 +64,8 @@ pub(super) fn sum_within<T: Copy, const N: usize>(
     with_bounds!(bounds, of => sums(values, |cell, value| terms(value, of(first + cell))))
 }
 
-/// Replaces the pressures of some cells, the `first` of which is that of the grid, by `change` of each and its bounds.
+/// Replaces the pressures of some cells, beginning with the flat cell `first` of the grid, by `change` of each and
+/// its bounds.
 pub(super) fn map_within(
     pressures: &mut [Pascal],
     first: usize,
@@ -75,7 +77,7 @@ pub(super) fn map_within(
     });
 }
 
-/// The least and the largest of some values.
+/// Returns the smallest and the largest of some values.
 pub(super) fn extremes<T: Copy + Into<f64>>(values: &[T]) -> [f64; 2] {
     values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[min, max], y| {
         [min.min((*y).into()), max.max((*y).into())]
@@ -83,29 +85,30 @@ pub(super) fn extremes<T: Copy + Into<f64>>(values: &[T]) -> [f64; 2] {
 }
 
 impl Settings<'_> {
-    /// Whether pressures of this sum bear the load, if one is prescribed.
-    pub(super) fn bears_the_load(&self, sum: f64) -> bool {
+    /// Whether pressures with this sum carry the prescribed load, if there is one.
+    pub(super) fn carries_the_load(&self, sum: f64) -> bool {
         self.pressure_sum()
             .is_none_or(|wanted| (sum - wanted).abs() <= LOAD_ACCURACY * self.sum_scale(wanted))
     }
 
-    /// Error at which a pressure sum is met.
+    /// Returns the tolerance of a pressure sum.
     pub(super) fn sum_accuracy(&self, wanted: f64) -> f64 {
         SUM_ACCURACY * self.sum_scale(wanted)
     }
 
-    /// The pressure of which the error of a pressure sum is a share: the sum itself, and the attraction.
+    /// Returns the scale of the tolerance of a pressure sum: the sum itself, and the attraction.
     pub(super) fn sum_scale(&self, wanted: f64) -> f64 {
         wanted.abs() + self.attraction
     }
 }
 
-/// Brings pressures into their bounds and, under load control, to the load: first by scaling what the cells below their
-/// upper bound bear above their lower one, and where these cannot bear it, by an offset that is the same for all.
-pub(super) fn make_feasible(cells: &mut impl Cells, terms: &Settings) {
+/// Brings pressures into their bounds and, under load control, to the load. It first scales the pressures above the
+/// lower bounds of the cells below their upper bounds. If these cells cannot carry the load, it adds the same offset
+/// to all cells.
+pub(super) fn make_feasible(cells: &mut impl Cells, settings: &Settings) {
     cells.map(|p, bounds| bounds.clamp(p));
-    let Some(wanted) = terms.pressure_sum() else { return };
-    let accuracy = terms.sum_accuracy(wanted);
+    let Some(wanted) = settings.pressure_sum() else { return };
+    let accuracy = settings.sum_accuracy(wanted);
     for _ in 0..MAX_SCALINGS {
         let [sum, between] =
             cells.sum(|p, bounds| [p, if p < bounds.upper { p - bounds.lower } else { 0.0 }]);
@@ -126,13 +129,13 @@ pub(super) fn make_feasible(cells: &mut impl Cells, terms: &Settings) {
     cells.map(|p, bounds| bounds.clamp(p + offset));
 }
 
-/// A pressure brought into its bounds, and 1 where it is at neither.
+/// Returns a pressure clipped to its bounds, and 1 if it lies strictly between them.
 pub(super) fn within(pressure: Pascal, bounds: Interval) -> [f64; 2] {
     let p = bounds.clamp(pressure);
     [p, if bounds.is_free(p) { 1.0 } else { 0.0 }]
 }
 
-/// The range of some pressures, their number, and the range of their bounds.
+/// Range of some pressures, their number, and the range of their bounds.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Range {
     /// Least pressure.
@@ -143,13 +146,13 @@ pub(super) struct Range {
     count: usize,
     /// Least lower bound.
     min_lower: Pascal,
-    /// A pressure that is enough for any sum, if every cell is offered it: the largest upper bound that is finite where
-    /// upper bounds differ.
+    /// A pressure that reaches any possible sum if every cell has it: the largest finite upper bound if the upper
+    /// bounds differ.
     max_upper: Option<Pascal>,
 }
 
 impl Range {
-    /// The range of `count` pressures between the `extremes` given.
+    /// Creates the range of `count` pressures between the given `extremes`.
     pub(super) fn new([min, max]: [Pascal; 2], count: usize, bounds: &Bounds) -> Self {
         let max_upper = match bounds.upper() {
             CellValues::Uniform(_) => None,
@@ -160,11 +163,11 @@ impl Range {
         Self { min, max, count, min_lower: bounds.lower().min(), max_upper }
     }
 
-    /// Offsets at which every value is at its lower bound, and at which the sum is no less than the one `wanted`.
+    /// Returns an offset with every value at its lower bound, and an offset with a sum of at least `wanted`.
     fn bracket(&self, wanted: f64) -> [f64; 2] {
         let each = match self.max_upper {
             None => wanted / self.count as f64,
-            // One cell without a bound then bears all, whatever the others attract.
+            // A single cell without a bound then carries the whole load, including the attraction of the others.
             Some(upper) => {
                 let attraction = self.min_lower.min(0.0).abs() * self.count as f64;
                 upper.max(wanted.abs() + attraction)
@@ -174,7 +177,7 @@ impl Range {
     }
 }
 
-/// The range of several sets of cells together.
+/// Returns the common range of several sets of cells.
 impl Merged for Range {
     fn and(self, other: Self) -> Self {
         Self {
@@ -204,11 +207,12 @@ impl Merged for Range {
     }
 }
 
-/// The c at which Σ clip(y + c) is `wanted`, for a sum that the bounds allow, over values y in the `range`: the Euclidean
-/// projection onto the bounds and the sum, to the `accuracy` of the sum. `sums` gives that sum, and how many of the values
-/// are at neither bound.
+/// Computes the offset c with Σ clip(y + c) = `wanted`, for a sum within the bounds and values y in the `range`. This
+/// is the Euclidean projection onto the bounds and the sum, with the `accuracy` of the sum. `sums` returns the sum
+/// and the number of values strictly between their bounds.
 ///
-/// The sum grows piecewise linearly with c: bracketed Newton iteration, exact to round-off in a few passes.
+/// The sum is piecewise linear in c, so a bracketed Newton iteration is exact to round-off in a few passes.
+
 pub(super) fn offset_for_sum(
     range: Range,
     wanted: f64,
@@ -243,7 +247,7 @@ mod tests {
     use super::*;
     use crate::solver::Control;
 
-    fn terms(sum: f64, attraction: f64) -> Settings<'static> {
+    fn settings(sum: f64, attraction: f64) -> Settings<'static> {
         Settings { control: Control::Load(sum), self_influence: 1.0, cell_area: 1.0, attraction, watch: &() }
     }
 
@@ -278,11 +282,15 @@ mod tests {
             };
             let most = if upper.sum().is_finite() { upper.sum() } else { 20.0 };
             let wanted = lower.sum() + number(0.01, 0.99)? * (most - lower.sum());
-            let terms = terms(wanted, -lower.sum());
-            make_feasible(&mut Bounded { pressure: &mut pressure, bounds: &bounds }, &terms);
+            let settings = settings(wanted, -lower.sum());
+            make_feasible(&mut Bounded { pressure: &mut pressure, bounds: &bounds }, &settings);
             let inside = pressure.iter().zip(&lower).zip(&upper).all(|((p, l), u)| l <= p && p <= u);
             assert!(inside, "{pressure} not in {bounds:?}");
-            assert!(terms.bears_the_load(pressure.sum()), "{wanted}, not {}: {bounds:?}", pressure.sum());
+            assert!(
+                settings.carries_the_load(pressure.sum()),
+                "{wanted}, not {}: {bounds:?}",
+                pressure.sum()
+            );
             Ok(())
         });
     }

@@ -1,4 +1,4 @@
-//! The contact problem: pressures between their bounds that close the gap, under a load or at an approach.
+//! The contact problem: pressures within their bounds that close the gap, under a load or at an approach.
 
 mod active_set;
 mod bounds;
@@ -48,7 +48,7 @@ use crate::operator::Operator;
 use crate::ranks::{Largest, Slab};
 use crate::units::{CubicMetre, Dimension, Joule, Metre, Newton, Pascal, SquareMetre};
 
-/// The load or the approach that is prescribed of a contact in the normal direction.
+/// Prescribed load or approach of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Control {
     /// The total normal force W, > 0.
@@ -58,7 +58,7 @@ pub enum Control {
 }
 
 impl Control {
-    /// The approach, where it is prescribed.
+    /// Returns the prescribed approach; none under load control.
     fn approach(self) -> Option<Metre> {
         match self {
             Self::Approach(approach) => Some(approach),
@@ -67,14 +67,14 @@ impl Control {
     }
 }
 
-/// The method by which a contact problem is solved. All methods solve the same problem to the same residual.
+/// Method of solving a contact problem. All methods solve the same problem to the same residual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
-    /// The direct method on small grids, the active set elsewhere.
+    /// The direct method on small grids, the active set on larger ones.
     #[default]
     Auto,
-    /// Dense quadratic programming by block principal pivoting: exact to round-off; cost grows with the cube of
-    /// the number of cells in contact.
+    /// Dense quadratic programming by block principal pivoting. It is exact to round-off, and its cost grows with
+    /// the cube of the number of cells in contact.
     Direct,
     /// The constrained conjugate gradient method of Polonsky and Keer, Wear 231, 206 (1999), as printed.
     PolonskyKeer,
@@ -90,31 +90,31 @@ choice!(Method: "auto" => Auto, "direct" => Direct, "polonsky-keer" => PolonskyK
 pub struct Params {
     /// The method of solution.
     pub method: Method,
-    /// Scale-free complementarity residual η at which the answer is accepted, > 0; see [`residual`].
+    /// Scale-free complementarity residual η at which the solution is accepted, > 0; see [`residual`].
     pub tolerance: f64,
-    /// Operator calls after which the iteration is given up.
+    /// Largest number of operator calls.
     pub max_convolutions: usize,
 }
 
 impl Params {
-    /// The method that suits the grid, a residual of 10⁻⁶, 10 000 operator calls at the most.
+    /// Creates the default parameters: the automatic method, a residual of 10⁻⁶ and at most 10 000 operator calls.
     pub const fn new() -> Self {
         Self { method: Method::Auto, tolerance: 1e-6, max_convolutions: 10_000 }
     }
 
-    /// The same with another method.
+    /// Sets the method.
     #[must_use]
     pub const fn with_method(self, method: Method) -> Self {
         Self { method, ..self }
     }
 
-    /// The same with another residual at which the answer is accepted.
+    /// Sets the residual at which the solution is accepted.
     #[must_use]
     pub const fn with_tolerance(self, tolerance: f64) -> Self {
         Self { tolerance, ..self }
     }
 
-    /// The same with another number of operator calls after which the iteration is given up.
+    /// Sets the largest number of operator calls.
     #[must_use]
     pub const fn with_max_convolutions(self, max_convolutions: usize) -> Self {
         Self { max_convolutions, ..self }
@@ -133,14 +133,14 @@ impl Default for Params {
 pub struct Stats {
     /// Iterations: conjugate gradient steps, or factorisations of the direct method.
     pub iterations: usize,
-    /// Operator calls, those on coarser grids counted by their share of cells.
+    /// Operator calls; a call on a coarser grid counts by its fraction of cells.
     pub convolutions: f64,
-    /// Returns to the last feasible pressure, for lack of progress.
+    /// Number of returns to the last feasible pressure for lack of progress.
     pub restarts: usize,
 }
 
 impl Stats {
-    /// The cost of two solutions together.
+    /// Adds the costs of two solutions.
     pub(crate) fn and(&self, other: &Self) -> Self {
         Self {
             iterations: self.iterations + other.iterations,
@@ -160,35 +160,36 @@ pub struct Solution {
     pub initial_gap: Field,
     /// Bounds of the pressure.
     pub bounds: Bounds,
-    /// Pressure p, Pa; exactly the bound at cells that are at one: 0 outside the contact where nothing attracts.
+    /// Pressure p, Pa. It equals the bound exactly for cells at a bound: it is exactly 0 outside the contact
+    /// without attraction.
     pub pressure: Field,
-    /// Composite displacement u = C p, m; to a tenth of the tolerance, as a share of std(u).
+    /// Composite displacement u = C p, m; its error is at most a tenth of the tolerance times std(u).
     pub displacement: Field,
     /// Rigid-body approach δ, m.
     pub approach: Metre,
-    /// Scale-free complementarity residual η of this pressure, with the rounding of the displacement.
+    /// Scale-free complementarity residual η of this pressure, including the rounding of the displacement.
     pub residual: f64,
     /// Cost of the solution.
     pub stats: Stats,
 }
 
 impl Solution {
-    /// Load W = ΔA Σ p.
+    /// Returns the load W = ΔA Σ p.
     pub fn load(&self) -> Newton {
         self.grid.cell_area() * self.pressure.sum()
     }
 
-    /// Number of cells in contact: above their lower bound, where nothing attracts those with p > 0.
+    /// Counts the cells in contact: above their lower bound, that is with p > 0 without attraction.
     pub fn contact_cells(&self) -> usize {
         self.count(|cell, p| self.bounds.touches(cell, p))
     }
 
-    /// Number of capped cells: at their upper bound, the hardness, or less under a shear.
+    /// Counts the capped cells: at their upper bound, which is the hardness, or less under shear.
     pub fn capped_cells(&self) -> usize {
         self.count(|cell, p| self.bounds.caps(cell, p))
     }
 
-    /// The cells between their bounds, whose gap is closed elastically.
+    /// Returns the cells strictly between their bounds, whose gap is closed elastically.
     pub fn elastic_cells(&self) -> Array2<bool> {
         let mut cells = self.pressure.iter().enumerate();
         Array2::from_shape_simple_fn(self.pressure.raw_dim(), || {
@@ -200,17 +201,17 @@ impl Solution {
         self.pressure.iter().enumerate().filter(|(cell, p)| is(*cell, **p)).count()
     }
 
-    /// Largest pressure, at least 0.
+    /// Returns the largest pressure, at least 0.
     pub fn max_pressure(&self) -> Pascal {
         self.pressure.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Deformed gap g = h + u − δ, m. It is negative where interference is left at capped cells.
+    /// Returns the deformed gap g = h + u − δ, m. It is negative at capped cells with interference.
     pub fn gap(&self) -> Field {
         &self.initial_gap + &self.displacement - self.approach
     }
 
-    /// Plastic interference w = δ − h − u ≥ 0 at the capped cells, m; 0 elsewhere.
+    /// Returns the plastic interference w = δ − h − u ≥ 0 at the capped cells, m; 0 elsewhere.
     pub fn plastic_interference(&self) -> Field {
         let mut interference = -self.gap();
         let cells = interference.iter_mut().zip(&self.pressure).enumerate();
@@ -218,18 +219,19 @@ impl Solution {
         interference
     }
 
-    /// Volume ΔA Σ w of the [`Solution::plastic_interference`].
+    /// Returns the volume ΔA Σ w of the [`Solution::plastic_interference`].
     pub fn plastic_volume(&self) -> CubicMetre {
         self.grid.cell_area() * self.plastic_interference().sum()
     }
 
-    /// Elastic energy ½ ΔA Σ p u; under a periodic boundary without that of the mean displacement, which is free.
+    /// Returns the elastic energy ½ ΔA Σ p u. Under a periodic boundary it excludes the mean displacement, which
+    /// is free.
     pub fn elastic_energy(&self) -> Joule {
         0.5 * self.grid.cell_area() * (&self.pressure * &self.displacement).sum()
     }
 }
 
-/// A box-constrained contact problem, as every method sees it.
+/// A box-constrained contact problem, the input of every method.
 #[derive(Clone, Copy)]
 struct Problem<'a> {
     /// The undeformed gap h.
@@ -237,12 +239,12 @@ struct Problem<'a> {
     /// The bounds of the pressure.
     bounds: &'a Bounds,
     /// Control and constants.
-    terms: Settings<'a>,
+    settings: Settings<'a>,
     /// The rows of the grid that this rank holds.
     slab: &'a Slab,
 }
 
-/// The answer of a method to a [`Problem`].
+/// Solution of a [`Problem`] by a method.
 struct Answer {
     pressure: Field,
     displacement: Field,
@@ -251,20 +253,20 @@ struct Answer {
     stats: Stats,
 }
 
-/// The control of a contact, or of several together, the constants that the methods need, and who looks on.
+/// Control of a contact, or of several contacts together, with constants for the methods and the watch.
 #[derive(Clone, Copy)]
 struct Settings<'a> {
     control: Control,
     /// Displacement of a cell per unit pressure on itself.
     self_influence: f64,
     cell_area: SquareMetre,
-    /// The sum Σ |p| of all cells at their lower bounds, where these are below 0.
+    /// The sum Σ |p| of all cells with negative lower bounds, at these bounds.
     attraction: Pascal,
     watch: &'a dyn Watch,
 }
 
 impl Settings<'_> {
-    /// The pressure sum Σ p under load control.
+    /// Returns the pressure sum Σ p under load control.
     fn pressure_sum(&self) -> Option<f64> {
         match self.control {
             Control::Load(load) => Some(load / self.cell_area),
@@ -272,7 +274,7 @@ impl Settings<'_> {
         }
     }
 
-    /// Holds the pressure of an answer against the load, which the residual does not see.
+    /// Returns an error if a pressure misses the load, which the residual does not measure.
     fn check_load(&self, answer: &Answer, slab: &Slab) -> Result<()> {
         let Some(wanted) = self.pressure_sum() else { return Ok(()) };
         let [sum] = slab.merged([answer.pressure.sum()]);
@@ -289,7 +291,7 @@ impl Settings<'_> {
     }
 }
 
-/// The sum Σ |p| of so many `cells` at their lower bounds, where these are below 0.
+/// Returns the sum Σ |p| of `cells` cells at their lower bounds, where these are below 0.
 fn attraction(bounds: &Bounds, cells: usize) -> Pascal {
     bounds.lower().map(|lower| (-lower).max(0.0)).sum(cells)
 }
@@ -300,16 +302,17 @@ fn attraction(bounds: &Bounds, cells: usize) -> Pascal {
 /// p = lower ⇒ g ≥ 0;   lower < p < upper ⇒ g = 0;   p = upper ⇒ g ≤ 0;   g = h + C p − δ
 /// ```
 ///
-/// which minimises ½ pᵀCp − pᵀ(δ − h) over the box of the `bounds`. `initial_gap` is h, `start` a pressure near the
-/// answer, if one is known.
+/// The solution minimises ½ pᵀCp − pᵀ(δ − h) over the box of the `bounds`. `initial_gap` is h. `start` is a pressure
+/// near the solution, if one is known.
 ///
-/// On a grid that is divided among [ranks](crate::ranks) all of them solve it together, by the active set. Each gives the gap,
-/// the bounds and the start on the rows of its [`Operator::slab`], under the one control of all, and has the solution on them:
-/// the load of its solution is what its rows bear.
+/// On a grid that is divided among [ranks](crate::ranks), all ranks solve it together by the active set. Each rank
+/// passes the gap, the bounds and the start on the rows of its [`Operator::slab`], and the common control. It gets
+/// the solution on these rows, with the load of these rows.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for input without meaning, [`Error::BeyondPlasticLimit`] for more load than the upper bounds bear,
-/// [`Error::PeriodicFullContact`], [`Error::NotConverged`], [`Error::Unsupported`] for another method on several ranks.
+/// [`Error::OutOfRange`] for invalid input, [`Error::BeyondPlasticLimit`] if the load exceeds the sum of the upper
+/// bounds, [`Error::PeriodicFullContact`], [`Error::NotConverged`], [`Error::Unsupported`] for another method on
+/// several ranks.
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid, or a bound is not in standard layout.
@@ -324,7 +327,7 @@ pub fn solve_normal(
     solve_normal_watched(operator, initial_gap, bounds, control, start, params, &())
 }
 
-/// As [`solve_normal`], while somebody looks on.
+/// [`solve_normal`] with a watch.
 pub(crate) fn solve_normal_watched(
     operator: &mut dyn Operator,
     initial_gap: &Field,
@@ -342,8 +345,8 @@ pub(crate) fn solve_normal_watched(
     validate(operator, &slab, initial_gap, bounds, control, params)?;
     let self_influence = self_influence(operator);
     let [attraction] = slab.merged([attraction(bounds, grid.cells())]);
-    let terms = Settings { control, self_influence, cell_area: grid.cell_area(), attraction, watch };
-    let problem = Problem { initial_gap, bounds, terms, slab: &slab };
+    let settings = Settings { control, self_influence, cell_area: grid.cell_area(), attraction, watch };
+    let problem = Problem { initial_gap, bounds, settings, slab: &slab };
     let answer = match far_datum(&problem) {
         None => solve_as_given(operator, &problem, start, params)?,
         Some(datum) => {
@@ -352,8 +355,8 @@ pub(crate) fn solve_normal_watched(
                 Control::Approach(approach) => Control::Approach(approach - datum),
                 load => load,
             };
-            let terms = Settings { control: nearer, ..terms };
-            let near = Problem { initial_gap: &near, bounds, terms, slab: &slab };
+            let settings = Settings { control: nearer, ..settings };
+            let near = Problem { initial_gap: &near, bounds, settings, slab: &slab };
             let answer = solve_as_given(operator, &near, start, params)?;
             Answer { approach: control.approach().unwrap_or(answer.approach + datum), ..answer }
         }
@@ -367,7 +370,7 @@ pub(crate) fn solve_normal_watched(
     Ok(solution)
 }
 
-/// Solves by the method of the `params`, with the heights as they are given.
+/// Solves by the method of the `params`, without shifting the heights.
 fn solve_as_given(
     operator: &mut dyn Operator,
     problem: &Problem,
@@ -377,7 +380,7 @@ fn solve_as_given(
     if let Some(answer) = no_contact(problem) {
         return Ok(answer);
     }
-    let Problem { initial_gap, bounds, terms, slab } = *problem;
+    let Problem { initial_gap, bounds, settings, slab } = *problem;
     let answer = match params.method {
         Method::Direct | Method::PolonskyKeer if !slab.is_whole() => {
             Err(Error::Unsupported("only the active set solves a contact on several ranks"))
@@ -391,18 +394,18 @@ fn solve_as_given(
             let site = OwnedSite::new(operator, Cow::Borrowed(initial_gap), Cow::Borrowed(bounds));
             let start = start.map(|pressure| vec![pressure.clone()]);
             let found =
-                cascade::solve(&[&site], &terms, start, &|_| params.tolerance, params.max_convolutions)?;
+                cascade::solve(&[&site], &settings, start, &|_| params.tolerance, params.max_convolutions)?;
             let (pressure, displacement) = found.fields.into_iter().next().expect("one contact");
             let Residual { eta, approach, .. } = found.residual;
             Ok(Answer { pressure, displacement, approach, residual: eta, stats: found.stats })
         }
     }?;
-    terms.check_load(&answer, slab)?;
+    settings.check_load(&answer, slab)?;
     Ok(answer)
 }
 
-/// The self-influence c₀: displacement of a cell per unit pressure on itself. A single periodic cell has none, its mean being free; that of
-/// a wave as long serves, as a measure.
+/// Returns the self-influence c₀: displacement of a cell per unit pressure on itself. A single periodic cell has
+/// none, because its mean is free; the displacement of a wave of this length then serves as a scale.
 fn self_influence(operator: &dyn Operator) -> f64 {
     match operator.influence(0, 0) {
         c0 if c0 > 0.0 => c0,
@@ -410,32 +413,32 @@ fn self_influence(operator: &dyn Operator) -> f64 {
     }
 }
 
-/// The lowest height, where the heights are so far from zero against their range, or the depth to which they are pressed
-/// together, that h + u keeps too few digits of u: they are then taken from there, which costs them none.
+/// Returns the lowest height if the heights are far from zero compared with their range or with the depth of the
+/// contact, so that h + u would lose digits of u. Heights are then measured from the lowest one without loss.
 fn far_datum(problem: &Problem) -> Option<Metre> {
-    let Problem { initial_gap, bounds, terms, slab } = problem;
+    let Problem { initial_gap, bounds, settings, slab } = problem;
     let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
     for h in *initial_gap {
         (lowest, highest) = (lowest.min(*h), highest.max(*h));
     }
     let most = |value: f64| slab.merged(Largest(value)).0;
     (lowest, highest) = (-most(-lowest), most(highest));
-    let depth = match terms.control {
+    let depth = match settings.control {
         Control::Approach(approach) => (approach - lowest).max(0.0),
-        // No deeper than a single cell sinks under the whole load.
+        // The depth is at most the displacement of a single cell under the whole load.
         Control::Load(load) => {
-            terms.self_influence
-                * (load.abs() / terms.cell_area + terms.attraction).min(most(bounds.upper().max()))
+            settings.self_influence
+                * (load.abs() / settings.cell_area + settings.attraction).min(most(bounds.upper().max()))
         }
     };
     let far = lowest.abs() > FAR_DATUM * depth.min(highest - lowest);
     far.then_some(lowest)
 }
 
-/// Heights are far from zero at so many times their range, or the depth to which they are pressed together.
+/// Heights are far from zero if they exceed this multiple of their range, or of the depth of the contact.
 const FAR_DATUM: f64 = 1e3;
 
-/// Refuses a value that has left the range of double precision.
+/// Returns an error for a value outside the range of double precision.
 fn finite(quantity: &'static str, value: f64) -> Result<()> {
     check(
         quantity,
@@ -445,17 +448,17 @@ fn finite(quantity: &'static str, value: f64) -> Result<()> {
     )
 }
 
-/// An answer that misses the tolerance once it is feasible is solved to this share of the residual asked of it before.
+/// If a feasible solution misses the tolerance, it is solved again to this fraction of the previous target residual.
 const TOLERANCE_REDUCTION: f64 = 0.3;
-/// Error of a displacement in single precision, as a share of its largest value.
+/// Error of a displacement in single precision, relative to its largest value.
 const SINGLE_PRECISION: f64 = 4e-7;
-/// Relative error of the load at which an answer is accepted.
+/// Relative error of the load at which a solution is accepted.
 const LOAD_TOLERANCE: f64 = 1e-10;
 
-/// The most cells of a grid that [`Method::Auto`] solves directly.
+/// Largest number of cells that [`Method::Auto`] solves directly.
 const MAX_DIRECT_CELLS: usize = 400;
 
-/// Whether a problem and its parameters have a meaning.
+/// Returns an error if a problem or its parameters are out of range.
 fn validate(
     operator: &dyn Operator,
     slab: &Slab,
@@ -503,9 +506,9 @@ fn validate(
     }
 }
 
-/// The answer where the bodies neither reach nor attract each other.
+/// Returns the solution of bodies that neither touch nor attract each other.
 fn no_contact(problem: &Problem) -> Option<Answer> {
-    let Control::Approach(approach) = problem.terms.control else { return None };
+    let Control::Approach(approach) = problem.settings.control else { return None };
     let attracts = problem.bounds.lower().min() < 0.0;
     let together = attracts || problem.initial_gap.iter().any(|h| *h < approach);
     (!problem.slab.merged(together)).then(|| Answer {

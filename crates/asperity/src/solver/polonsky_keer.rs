@@ -4,34 +4,35 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::operator::Operator;
 use crate::solver::feasible::{Bounded, make_feasible};
-use crate::solver::watch::go_on;
+use crate::solver::watch::check_stop;
 use crate::solver::{Answer, Control, Params, Problem, Stats, finite};
 
-/// Share of its upper bound below which a pressure differs from it by rounding alone.
+/// Relative distance from its upper bound below which a pressure differs from it only by rounding.
 const ROUNDING: f64 = 1e-12;
-/// Convolutions without a new least residual after which steps are damped: the printed ones, cut off at two bounds, may go
-/// back and forth for ever.
+/// Number of convolutions without a new smallest residual after which steps are damped. The published steps, clipped
+/// at two bounds, may oscillate forever.
 const MAX_STAGNATION: f64 = 100.0;
-/// The factor by which steps are damped then.
+/// The damping factor of these steps.
 const DAMPING: f64 = 0.5;
-/// Share of the interference of a cell that its first pressure closes under approach control, as if it were alone.
+/// Fraction of the interference of a cell that its first pressure closes under approach control, as if the cell were
+/// alone.
 const FIRST_PRESSURE: f64 = 0.3;
 
-/// Solves by the method as printed in Wear 231, 206 (1999): two operator calls an iteration. Cells at their upper bound
-/// leave the conjugate directions as those at their lower one do.
+/// Solves by the method of Wear 231, 206 (1999), with two operator calls per iteration. Cells at their upper bound
+/// leave the conjugate directions in the same way as cells at their lower bound.
 pub(super) fn solve(
     operator: &mut dyn Operator,
     problem: &Problem,
     start: Option<&Field>,
     params: &Params,
 ) -> Result<Answer> {
-    let Problem { initial_gap, bounds, terms, .. } = *problem;
-    let feasible = |pressure: &mut Field| make_feasible(&mut Bounded { pressure, bounds }, &terms);
-    let mut pressure = match (start, terms.pressure_sum(), terms.control) {
+    let Problem { initial_gap, bounds, settings, .. } = *problem;
+    let feasible = |pressure: &mut Field| make_feasible(&mut Bounded { pressure, bounds }, &settings);
+    let mut pressure = match (start, settings.pressure_sum(), settings.control) {
         (Some(start), ..) => start.clone(),
         (None, Some(sum), _) => Field::from_elem(initial_gap.raw_dim(), sum / initial_gap.len() as f64),
         (None, None, Control::Approach(delta)) => {
-            initial_gap.mapv(|h| (delta - h) / terms.self_influence * FIRST_PRESSURE)
+            initial_gap.mapv(|h| (delta - h) / settings.self_influence * FIRST_PRESSURE)
         }
         (None, None, Control::Load(_)) => unreachable!("a load has a pressure sum"),
     };
@@ -46,10 +47,10 @@ pub(super) fn solve(
         operator.apply(&pressure, &mut displacement);
         stats.convolutions += 1.0;
         let state = problem.residual(&pressure, &displacement);
-        terms.watch.iteration(state.eta, params.tolerance);
-        go_on(terms.watch)?;
+        settings.watch.iteration(state.eta, params.tolerance);
+        check_stop(settings.watch)?;
         if state.eta < params.tolerance {
-            // A cell that only rounding has taken off its upper bound is at it.
+            // A cell that differs from its upper bound only by rounding is at the bound.
             for (cell, p) in pressure.iter_mut().enumerate() {
                 let upper = bounds.at(cell).upper;
                 *p = if upper - *p < ROUNDING * upper { upper } else { *p };
@@ -78,15 +79,15 @@ pub(super) fn solve(
         let is_free: Vec<bool> =
             pressure.iter().enumerate().map(|(cell, p)| bounds.at(cell).is_free(*p)).collect();
         if !is_free.contains(&true) {
-            // Every cell at a bound and not in equilibrium: one damped diagonal step along the gap frees some.
+            // All cells are at bounds, but not in equilibrium: one damped diagonal step along the gap frees some.
             ndarray::Zip::from(&mut pressure).and(&displacement).and(initial_gap).for_each(|p, u, h| {
-                *p += 0.5 * damping * (state.approach - h - u) / terms.self_influence;
+                *p += 0.5 * damping * (state.approach - h - u) / settings.self_influence;
             });
             feasible(&mut pressure);
             continue;
         }
         let mut gap = initial_gap + &displacement;
-        let datum = match terms.control {
+        let datum = match settings.control {
             Control::Approach(approach) => approach,
             Control::Load(_) => mean_where(&gap, &is_free),
         };
@@ -99,13 +100,13 @@ pub(super) fn solve(
         }
         operator.apply(&direction, &mut response);
         stats.convolutions += 1.0;
-        if let Control::Load(_) = terms.control {
+        if let Control::Load(_) = settings.control {
             response -= mean_where(&response, &is_free);
         }
         let slope: f64 = gap.iter().zip(&direction).map(|(g, t)| g * t).sum();
         let curvature: f64 = response.iter().zip(&direction).map(|(r, t)| r * t).sum();
         // A single free cell under load cannot move, but the cells at the bounds can.
-        let step = damping * if curvature > 0.0 { slope / curvature } else { 1.0 / terms.self_influence };
+        let step = damping * if curvature > 0.0 { slope / curvature } else { 1.0 / settings.self_influence };
         let mut reentered = false;
         for (cell, ((p, t), g)) in pressure.iter_mut().zip(&direction).zip(&gap).enumerate() {
             let bounds = bounds.at(cell);
@@ -123,7 +124,7 @@ pub(super) fn solve(
     }
 }
 
-/// Mean of `values` over the free cells.
+/// Returns the mean of `values` over the free cells.
 fn mean_where(values: &Field, is_free: &[bool]) -> f64 {
     let (mut sum, mut count) = (0.0, 0usize);
     for (v, free) in values.iter().zip(is_free) {

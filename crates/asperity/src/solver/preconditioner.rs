@@ -1,4 +1,5 @@
-//! The two-level preconditioner: an approximate inverse of the influence matrix on the free cells, at no fine convolution.
+//! Two-level preconditioner: an approximate inverse of the influence matrix on the free cells, without a fine
+//! convolution.
 
 use crate::grid::CellValues;
 use crate::math::parallel::Pool;
@@ -18,30 +19,30 @@ struct Scratch {
 /// The preconditioner `z = A (I − T) S (I − T)ᵀ A r + A P D B D Pᵀ A r`, symmetric and positive definite on the free
 /// cells A.
 ///
-/// Where cells differ in the displacement cᵢ by their own pressure, z = D M D r with the M of their mean c and D = √(c/cᵢ):
-/// exact where it is all the displacement there is.
+/// If cells differ in the displacement cᵢ by their own pressure, then z = D M D r with the M of their mean c, and D =
+/// √(c/cᵢ). This is exact if the cells do not displace each other.
 ///
-/// S is the [`SparseInverse`] on the free cells, for the local part of the residual, B the stiffness of the long waves, for its
-/// smooth part; see [`CoarseCorrection`] for P, D and T.
+/// S is the [`SparseInverse`] on the free cells, for the local part of the residual. B is the stiffness of the long
+/// waves, for its smooth part. [`CoarseCorrection`] defines P, D and T.
 pub(super) struct Preconditioner {
     slab: Slab,
     /// The rows on either side of the slab that S reaches.
     halo: Halo,
-    /// What is kept on all these rows; none where the grid is not divided among ranks.
+    /// Data on all these rows; none if the grid is not divided among ranks.
     around: Option<SlabWithNeighbours>,
     sparse: SparseInverse,
     coarse: CoarseCorrection,
-    /// For each free cell of each band the pattern of its neighbours.
+    /// Pattern of the neighbours of each free cell of each band.
     patterns: Vec<Vec<u8>>,
-    /// What each band adds to the rows above it.
+    /// Contribution of each band to the rows above it.
     above: Vec<Vec<f32>>,
     scratch: Pool<Scratch>,
-    /// The scales √(c/cᵢ) of the cells, and the scaled residual; none where cells do not differ.
+    /// The scales √(c/cᵢ) of the cells, and the scaled residual; none if cells do not differ.
     scaled: Option<(Vec<f32>, Vec<f32>)>,
 }
 
-/// Sets, residual and preconditioned residual of a slab and the rows on either side: there the cells of this rank get the same
-/// as from one process.
+/// Sets, residual and preconditioned residual of a slab and the rows on either side. With these rows the cells of
+/// this rank have the values of a single process.
 struct SlabWithNeighbours {
     sets: Sets,
     residual: Vec<f32>,
@@ -117,7 +118,7 @@ impl Preconditioner {
         products(sets, r, z)
     }
 
-    /// As [`Self::apply`] where cells do not differ.
+    /// [`Self::apply`] for cells that do not differ.
     fn apply_alike(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) -> [f64; 3] {
         let Some(mut around) = self.around.take() else { return self.apply_on_rows(sets, r, z) };
         let SlabWithNeighbours { sets: all, residual, preconditioned } = &mut around;
@@ -129,7 +130,8 @@ impl Preconditioner {
         products(sets, r, z)
     }
 
-    /// As [`Self::apply_alike`] on all rows that a rank looks at, of which those on either side are not right.
+    /// [`Self::apply_alike`] on the rows of a rank and its neighbouring rows. The values on the neighbouring rows
+    /// are not valid.
     fn apply_on_rows(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) -> [f64; 3] {
         let Self { sparse, coarse, patterns, above, scratch, .. } = self;
         coarse.solve(sets, r);
@@ -164,7 +166,7 @@ impl Preconditioner {
     }
 }
 
-/// Σ z, Σ r and Σ r z of the free cells.
+/// Returns Σ z, Σ r and Σ r z of the free cells.
 fn products(sets: &Sets, r: &[f32], z: &[f32]) -> [f64; 3] {
     let bands = sets.bands();
     let parts = bands.cut(r).zip(bands.cut(z)).zip(sets.in_bands());
@@ -174,7 +176,8 @@ fn products(sets: &Sets, r: &[f32], z: &[f32]) -> [f64; 3] {
     }))
 }
 
-/// The square roots of the mean displacement of a cell by its own pressure over that of each; none where cells do not differ.
+/// Returns √(c/cᵢ), from the mean and the individual displacement of a cell by its own pressure; none if cells do not
+/// differ.
 fn scales(operator: &dyn Operator) -> Option<Vec<f32>> {
     match operator.self_influence() {
         CellValues::Uniform(_) => None,
@@ -185,7 +188,8 @@ fn scales(operator: &dyn Operator) -> Option<Vec<f32>> {
     }
 }
 
-/// The sparse inverse of the operator's influence matrix on `rows` of its grid; periodic coefficients count from the far field.
+/// Creates the sparse inverse of the operator's influence matrix on `rows` of its grid. Periodic coefficients are
+/// relative to the far field.
 fn sparse_inverse(operator: &dyn Operator, rows: [usize; 2]) -> SparseInverse {
     let shape = operator.slab().whole_grid().shape;
     let periodic = operator.boundary().leaves_mean_free();
@@ -200,7 +204,7 @@ mod tests {
     use crate::math::Cholesky;
     use crate::operator::{DirectSum, PeriodicFft};
 
-    /// The sets with `free` cells on a grid of `shape`.
+    /// Creates the sets with `free` cells on a grid of `shape`.
     fn sets(shape: [usize; 2], free: impl Fn(usize) -> bool + Sync + Send) -> Sets {
         let mut sets = Sets::new(shape);
         sets.free_where(free);

@@ -1,4 +1,4 @@
-//! The complementarity residual η, by which every answer is judged.
+//! The complementarity residual η, the measure of every solution.
 
 use crate::grid::Field;
 use crate::ranks::Merged;
@@ -6,27 +6,28 @@ use crate::solver::bounds::{Bounds, Interval, with_bounds};
 use crate::solver::{Problem, Settings};
 use crate::units::{Metre, Pascal};
 
-/// How far a pressure is from equilibrium.
+/// Distance of a pressure from equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Residual {
     /// The residual η = max|φ| / scale.
     pub eta: f64,
-    /// The approach δ at which φ was taken.
+    /// The approach δ in φ.
     pub approach: Metre,
-    /// The scale: std(u), but no less than 10⁻⁴ of the largest |u| or c₀ p, where the displacement is uniform.
+    /// The scale: std(u), but at least 10⁻⁴ of the largest |u| or c₀ p, for uniform displacements.
     pub scale: Metre,
 }
 
-/// Scale-free complementarity residual η of a `pressure` within its `bounds` and its `displacement` u = C p.
+/// Computes the scale-free complementarity residual η of a `pressure` within its `bounds` and its `displacement` u =
+/// C p.
 ///
 /// ```text
 /// φ = c₀ (p − clip(p + w/c₀)),   w = δ − h − u,   η = max|φ| / max(std(u), 10⁻⁴ max|u|, 10⁻⁴ c₀ max p)
 /// ```
 ///
-/// clip brings a pressure into the bounds of its cell, c₀ is the displacement of a cell per unit pressure on itself. φ is
-/// zero exactly in equilibrium. Without an `approach` (load control) δ is the multiplier of the load: the mean of h + u
-/// over the cells between their bounds, weighted by the pressure above the lower one.
+/// clip restricts a pressure to the bounds of its cell. c₀ is the displacement of a cell per unit pressure on itself.
+/// φ is zero exactly in equilibrium. Without an `approach` (load control) δ is the multiplier of the load: the mean
+/// of h + u over the cells between their bounds, weighted by the pressure above the lower bound.
 ///
 /// # Panics
 /// If a field has another shape than the others, or is not in standard layout.
@@ -53,17 +54,17 @@ pub fn residual(
     })
 }
 
-/// The displacement of which a residual is a share: the `deviation` of the displacements, unless they are uniform against
-/// their `size`, that of the largest, or of the largest that a cell causes by itself.
+/// Returns the scale of a residual: the `deviation` of the displacements, unless they are uniform compared with their
+/// `size`. The size is the largest displacement, or the largest displacement of a cell by itself.
 pub(super) fn scale(deviation: Metre, size: Metre) -> Metre {
     if deviation < UNIFORM * size { UNIFORM * size } else { deviation }
 }
 
-/// Displacements that deviate by less than this share of their size are uniform: under flat bodies, and in full contact. What
-/// they deviate by may then be round-off, 10⁻¹⁵ of their size in double precision and 10⁻⁷ in single.
+/// Displacements with a deviation below this fraction of their size count as uniform, as under flat bodies and in
+/// full contact. Their deviation may be round-off, 10⁻¹⁵ of their size in double precision and 10⁻⁷ in single.
 const UNIFORM: f64 = 1e-4;
 
-/// The state of a cell, as its residual depends on it.
+/// The state of a cell that determines its residual.
 #[derive(Clone, Copy)]
 pub(super) struct Cell {
     /// The pressure p.
@@ -77,14 +78,14 @@ pub(super) struct Cell {
 }
 
 impl Problem<'_> {
-    /// The [`residual`] of a pressure and its displacement in this problem.
+    /// Computes the [`residual`] of a pressure and its displacement in this problem.
     pub(super) fn residual(&self, pressure: &Field, displacement: &Field) -> Residual {
-        let Settings { self_influence, control, .. } = self.terms;
+        let Settings { self_influence, control, .. } = self.settings;
         residual(pressure, displacement, self.initial_gap, self.bounds, self_influence, control.approach())
     }
 }
 
-/// The approach that belongs to a pressure under load control, from the approaches h + u at which the cells touch.
+/// The approach for a pressure under load control, from the approaches h + u at which the cells touch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Multiplier {
     /// Sum of the weights, the pressures above the lower bounds.
@@ -110,14 +111,14 @@ impl Multiplier {
         this
     }
 
-    /// The multiplier. Where all cells are at a bound, any approach between the capped and the open cells is in equilibrium:
-    /// the least.
+    /// Returns the multiplier. If all cells are at a bound, any approach between those of the capped and of the
+    /// open cells is in equilibrium, and the smallest is returned.
     pub(super) fn approach(&self) -> Metre {
         if self.weight > 0.0 { self.moment / self.weight } else { self.max_capped }
     }
 }
 
-/// The multiplier of several sets of cells together.
+/// Merges the multipliers of several sets of cells.
 impl Merged for Multiplier {
     fn and(self, other: Self) -> Self {
         Self {
@@ -136,7 +137,7 @@ impl Merged for Multiplier {
     }
 }
 
-/// Sums and maxima over some cells from which their residual follows; those of several contacts are merged.
+/// Sums and maxima over some cells that determine their residual. The sums of several contacts can be merged.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ResidualSums {
     /// Largest |φ|.
@@ -154,10 +155,10 @@ pub(super) struct ResidualSums {
 }
 
 impl ResidualSums {
-    /// The sums of some cells at an approach.
+    /// Computes the sums of some cells at an approach.
     pub(super) fn of(cells: impl Iterator<Item = Cell>, approach: Metre, self_influence: f64) -> Self {
         let mut this = Self::default();
-        // Deviations from some displacement rather than from zero: nothing cancels.
+        // Deviations from one of the displacements, not from zero, avoid cancellation.
         let (mut datum, mut sum, mut squares) = (None, 0.0, 0.0);
         for Cell { pressure: p, displacement: u, touch, bounds } in cells {
             let w = approach - touch;
@@ -174,18 +175,19 @@ impl ResidualSums {
         Self { mean: datum.unwrap_or(0.0) + mean, squares: squares - sum * mean, ..this }
     }
 
-    /// The residual of the cells, at the approach of the sums.
+    /// Returns the residual of the cells at the approach of the sums.
     pub(super) fn residual(&self, approach: Metre, self_influence: f64) -> Residual {
         let deviation = (self.squares.max(0.0) / self.cells).sqrt();
         let local = self_influence * self.max_pressure;
         let scale = scale(deviation, local.max(self.max_displacement));
-        // What is not a number is no answer, though a maximum would pass over it.
+        // A NaN is no solution, although a maximum would ignore it.
         let eta = if self.largest == 0.0 && !self.squares.is_nan() { 0.0 } else { self.largest / scale };
         Residual { eta, approach, scale }
     }
 }
 
-/// The sums of several sets of cells together: variances merge by the distance of their means (Chan, Golub and LeVeque 1979).
+/// Merges the sums of several sets of cells. Variances merge by the distance of their means (Chan, Golub and LeVeque
+/// 1979).
 impl Merged for ResidualSums {
     fn and(self, other: Self) -> Self {
         let cells = self.cells + other.cells;
@@ -223,7 +225,7 @@ impl Merged for ResidualSums {
 mod tests {
     use super::*;
 
-    /// Cells whose displacements are far from zero against what they differ by.
+    /// Cells whose displacements are far from zero compared with their differences.
     fn cells(count: usize) -> Vec<Cell> {
         let displacement = |k: usize| 7.0 + 1e-3 * ((k * k) % 17) as f64;
         let cell = |k: usize| Cell {

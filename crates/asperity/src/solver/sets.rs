@@ -1,4 +1,4 @@
-//! Which cells are at a bound, and which are free.
+//! Sets of cells: at a bound, or free.
 
 use std::ops::Range;
 use std::slice;
@@ -7,7 +7,7 @@ use crate::math::{Bands, indices_where, parallel};
 use crate::solver::bounds::{Bounds, Interval, with_bounds};
 use crate::units::Pascal;
 
-/// The predicted set of a cell: where in its bounds the answer is taken to have its pressure.
+/// Predicted set of a cell: the position of its pressure within its bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Set {
     /// The open cells, at their lower bound.
@@ -19,7 +19,7 @@ pub(super) enum Set {
 }
 
 impl Set {
-    /// The set of a cell whose pressure is that, or beyond a bound.
+    /// Returns the set of a cell with this pressure, which may lie beyond a bound.
     pub(super) fn of(pressure: Pascal, bounds: Interval) -> Self {
         match pressure {
             p if p <= bounds.lower => Self::Lower,
@@ -53,7 +53,8 @@ impl Sets {
         Self { bands, of: vec![Set::Lower; shape[0] * shape[1]], free: bands.rows().map(free).collect() }
     }
 
-    /// Puts each cell at the bound that its pressure is at or beyond; `pressures` gives those of some neighbouring cells.
+    /// Assigns to a bound each cell whose pressure is at or beyond it. `pressures` returns the pressures of
+    /// consecutive cells.
     pub(super) fn assign<P: Iterator<Item = Pascal>>(
         &mut self,
         pressures: impl Fn(Range<usize>) -> P + Sync + Send,
@@ -67,12 +68,12 @@ impl Sets {
         });
     }
 
-    /// Frees the cells that are free, and puts all others at their lower bound.
+    /// Sets the given cells free, and all others to their lower bound.
     pub(super) fn free_where(&mut self, is_free: impl Fn(usize) -> bool + Sync + Send) {
         self.put(|cells| cells.map(|cell| if is_free(cell) { Set::Free } else { Set::Lower }));
     }
 
-    /// Replaces the sets of all cells; `sets` gives those of some neighbouring ones.
+    /// Replaces the sets of all cells. `sets` returns the sets of consecutive cells.
     fn put<S: Iterator<Item = Set>>(&mut self, sets: impl Fn(Range<usize>) -> S + Sync + Send) {
         let Self { bands, of, free } = self;
         let parts = bands.cut_mut(of).zip(free).enumerate();
@@ -109,7 +110,8 @@ impl Sets {
         self.free.iter()
     }
 
-    /// The free cells of a row of the grid, by their indices in its band, and the index of the first cell of the row.
+    /// Returns the free cells of a row of the grid, by their indices in its band, and the index of the first cell
+    /// of the row.
     pub(super) fn row(&self, row: usize) -> (&[u32], usize) {
         let [band, row] = self.bands.place(row);
         let FreeCells { cells, before } = &self.free[band];
@@ -118,7 +120,7 @@ impl Sets {
 }
 
 impl FreeCells {
-    /// Lists the cells of a band that are free in the sets `of` its cells.
+    /// Lists the free cells of a band with the sets `of`.
     fn list(&mut self, of: &[Set], columns: usize) {
         self.cells.clear();
         self.cells.reserve_exact(of.iter().filter(|set| **set == Set::Free).count());

@@ -9,33 +9,33 @@ use crate::operator::Operator;
 use crate::ranks::Slab;
 use crate::solver::bounds::Bounds;
 
-/// Where one of the contacts that share an approach takes place.
+/// Site of one of the contacts that share an approach.
 ///
-/// Its operator and its initial gap are asked for when they are needed and need not be kept between, so that many
-/// contacts at once take little room.
+/// A site may create its operator and its initial gap on each request, so that many simultaneous contacts take little
+/// memory.
 pub(crate) trait Site: Sync {
-    /// The grid of the contact, or the rows of it that this rank holds.
+    /// Returns the grid of the contact, or the rows of this rank.
     fn grid(&self) -> Grid;
 
-    /// The slab that this is of a grid divided among ranks.
+    /// Returns the slab of this rank on a grid divided among ranks.
     fn slab(&self) -> Slab {
         Slab::whole(self.grid())
     }
 
-    /// Undeformed gap h.
+    /// Returns the undeformed gap h.
     fn initial_gap(&self) -> Cow<'_, Field>;
 
-    /// Bounds of the pressure.
+    /// Returns the bounds of the pressure.
     fn bounds(&self) -> Cow<'_, Bounds>;
 
-    /// Lends the operator of the grid to a task.
+    /// Calls a task with the operator of the grid.
     fn with_operator(&self, task: &mut dyn FnMut(&mut dyn Operator));
 
-    /// The same contact on a grid of about half as many cells along each axis.
+    /// Returns the contact on a grid of about half as many cells along each axis.
     fn coarse(&self) -> Box<dyn Site>;
 }
 
-/// A site that owns what it lends.
+/// A site that owns its operator, gap and bounds.
 pub(crate) struct OwnedSite<'a, P> {
     grid: Grid,
     gap: Cow<'a, Field>,
@@ -80,7 +80,7 @@ impl<'o, P: DerefMut<Target = dyn Operator + 'o> + Send> Site for OwnedSite<'_, 
     }
 }
 
-/// The site of a coarse `operator` from the gap and the bounds of the fine grid.
+/// Creates the site of a coarse `operator` from the gap and the bounds of the fine grid.
 pub(crate) fn coarse_site(
     operator: Box<dyn Operator>,
     gap: &Field,

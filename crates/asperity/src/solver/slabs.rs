@@ -1,4 +1,4 @@
-//! Contacts on a grid that is divided among ranks, held against those of one process.
+//! Tests that compare contacts on a grid divided among ranks with those of one process.
 
 use ndarray::s;
 
@@ -27,7 +27,7 @@ impl Problem {
         Params::new().with_method(Method::ActiveSet).with_tolerance(self.tolerance)
     }
 
-    /// By one process.
+    /// Solves in one process.
     fn alone(&self) -> Result<Solution, Error> {
         let mut operator: Box<dyn Operator> = if self.boundary == Boundary::PERIODIC {
             Box::new(PeriodicFft::new(self.grid, MODULUS))
@@ -37,7 +37,7 @@ impl Problem {
         solve_normal(operator.as_mut(), &self.gap, &self.bounds, self.control, None, &self.params())
     }
 
-    /// By so many ranks: what each has, and the pressure of all.
+    /// Solves on this number of ranks. Returns the solution of each rank, and the pressure of all.
     fn on(&self, count: usize) -> Vec<Result<(Solution, Field), Error>> {
         on_ranks(count, |ranks| {
             let slab = Slab::new(ranks, self.grid).unwrap();
@@ -54,7 +54,8 @@ impl Problem {
         })
     }
 
-    /// Holds the contact on so many ranks against one of one process, to `accuracy` of the largest pressure and of the approach.
+    /// Compares the contact on several ranks with that of one process, to `accuracy` of the largest pressure and
+    /// of the approach.
     fn check(&self, count: usize, one: &Solution, accuracy: f64) {
         let largest = one.max_pressure();
         let on_ranks: Vec<_> = self.on(count).into_iter().map(Result::unwrap).collect();
@@ -64,7 +65,7 @@ impl Problem {
             let apart = (solution.approach - one.approach).abs();
             assert!(apart <= accuracy * one.approach.abs(), "{count} ranks: approach off by {apart:e}");
             assert!(solution.residual < self.tolerance);
-            // All ranks have come the same way.
+            // All ranks have taken the same steps.
             assert_eq!(solution.stats, on_ranks[0].0.stats);
             assert_eq!(solution.approach.to_bits(), on_ranks[0].0.approach.to_bits());
         }
@@ -75,7 +76,7 @@ impl Problem {
     }
 }
 
-/// Rough heights, of waves of many lengths.
+/// Rough heights with waves of many lengths.
 fn rough(shape: [usize; 2], seed: u64) -> Field {
     let wave = |k: u64| {
         let mix = (seed * 31 + k).wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -142,7 +143,7 @@ fn what_is_wrong_with_the_whole_every_rank_says() {
         control,
         tolerance: 1e-6,
     };
-    // A load that half of the grid could not bear, but all of it: and one that is too large for all.
+    // The first load is too large for half of the grid, but not for the whole; the second is too large for the whole.
     let limit = 1e9 * grid.area();
     let bearable = problem(Bounds::up_to(1e9), Control::Load(0.7 * limit));
     bearable.check(3, &bearable.alone().unwrap(), 1e-5);
@@ -155,7 +156,7 @@ fn what_is_wrong_with_the_whole_every_rank_says() {
     for error in problem(Bounds::ELASTIC, Control::Approach(1e-6)).on(2) {
         assert!(matches!(error.unwrap_err(), Error::PeriodicFullContact { .. }));
     }
-    // Nothing touches: no rank looks for a contact.
+    // The bodies do not touch, and no rank searches for a contact.
     for contact in problem(Bounds::ELASTIC, Control::Approach(-1e-3)).on(3) {
         assert_eq!(contact.unwrap().0.load(), 0.0);
     }

@@ -1,4 +1,4 @@
-//! The normal stiffness of a contact: a flat punch on the cells that bear elastically.
+//! Normal stiffness of a contact: a flat punch on the elastic cells.
 
 use ndarray::Array2;
 
@@ -8,16 +8,18 @@ use crate::solver::uniform::Gradients;
 use crate::solver::{Params, Stats};
 use crate::units::NewtonPerMetre;
 
-/// Normal stiffness K = dW/dδ of a contact whose cells `elastic` close their gap, while all others bear what they bear:
+/// Computes the normal stiffness K = dW/dδ of a contact. The `elastic` cells close their gap, and the pressures of
+/// all others are constant:
 ///
 /// ```text
 /// C_EE p' = 1   on the elastic cells E,   K = ΔA Σ p'
 /// ```
 ///
-/// The elastic cells are those with 0 < p < H: a cell at the hardness bears no more, one that is open none. Under a periodic
-/// boundary δ is the approach of the mean planes of the surfaces, the mean displacement being 0; where all of a period is
-/// elastic nothing gives, and there is no stiffness; under one that is periodic along one axis δ is that against the datum
-/// of the line. K comes to within about a tenth of the tolerance of `params`.
+/// The elastic cells are those with 0 < p < H. The pressure of a cell at the hardness or of an open cell cannot
+/// change. Under a periodic boundary δ is the approach of the mean planes of the surfaces, because the mean
+/// displacement is 0. In full elastic contact of a period the stiffness is infinite, and none is returned. Under a
+/// boundary that is periodic along one axis, δ is relative to the datum of the line. The error of K is about a tenth
+/// of the tolerance of `params`.
 ///
 /// Sneddon, Int. J. Eng. Sci. 3, 47 (1965): K = 2 E* a for any axisymmetric contact of radius a.
 ///
@@ -53,9 +55,9 @@ pub fn normal_stiffness(
     Ok((Some(grid.cell_area() * gradients.sum()), gradients.stats))
 }
 
-/// Last steps of conjugate gradients whose contributions to the stiffness must be small together.
+/// Number of last steps of conjugate gradients whose total contribution to the stiffness must be small.
 const LAST_STEPS: usize = 2;
-/// Share of the tolerance that the last steps may contribute to the stiffness.
+/// Fraction of the tolerance that the last steps may contribute to the stiffness.
 const ACCURACY: f64 = 0.1;
 
 #[cfg(test)]
@@ -71,7 +73,7 @@ mod tests {
     const FINE: Params =
         Params { method: crate::solver::Method::Auto, tolerance: 1e-10, max_convolutions: 1000 };
 
-    /// ΔA 1ᵀ C_EE⁻¹ 1 by a dense factorisation.
+    /// Computes ΔA 1ᵀ C_EE⁻¹ 1 by a dense factorisation.
     fn dense(operator: &dyn Operator, elastic: &Array2<bool>) -> f64 {
         let cells: Vec<_> = elastic.indexed_iter().filter(|(_, e)| **e).map(|(cell, _)| cell).collect();
         let influence = |i: usize, j: usize| {
@@ -107,7 +109,7 @@ mod tests {
         }
     }
 
-    /// 2 E* a, the edge of the disc of cells known to half a cell.
+    /// Returns 2 E* a; the edge of the disc of cells is known to half a cell.
     #[test]
     fn a_disc_has_that_of_a_round_punch() {
         let grid = Grid::new([96, 96], [1.0, 1.0]).unwrap();

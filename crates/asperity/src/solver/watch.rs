@@ -1,17 +1,17 @@
-//! Who looks on while a contact is solved.
+//! Observation of a contact while it is solved.
 
 use crate::error::{Error, Result};
 
-/// Looks on while a contact is solved.
+/// Observes a contact while it is solved.
 pub trait Watch: Sync {
-    /// An iteration has come to a residual, of which the `tolerance` is asked.
+    /// Reports the residual of an iteration and the required `tolerance`.
     fn iteration(&self, residual: f64, tolerance: f64);
 
-    /// Whether to stop: the solution then ends with [`Error::Interrupted`] at the next convolution.
+    /// Whether to stop. The solution then fails with [`Error::Interrupted`] at the next convolution.
     fn stop(&self) -> bool;
 }
 
-/// Nobody looks on.
+/// A watch that does nothing.
 impl Watch for () {
     fn iteration(&self, _: f64, _: f64) {}
 
@@ -20,7 +20,7 @@ impl Watch for () {
     }
 }
 
-/// Stops as another watch does, and reports nothing: for the solutions that an iteration is made of.
+/// Stops when another watch does, but reports nothing; for the inner solutions of an iteration.
 pub(super) struct InnerWatch<'a>(pub(super) &'a dyn Watch);
 
 impl Watch for InnerWatch<'_> {
@@ -31,7 +31,8 @@ impl Watch for InnerWatch<'_> {
     }
 }
 
-/// [`Error::Interrupted`] if the watch wants to stop.
-pub(super) fn go_on(watch: &dyn Watch) -> Result<()> {
+/// Returns [`Error::Interrupted`] if the watch requests a stop.
+
+pub(super) fn check_stop(watch: &dyn Watch) -> Result<()> {
     if watch.stop() { Err(Error::Interrupted) } else { Ok(()) }
 }

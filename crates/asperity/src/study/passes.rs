@@ -75,7 +75,7 @@ impl Passes {
         let bodies = bodies_until(case, given, stop)?;
         let Estimate { apparent_area, subsurface, warnings, .. } = estimate(case, &bodies)?;
         let motion =
-            case.motion(apparent_area).ok_or(Error::Unsupported("a contact at rest has no passes"))?;
+            case.motion(apparent_area).ok_or(Error::Unsupported("a static contact has no passes"))?;
         let resolved = identity::resolved(case, &bodies);
         let look = subsurface.as_ref().map(|plan| plan.index);
         let simulation = simulation(case, pair(case, bodies)?, motion, None, look)?;

@@ -340,7 +340,7 @@ mod tests {
             let [found, expected] =
                 [together.summary().unwrap(), expected].map(|summary| match summary.outcome {
                     Outcome::Static(record) => *record,
-                    _ => unreachable!("a contact at rest"),
+                    _ => unreachable!("a static contact"),
                 });
             assert!((found.load / expected.load - 1.0).abs() < 1e-10);
             assert!((found.mean_gap / expected.mean_gap - 1.0).abs() < 1e-9);

@@ -119,7 +119,7 @@ fn a_motion_leaves_the_stress_of_each_pass_and_goes_on() {
         let stress = results.subsurface_fields(Some(pass)).unwrap();
         let zz = stress.read("section_zz").unwrap();
         let Attribute::Number(y) = stress.attributes().unwrap()["section"] else { panic!() };
-        assert_eq!(y, first.subsurface[pass - 1].position[1], "through the most stressed point");
+        assert_eq!(y, first.subsurface[pass - 1].position[1], "the most stressed point");
         let row = (y / 1e-6) as usize;
         assert_eq!((zz.values.shape(), zz.origin[0]), (&[28, 7][..], 4.5e-6));
         let pressure = results.fields_after(pass).unwrap().read(&pressure_name(9)).unwrap();

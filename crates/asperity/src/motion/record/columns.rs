@@ -1,4 +1,4 @@
-//! The declaration of columns: a record's fields are the columns of its table and the keys of `summary.json`.
+//! The declaration of columns. The fields of a record are the columns of its table and the keys of `summary.json`.
 
 /// A column of a table, or a number of `summary.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -6,20 +6,20 @@
 pub struct Column {
     /// Name: the head of the column, the key in `summary.json`.
     pub name: &'static str,
-    /// SI unit: `"1"` for a pure number or a count, nothing for a text.
+    /// SI unit: `"1"` for a pure number or a count, empty for a text.
     pub unit: &'static str,
     /// Meaning, in a sentence.
     pub text: &'static str,
     /// Number of components: 1 for a number, 2 or 3 for a vector.
     pub components: usize,
-    /// Whether each record has it.
+    /// Whether each record has the column.
     pub presence: Presence,
 }
 
 /// Whether a record has a value in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Presence {
-    /// It always has.
+    /// Every record has a value.
     Always,
     /// The value may be unknown: an empty cell of a table, `null` in `summary.json`.
     Unknown,
@@ -37,12 +37,12 @@ impl Column {
 /// Part of a record: a column, or a group of them.
 pub(crate) struct Part {
     pub(crate) columns: &'static [Column],
-    /// Whether the record may lack it: a group of its own.
+    /// Whether the part is a group that may be missing.
     pub(crate) is_group: bool,
 }
 
 impl Part {
-    /// Counts the columns of some parts, with or without those of the groups.
+    /// Counts the columns of the parts, with or without the groups.
     pub(crate) const fn count(parts: &[Self], with_groups: bool) -> usize {
         let (mut count, mut k) = (0, 0);
         while k < parts.len() {
@@ -54,7 +54,7 @@ impl Part {
         count
     }
 
-    /// Joins the columns of some parts, `N` = [`Part::count`] of them.
+    /// Joins the columns of the parts, `N` = [`Part::count`] of them.
     pub(crate) const fn join<const N: usize>(parts: &[Self], with_groups: bool) -> [Column; N] {
         let mut columns = [Column::new("", "", ""); N];
         let (mut count, mut k) = (0, 0);
@@ -73,12 +73,12 @@ impl Part {
 
 /// Declares a record: each field is a column with its unit (by its type) and its meaning (its documentation).
 ///
-/// The record has the constants `OWN_COLUMNS` and `COLUMNS`, the latter with the columns of the groups that it may have, in the order
-/// in which they are written. Attributes of `serde` say which values may be missing, see [`Presence`]:
+/// The record has the constants `OWN_COLUMNS` and `COLUMNS`. `COLUMNS` includes the columns of its groups, in the order
+/// in which they are written. Attributes of `serde` mark values that may be missing, see [`Presence`]:
 ///
 /// - `deserialize_with = "number_or_none"`, or an `Option` without attributes: the value may be unknown,
 /// - any other attribute of an `Option`: the column may be left out,
-/// - `flatten, skip_serializing_if = …`: a group of columns that the record may lack.
+/// - `flatten, skip_serializing_if = …`: a group of columns that may be missing.
 macro_rules! columns {
     (
         $(#[$attribute:meta])*
@@ -100,10 +100,10 @@ macro_rules! columns {
         }
 
         impl $record {
-            /// Columns of a record, without those of the groups that it may lack.
+            /// Columns of a record without its groups.
             pub const OWN_COLUMNS: &'static [$crate::motion::Column] =
                 &$crate::motion::Part::join::<{ $crate::motion::Part::count(Self::PARTS, false) }>(Self::PARTS, false);
-            /// Columns of a record that lacks nothing, in the order in which they are written.
+            /// Columns of a record with all groups, in the order in which they are written.
             pub const COLUMNS: &'static [$crate::motion::Column] =
                 &$crate::motion::Part::join::<{ $crate::motion::Part::count(Self::PARTS, true) }>(Self::PARTS, true);
             const PARTS: &'static [$crate::motion::Part] = &[$(

@@ -6,13 +6,13 @@ use super::columns::columns;
 use crate::units::{CubicMetre, Joule, Metre, Pascal};
 
 columns! {
-    /// Plastic flow of both bodies: of a static contact under its last load, of a motion after its last pass.
+    /// Plastic flow of both bodies, under the last load of a static contact or after the last pass of a motion.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct FlowRecord {
         /// Largest accumulated plastic strain.
         pub max_plastic_strain: f64,
-        /// Place of the largest plastic strain: x and y from the corner of the body, z from its surface.
+        /// Position of the largest plastic strain: x and y from the corner of the body, z from its surface.
         pub max_plastic_strain_position: [Metre; 3],
         /// Volume of all cells with plastic strain.
         pub yielded_volume: CubicMetre,
@@ -22,9 +22,9 @@ columns! {
         pub stored_energy: Joule,
         /// Volume ΔA Σ max(r, 0) by which the surfaces have been displaced inward; r is the inward displacement by the plastic strain.
         pub displaced_volume: CubicMetre,
-        /// Largest principal stress of the residual stress, in tension.
+        /// Largest principal residual stress, in tension.
         pub max_residual_tension: Pascal,
-        /// Range of the inward displacement r of a surface: its largest less its least value.
+        /// Range of the inward displacement r of a surface: its largest minus its smallest value.
         pub residual_displacement: Metre,
         /// Applications of the operator of the residual stress, over all increments.
         pub products: usize,
@@ -32,42 +32,42 @@ columns! {
         pub mismatch: f64,
         /// Response of the bodies to repeated loading, as a word.
         pub regime: Regime,
-        /// Growth of the largest plastic strain in a pass, of bodies that ratchet.
+        /// Growth of the largest plastic strain per pass, if the bodies ratchet.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub strain_per_pass: Option<f64>,
-        /// Displacement of the surface along x in a pass, of bodies that ratchet; that of the body where it is larger.
+        /// Displacement of the surface along x per pass, if the bodies ratchet; the larger one of the two bodies.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub shift_per_pass: Option<Metre>,
-        /// The plastic flow once the load is taken off; none where it is not taken off.
+        /// The plastic flow after unloading; none without unloading.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub residual: Option<ResidualRecord>,
     }
 }
 
 columns! {
-    /// Plastic flow of both bodies of a static contact once its load is taken off.
+    /// Plastic flow of both bodies of a static contact after unloading.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct ResidualRecord {
-        /// `max_plastic_strain` without the load.
+        /// `max_plastic_strain` after unloading.
         pub residual_max_plastic_strain: f64,
-        /// `yielded_volume` without the load.
+        /// `yielded_volume` after unloading.
         pub residual_yielded_volume: CubicMetre,
-        /// `plastic_work` without the load.
+        /// `plastic_work` after unloading.
         pub residual_plastic_work: Joule,
-        /// `stored_energy` without the load.
+        /// `stored_energy` after unloading.
         pub residual_stored_energy: Joule,
-        /// `displaced_volume` without the load.
+        /// `displaced_volume` after unloading.
         pub residual_displaced_volume: CubicMetre,
-        /// `max_residual_tension` without the load.
+        /// `max_residual_tension` after unloading.
         pub residual_max_residual_tension: Pascal,
-        /// `residual_displacement` without the load.
+        /// `residual_displacement` after unloading.
         pub residual_residual_displacement: Metre,
     }
 }
 
 impl FlowRecord {
-    /// The record of bodies whose load has been taken off.
+    /// Returns the record of unloaded bodies.
     pub(in crate::motion) fn into_residual(self) -> ResidualRecord {
         ResidualRecord {
             residual_max_plastic_strain: self.max_plastic_strain,
@@ -94,20 +94,20 @@ columns! {
         pub plastic_work_lower: Joule,
         /// Plastic work in the upper body in the pass.
         pub plastic_work_upper: Joule,
-        /// Part of the plastic work under the two columns at either end of the overlap; 0 where the boundary is periodic along x.
+        /// Plastic work below the two columns at either end of the overlap, a part of the plastic work; 0 if the boundary is periodic along x.
         pub plastic_work_rim: Joule,
-        /// Displacement of the surface of the lower body along +x against its depths in the pass, in the mean over it.
+        /// Displacement of the surface of the lower body along +x relative to its depths in the pass, averaged over the surface.
         pub surface_shift_lower: Metre,
-        /// Displacement of the surface of the upper body along +x against its depths in the pass, in the mean over it.
+        /// Displacement of the surface of the upper body along +x relative to its depths in the pass, averaged over the surface.
         pub surface_shift_upper: Metre,
         /// Range of the inward displacement r of the lower surface by the plastic strain after the pass.
         pub residual_displacement_lower: Metre,
         /// Range of the inward displacement r of the upper surface by the plastic strain after the pass.
         pub residual_displacement_upper: Metre,
-        /// Net strain of the lower body in the pass over what has accumulated in it, ∫ √(⅔ Δε:Δε) over ∫ Δp̄: 1 where each cell flows one
-        /// way, 0 where flow comes and goes.
+        /// Net strain of the lower body in the pass over the accumulated strain, ∫ √(⅔ Δε:Δε) over ∫ Δp̄: 1 if each cell flows in one
+        /// direction, 0 if the flow reverses completely.
         pub net_strain_lower: f64,
-        /// Net strain of the upper body in the pass over what has accumulated in it.
+        /// Net strain of the upper body in the pass over the accumulated strain.
         pub net_strain_upper: f64,
     }
 }
@@ -119,7 +119,7 @@ columns! {
     pub struct FlowStepRecord {
         /// Cells in all layers of both bodies that have yielded in the step or increment.
         pub yielded_cells: usize,
-        /// Largest accumulated plastic strain at the end of it.
+        /// Largest accumulated plastic strain at the end of the step or increment.
         pub max_plastic_strain: f64,
         /// Plastic work in the step or increment.
         pub plastic_work: Joule,
@@ -136,15 +136,15 @@ columns! {
 pub enum Regime {
     /// The bodies have stayed elastic.
     Elastic,
-    /// The bodies of a contact at rest have yielded.
+    /// The bodies of a static contact have yielded.
     Yields,
-    /// The bodies shake down: the plastic work of a pass is below 10⁻³ of the first's, and falls.
+    /// The bodies shake down: the plastic work per pass is below 10⁻³ of the first pass, and decreases.
     ShakesDown,
-    /// The same flow comes and goes in each pass: its net strain is below 5 % of what accumulates.
+    /// The flow reverses within each pass: its net strain is below 5 % of the accumulated strain.
     Cyclic,
-    /// Strain accumulates in each pass alike.
+    /// Strain accumulates equally in each pass.
     Ratchets,
-    /// More passes are needed to tell.
+    /// More passes are needed to decide.
     Undecided,
 }
 

@@ -14,20 +14,20 @@ columns! {
     pub struct IncrementRecord {
         /// Increment, from 1.
         pub increment: usize,
-        /// Stage of the loading that it belongs to, from 1.
+        /// Stage of the loading, from 1.
         pub stage: usize,
         /// Normal force W.
         pub load: Newton,
-        /// Rigid-body approach δ; unknown of elasto-plastic bodies that are apart.
+        /// Rigid-body approach δ; unknown for separated elasto-plastic bodies.
         #[serde(deserialize_with = "number_or_none")]
         pub approach: Metre,
         /// Force of the upper body on the lower one along x.
         pub tangential_force_x: Newton,
         /// Force of the upper body on the lower one along y.
         pub tangential_force_y: Newton,
-        /// Rigid-body displacement of the upper body against the lower one along x; 0 in sliding.
+        /// Rigid-body displacement of the upper body relative to the lower one along x; 0 in sliding.
         pub tangential_displacement_x: Metre,
-        /// Rigid-body displacement of the upper body against the lower one along y; 0 in sliding.
+        /// Rigid-body displacement of the upper body relative to the lower one along y; 0 in sliding.
         pub tangential_displacement_y: Metre,
         /// Area of the cells with p > 0.
         pub contact_area: SquareMetre,
@@ -41,7 +41,7 @@ columns! {
         pub plastic_volume: CubicMetre,
         /// Elastic energy ½ ΔA Σ (p u + q·uₜ).
         pub elastic_energy: Joule,
-        /// Energy that friction took in this increment.
+        /// Energy dissipated by friction in this increment.
         pub dissipation: Joule,
         /// Iterations of the solver.
         pub iterations: usize,
@@ -49,7 +49,7 @@ columns! {
         pub convolutions: f64,
         /// Scale-free residual η, the larger of the normal and the tangential one.
         pub residual: f64,
-        /// Plastic flow below the surfaces; none of bodies that do not flow.
+        /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub flow: Option<FlowStepRecord>,
     }

@@ -1,4 +1,4 @@
-//! Volumes that laws take from the bodies: four columns for each law, by its name.
+//! Volumes that the bodies lose to laws: four columns for each law, by its name.
 
 use std::fmt;
 
@@ -13,13 +13,13 @@ use crate::units::CubicMetre;
 pub(crate) const ENDINGS: [&str; 4] =
     ["_volume_lower", "_volume_upper", "_volume_lower_interior", "_volume_upper_interior"];
 
-/// Whether a column holds the volume that a law has taken from a body.
+/// Whether a column holds the volume that a body loses to a law.
 #[cfg(feature = "study")]
 pub(crate) fn is_volume_of_law(column: &str) -> bool {
     ENDINGS.iter().any(|ending| column.ends_with(ending))
 }
 
-/// The volumes that a law took from the bodies.
+/// The volumes that the bodies lost to a law.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct LostVolume {
@@ -32,7 +32,7 @@ pub struct LostVolume {
 }
 
 impl LostVolume {
-    /// The columns of the law `plastic` in a pass; those of another law have its name in place of this one.
+    /// The columns of the law `plastic` in a pass. Other laws have columns with their own names.
     pub const IN_A_PASS: &'static [Column] = &[
         Column::new(
             "plastic_volume_lower",
@@ -57,7 +57,7 @@ impl LostVolume {
         ),
     ];
 
-    /// Nothing lost to the law of that name.
+    /// Creates volumes of zero for the law of that name.
     pub fn nothing(law: &str) -> Self {
         Self { law: law.to_owned(), whole: [0.0; 2], interior: [0.0; 2] }
     }
@@ -76,12 +76,12 @@ pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<
     Ok(lost.map(|(law, [a, b, c, d])| LostVolume { law, whole: [a, b], interior: [c, d] }).collect())
 }
 
-/// The values in these columns of each law.
+/// Collects the values of the columns of each law.
 fn read<'de, const N: usize, D: Deserializer<'de>>(
     deserializer: D,
     endings: [&str; N],
 ) -> Result<Vec<(String, [CubicMetre; N])>, D::Error> {
-    // All columns that no field has come here, those of numbers that there are not among them.
+    // All columns without a field arrive here, including those of missing numbers.
     let columns = deserializer.deserialize_map(ColumnsInOrder)?;
     let laws = columns.iter().filter_map(|(column, _)| column.strip_suffix(endings[0]));
     laws.map(|law| {
@@ -96,7 +96,7 @@ fn read<'de, const N: usize, D: Deserializer<'de>>(
     .collect()
 }
 
-/// Columns in their order, which is that of the laws.
+/// Columns in the order of the laws.
 struct ColumnsInOrder;
 
 impl<'de> Visitor<'de> for ColumnsInOrder {

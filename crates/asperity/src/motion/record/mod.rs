@@ -1,7 +1,7 @@
 //! The records of a computation: one for each static contact, increment, update, point of a sweep, position and pass.
 //!
-//! A field of a record is a column of its table, or a key of `summary.json`. It is declared here and nowhere else: its type gives the
-//! unit and its documentation gives the meaning (`columns.rs`).
+//! A field of a record is a column of its table, or a key of `summary.json`. Only this module declares it: its type is the
+//! unit and its documentation the meaning (`columns.rs`).
 
 pub(crate) mod columns;
 mod flow;

@@ -5,12 +5,12 @@ use std::fmt;
 use serde::de::{Error, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer};
 
-/// Reads a number that may be unknown: NaN then.
+/// Reads a number that may be unknown; an unknown number is NaN.
 pub(super) fn number_or_none<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Ok(OptionalNumber::deserialize(deserializer)?.0.unwrap_or(f64::NAN))
 }
 
-/// A number of a table or of JSON; none where the cell is empty, or JSON has `null`.
+/// A number of a table or of JSON; none for an empty cell or `null`.
 pub(super) struct OptionalNumber(pub(super) Option<f64>);
 
 impl<'de> Deserialize<'de> for OptionalNumber {

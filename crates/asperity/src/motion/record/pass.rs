@@ -16,37 +16,37 @@ columns! {
     pub struct PassRecord {
         /// Pass, from 1.
         pub pass: usize,
-        /// Rigid-body approach δ of the pass; its mean over the positions where the load of each is prescribed.
+        /// Rigid-body approach δ of the pass; its mean over the positions if the load of each position is prescribed.
         pub approach: Metre,
         /// Mean load over the positions.
         pub mean_load: Newton,
-        /// Mean friction force over the positions, along x of the upper body on the lower one.
+        /// Mean friction force of the upper body on the lower one along x, over the positions.
         pub mean_tangential_force: Newton,
-        /// Magnitude of the mean friction force over the mean load; unknown where nothing touches.
+        /// Magnitude of the mean friction force over the mean load; unknown without contact.
         #[serde(deserialize_with = "number_or_none")]
         pub friction_coefficient: f64,
         /// Smallest load at a position of the pass.
         pub min_load: Newton,
         /// Largest load at a position of the pass.
         pub max_load: Newton,
-        /// Mean load over the mean area of the overlap, which of equal bodies is half a body.
+        /// Mean load over the mean area of the overlap, which is half a body for equal bodies.
         pub mean_pressure: Pascal,
         /// Mean real contact area over the positions.
         pub mean_contact_area: SquareMetre,
-        /// Mean real contact area over the positions, of the cells that are in the interior of both bodies.
+        /// Mean real contact area over the positions, in the interior of both bodies.
         pub mean_contact_area_interior: SquareMetre,
-        /// Cells across the largest contact spot met: of the spot with the most cells at a position, its columns or its rows, the fewer.
+        /// Width of the largest contact spot in the pass, in cells: the spot has the most cells at a position, its width is the smaller of its columns and rows.
         pub largest_spot_cells: usize,
         /// Largest pressure at any position.
         pub max_pressure: Pascal,
-        /// Volumes that each law took from the bodies in this pass: of the plastic flow the columns `plastic_volume_lower`,
+        /// Volumes that the bodies lost to each law in this pass. Plastic flow has the columns `plastic_volume_lower`,
         /// `plastic_volume_upper`, `plastic_volume_lower_interior`, `plastic_volume_upper_interior`.
         #[serde(flatten, with = "lost_volumes")]
         pub lost: Vec<LostVolume>,
         /// Wear, films and heat; none without wear and films.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub running: Option<RunningRecord>,
-        /// Plastic flow below the surfaces; none of bodies that do not flow.
+        /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub flow: Option<PassFlowRecord>,
         /// Rms height of the lower surface about its mean after the pass.
@@ -61,18 +61,18 @@ columns! {
         pub outer_iterations: usize,
         /// Convolutions of the pass.
         pub convolutions: f64,
-        /// Time that the pass took.
+        /// Wall time of the pass.
         pub wall_time_s: Second,
     }
 }
 
 impl PassRecord {
-    /// Passes of the motion that this computed one stands for, ≥ 1.
+    /// Number of passes of the motion covered by this computed pass and its extrapolation, ≥ 1.
     pub fn represents(&self) -> usize {
         self.running.map_or(1, |running| running.represents)
     }
 
-    /// Volumes that the lower and the upper body lost in this pass to the law of that name; 0 where there is no such law.
+    /// Volumes that the lower and the upper body lost in this pass to the law of that name; 0 without such a law.
     pub fn lost(&self, law: &str) -> [CubicMetre; 2] {
         self.of(law).map_or([0.0; 2], |lost| lost.whole)
     }
@@ -82,7 +82,7 @@ impl PassRecord {
         self.of(law).map_or([0.0; 2], |lost| lost.interior)
     }
 
-    /// The volumes of the law of that name.
+    /// Returns the volumes of the law of that name.
     fn of(&self, law: &str) -> Option<&LostVolume> {
         self.lost.iter().find(|lost| lost.law == law)
     }

@@ -25,20 +25,20 @@ columns! {
         pub mean_gap: Metre,
         /// Elastic energy ½ ΔA Σ p u, with friction ½ ΔA Σ (p u + q·uₜ).
         pub elastic_energy: Joule,
-        /// Number of cells at the hardness, under shear at their caps.
+        /// Number of cells at the hardness, or at their caps under shear.
         pub plastic_cells: usize,
-        /// Plastic volume ΔA Σ w, w the plastic interference that the cells have taken up in the course of the loading.
+        /// Plastic volume ΔA Σ w, with w the plastic interference of the cells over the whole loading.
         pub plastic_volume: CubicMetre,
         /// Iterations of the solver.
         pub iterations: usize,
-        /// Convolutions; those on coarser grids count by their share of cells.
+        /// Convolutions; a convolution on a coarser grid counts by its fraction of cells.
         pub convolutions: f64,
         /// Scale-free complementarity residual η.
         pub residual: f64,
         /// Tangential quantities; none without friction.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub shear: Option<ShearRecord>,
-        /// Plastic flow below the surfaces; none of bodies that do not flow.
+        /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub flow: Option<FlowRecord>,
     }
@@ -47,7 +47,7 @@ columns! {
 columns! {
     /// Tangential quantities of a static contact with friction.
     ///
-    /// The energies of a rolling contact are those of [`RollingSolution`](crate::solver::RollingSolution).
+    /// The energies of a rolling contact are defined in [`RollingSolution`](crate::solver::RollingSolution).
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct ShearRecord {
@@ -55,25 +55,25 @@ columns! {
         pub tangential_force: [Newton; 2],
         /// Magnitude of the tangential force over the load; 0 without load.
         pub force_ratio: f64,
-        /// Force ratio where no cell sticks, the friction coefficient of the contact as a whole; unknown elsewhere.
+        /// Force ratio if no cell sticks, that is the friction coefficient of the whole contact; otherwise unknown.
         pub friction_coefficient: Option<f64>,
-        /// Rigid-body displacement of the upper body against the lower one, along x and y; 0 in sliding.
+        /// Rigid-body displacement of the upper body relative to the lower one, along x and y; 0 in sliding.
         pub tangential_displacement: [Metre; 2],
         /// Area of the cells that stick in the last increment.
         pub stick_area: SquareMetre,
         /// Largest shear traction.
         pub max_shear: Pascal,
-        /// Energy that friction took; in rolling, while the contact moves on by a cell, from the work of force, moment and pressure; 0 in
-        /// sliding, whose slip has no bound.
+        /// Energy dissipated by friction. In rolling it is the dissipation while the contact moves by one cell, from the work of force,
+        /// moment and pressure. In sliding it is 0, because the slip has no limit.
         pub dissipation: Joule,
-        /// In rolling, work of the shear on the slip of the cells while the contact moves on by a cell, ΔA Σ q·Δs. It comes to
-        /// `dissipation` as the cells become small.
+        /// In rolling, work of the shear on the slip of the cells while the contact moves by one cell, ΔA Σ q·Δs. It converges to
+        /// `dissipation` with smaller cells.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub slip_work: Option<Joule>,
-        /// In rolling, velocity of the upper body against the lower one over the rolling velocity, along x and y.
+        /// In rolling, velocity of the upper body relative to the lower one, over the rolling velocity, along x and y.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub creepage: Option<[f64; 2]>,
-        /// In rolling, angular velocity of the upper body against the lower one over the rolling velocity, about z through the middle of
+        /// In rolling, angular velocity of the upper body relative to the lower one, over the rolling velocity, about z through the middle of
         /// the grid.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub spin: Option<PerMetre>,

@@ -8,7 +8,7 @@ use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonPerMetre, Pascal, Squ
 columns! {
     /// One point of a sweep: a row of `sweep.csv`.
     ///
-    /// The stiffness is that of [`normal_stiffness`](crate::solver::normal_stiffness).
+    /// [`normal_stiffness`](crate::solver::normal_stiffness) computes the stiffness.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct SweepRecord {
@@ -26,19 +26,19 @@ columns! {
         pub contact_area: SquareMetre,
         /// Area of contact over the area of the whole grid, 0 to 1.
         pub contact_fraction: f64,
-        /// Cells across the largest contact spot: of the spot with the most cells, its columns or its rows, the fewer.
+        /// Width of the contact spot with the most cells, in cells: the smaller of its columns and rows.
         pub largest_spot_cells: usize,
         /// Largest pressure.
         pub max_pressure: Pascal,
-        /// Area of the cells at the hardness, under shear at their caps.
+        /// Area of the cells at the hardness, or at their caps under shear.
         pub plastic_area: SquareMetre,
-        /// Plastic volume ΔA Σ w, w the plastic interference of the cells.
+        /// Plastic volume ΔA Σ w, with w the plastic interference of the cells.
         pub plastic_volume: CubicMetre,
-        /// Elastic energy ½ ΔA Σ p u, in rolling that of both tractions.
+        /// Elastic energy ½ ΔA Σ p u; in rolling also the energy of the shear.
         pub elastic_energy: Joule,
-        /// Normal stiffness dW/dδ; unknown where all of a periodic surface bears elastically, because nothing gives.
+        /// Normal stiffness dW/dδ; unknown in full elastic contact of a periodic surface, where it is infinite.
         pub stiffness: Option<NewtonPerMetre>,
-        /// Creepage along x; this and the columns up to `slip_work` are 0 of a contact that does not roll.
+        /// Creepage along x; without rolling, the columns from here to `slip_work` are 0.
         pub creepage_x: f64,
         /// Creepage along y.
         pub creepage_y: f64,
@@ -50,13 +50,13 @@ columns! {
         pub stick_area: SquareMetre,
         /// Largest shear traction.
         pub max_shear: Pascal,
-        /// Energy that friction took while the contact moved on by a cell, from the work of force, moment and pressure.
+        /// Energy dissipated by friction while the contact moves by one cell, from the work of force, moment and pressure.
         pub dissipation: Joule,
-        /// Work of the shear on the slip of the cells meanwhile: the dissipation without what the step from cell to cell takes by itself.
+        /// Work of the shear on the slip of the cells meanwhile: the dissipation without the discretisation error of a step by one cell.
         pub slip_work: Joule,
         /// Iterations of the solver.
         pub iterations: usize,
-        /// Convolutions, with those of the stiffness.
+        /// Convolutions, including those of the stiffness.
         pub convolutions: f64,
         /// Scale-free residual η.
         pub residual: f64,

@@ -17,26 +17,26 @@ use crate::solver::site::Site;
 use crate::solver::{SINGLE_PRECISION, Settings};
 use crate::units::{Metre, Pascal};
 
-/// Radius, in cells, of the influence by which a residual is predicted without a convolution.
+/// Radius in cells of the influence that predicts a residual without a convolution.
 const NEAR_FIELD: usize = 4;
 
 /// One contact in the iteration: pressure, displacement, direction and residual of its cells.
 ///
-/// Pressure and displacement are kept in double precision. Directions and their responses are computed in single, which is
-/// as good as long as the steps are small against what they correct; the error that this leaves in the displacement is
-/// kept count of.
+/// Pressure and displacement are in double precision. Directions and their responses are in single precision, which
+/// is sufficient for steps that are small compared with the values they correct. The error bound of the displacement
+/// includes them.
 pub(super) struct Block<'a> {
     site: &'a dyn Site,
-    /// In which the cells are worked on in parallel.
+    /// The bands of rows for parallel work.
     bands: Bands,
     preconditioner: Preconditioner,
     /// The current pressure p, possibly a little outside its bounds.
     pressure: Field,
     /// The approach h + u at which each cell touches.
     touch: Field,
-    /// Largest error of the displacement by single precision.
+    /// Error bound of the displacement due to single precision.
     rounding: Metre,
-    /// The last feasible pressure, from which the energy only falls.
+    /// The last feasible pressure. The energy of feasible pressures only decreases.
     feasible: Field,
     /// The approaches h + u under the last feasible pressure, during a line search from it.
     feasible_touch: Option<Field>,
@@ -44,7 +44,7 @@ pub(super) struct Block<'a> {
     sets: Sets,
     /// The search direction d.
     direction: SingleField,
-    /// The response C·d of the direction; while sets are predicted, the proposed pressures.
+    /// The response C·d of the direction. During the prediction of sets it holds the proposed pressures.
     response: SingleField,
     /// Largest |C·d|.
     max_response: f64,
@@ -54,19 +54,19 @@ pub(super) struct Block<'a> {
     preconditioned: SingleField,
     /// Influence coefficients up to [`NEAR_FIELD`] cells away: 0, 1 … along x, … −1, 0, 1 … along y.
     near: SingleField,
-    /// The rows on either side that they reach.
+    /// The neighbouring rows within this radius.
     halo: Halo,
-    /// The slab of the grid, where that is divided among ranks.
+    /// The slab of this rank, if the grid is divided among ranks.
     slab: Slab,
-    /// Self-influence c₀ where the boundary is periodic, else 0: there a displacement may be less than the rounding of its
-    /// transforms.
+    /// Self-influence c₀ for a periodic boundary, else 0. A periodic displacement may be smaller than the
+    /// rounding of its transforms.
     local: f64,
     /// Convolutions so far.
     convolutions: usize,
 }
 
-/// Norms that conjugate gradients on a set of free cells leave, as displacements: of one contact sums of squares, of all
-/// together their roots.
+/// Norms after conjugate gradients on a set of free cells, as displacements: sums of squares for one contact, their
+/// roots for all contacts together.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ResidualNorms {
     /// Norm of the residual at the free cells.
@@ -75,11 +75,11 @@ pub(super) struct ResidualNorms {
     pub(super) violation: f64,
     /// Largest residual at the free cells.
     pub(super) max_residual: f64,
-    /// The approach at which they were taken.
+    /// The approach of these norms.
     pub(super) datum: Metre,
 }
 
-/// The norms over the cells of several contacts together.
+/// Merges the norms of several contacts.
 impl Merged for ResidualNorms {
     fn and(self, other: Self) -> Self {
         Self {
@@ -103,7 +103,7 @@ impl Merged for ResidualNorms {
 }
 
 impl<'a> Block<'a> {
-    /// The contact at a site under a pressure that has not been convolved yet.
+    /// Creates the contact at a site under a pressure that has not been convolved yet.
     pub(super) fn new(site: &'a dyn Site, pressure: Field) -> Self {
         let (shape, slab) = (site.grid().shape, site.slab());
         let reach = slab.whole_grid().shape.map(|n| NEAR_FIELD.min((n - 1) / 2));
@@ -153,7 +153,7 @@ impl<'a> Block<'a> {
         within.into_iter().all(|within| within)
     }
 
-    /// The sums over the cells of `terms` of each pressure and its bounds.
+    /// Returns the sums over the cells of `terms` of each pressure and its bounds.
     pub(super) fn sum<const N: usize>(
         &self,
         terms: impl Fn(Pascal, Interval) -> [f64; N] + Sync + Send,
@@ -161,7 +161,7 @@ impl<'a> Block<'a> {
         self.sum_within(&self.pressure, terms)
     }
 
-    /// The sums over the cells of `terms` of each value and the bounds of its cell.
+    /// Returns the sums over the cells of `terms` of each value and the bounds of its cell.
     fn sum_within<T: Copy + Sync, const N: usize>(
         &self,
         values: &Array2<T>,
@@ -182,12 +182,12 @@ impl<'a> Block<'a> {
         });
     }
 
-    /// The range of the pressures and of their bounds.
+    /// Returns the range of the pressures and of their bounds.
     pub(super) fn range(&self) -> Range {
         self.range_of(&self.pressure)
     }
 
-    /// The range of some values and of the bounds of the pressure.
+    /// Returns the range of some values and of the bounds of the pressure.
     fn range_of<T: Copy + Into<f64> + Sync>(&self, values: &Array2<T>) -> Range {
         let bounds = self.site.bounds();
         let parts = parallel::map(self.bands.cut(flat(values)), |values| extremes(values));
@@ -195,7 +195,7 @@ impl<'a> Block<'a> {
         Range::new([min, max], values.len(), &bounds)
     }
 
-    /// Pressure and displacement.
+    /// Returns pressure and displacement.
     pub(super) fn into_fields(self) -> (Field, Field) {
         let displacement = self.touch - &*self.site.initial_gap();
         (self.pressure, displacement)
@@ -211,13 +211,13 @@ impl<'a> Block<'a> {
         self.convolutions
     }
 
-    /// Largest error of the displacement by single precision.
+    /// Error bound of the displacement due to single precision.
     pub(super) fn rounding(&self) -> Metre {
         self.rounding
     }
 
-    /// Computes h + u from the whole pressure, in double precision. What is kept in single precision, of which nothing is needed
-    /// any more, makes room for the transforms.
+    /// Computes h + u from the total pressure in double precision. The fields in single precision, which are no
+    /// longer needed, free memory for the transforms.
     pub(super) fn convolve(&mut self) {
         let shape = self.touch.raw_dim();
         self.in_single().into_iter().for_each(|field| *field = SingleField::default([0, 0]));
@@ -228,13 +228,13 @@ impl<'a> Block<'a> {
         self.rounding = 0.0;
     }
 
-    /// The fields of an outer step.
+    /// Allocates the fields of an outer step.
     fn in_single(&mut self) -> [&mut SingleField; 4] {
         let Self { direction, response, residual, preconditioned, .. } = self;
         [direction, response, residual, preconditioned]
     }
 
-    /// Computes h + u from the whole pressure, in single precision.
+    /// Computes h + u from the total pressure in single precision.
     pub(super) fn convolve_in_single(&mut self) {
         zip(self.bands, &mut self.direction, &self.pressure, |d, p| *d = *p as f32);
         self.convolve_direction();
@@ -251,7 +251,7 @@ impl<'a> Block<'a> {
         site.with_operator(&mut |operator| operator.apply_single(direction, response));
         let largest = |part: &[f32]| part.iter().fold(0.0f32, |m, u| if u.abs() > m { u.abs() } else { m });
         let parts = parallel::map(self.bands.cut(flat(response)), largest);
-        // Of the whole grid: the transforms round what they have together.
+        // The rounding of transforms depends on the largest value on the whole grid.
         Largest(self.max_response) =
             self.slab.merged(Largest(f64::from(parts.into_iter().fold(0.0, f32::max))));
         self.convolutions += 1;
@@ -263,7 +263,7 @@ impl<'a> Block<'a> {
         self.rounding += SINGLE_PRECISION * self.max_response;
     }
 
-    /// Largest error of the displacement if it were computed in single precision.
+    /// Returns the error bound of a displacement computed in single precision.
     pub(super) fn rounding_in_single(&self) -> Metre {
         let gap = self.site.initial_gap();
         let bands = self.bands.cut(flat(&self.touch)).zip(self.bands.cut(flat(&gap)));
@@ -282,7 +282,8 @@ impl<'a> Block<'a> {
         self.slab.merged(Largest(parts.into_iter().fold(0.0, f64::max))).0
     }
 
-    /// The work Σ p (δ − h) of the pressure at an approach, and twice its elastic energy, Σ p u, both over the cell area.
+    /// Returns the work Σ p (δ − h) of the pressure at an approach, and twice its elastic energy, Σ p u, both per
+    /// cell area.
     pub(super) fn work(&self, approach: Metre) -> [f64; 2] {
         let gap = self.site.initial_gap();
         let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));
@@ -302,7 +303,7 @@ impl<'a> Block<'a> {
         zip(self.bands, &mut self.touch, &gap, |touch, h| *touch = h + factor * (*touch - h));
     }
 
-    /// The part of this contact in the multiplier of the load.
+    /// Returns the contribution of this contact to the multiplier of the load.
     pub(super) fn multiplier(&self) -> Multiplier {
         let bounds = self.site.bounds();
         let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));
@@ -321,10 +322,10 @@ impl<'a> Block<'a> {
         Merged::of_parts(parts)
     }
 
-    /// The sums of this contact for the residual at an approach.
-    pub(super) fn residual_sums(&self, approach: Metre, terms: &Settings) -> ResidualSums {
+    /// Returns the sums of this contact for the residual at an approach.
+    pub(super) fn residual_sums(&self, approach: Metre, settings: &Settings) -> ResidualSums {
         let (gap, bounds) = (self.site.initial_gap(), self.site.bounds());
-        let self_influence = terms.self_influence;
+        let self_influence = settings.self_influence;
         let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));
         let bands = bands.zip(self.bands.cut(flat(&gap))).enumerate();
         let parts = parallel::map(bands, |(band, ((pressure, touch), gap))| {
@@ -343,13 +344,12 @@ impl<'a> Block<'a> {
         Merged::of_parts(parts)
     }
 
-    /// Changes each pressure by as much as closes its gap on a cell of that compliance alone.
+    /// Changes each pressure by the amount that closes its gap on a single cell with this compliance.
     pub(super) fn step_along_gap(&mut self, approach: Metre, compliance: f64) {
         zip(self.bands, &mut self.pressure, &self.touch, |p, touch| *p += (approach - touch) / compliance);
     }
 
-    /// Proposes p + (δ − h − u)·stiffness, where one diagonal Newton step takes each cell. Returns the range of the
-    /// proposed pressures.
+    /// Proposes the pressures p + (δ − h − u)·stiffness after one diagonal Newton step. Returns their range.
     pub(super) fn propose(&mut self, approach: Metre, stiffness: f64) -> Range {
         let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));
         let bands = bands.zip(self.bands.cut_mut(flat_mut(&mut self.response)));
@@ -361,12 +361,13 @@ impl<'a> Block<'a> {
         self.range_of(&self.response)
     }
 
-    /// What the proposed pressures, offset and brought into their bounds, add up to, and how many are at neither bound.
+    /// Returns the sum of the proposed pressures after an offset and clipping, and the number of cells strictly
+    /// between their bounds.
     pub(super) fn proposed_sum(&self, offset: Pascal) -> [f64; 2] {
         self.sum_within(&self.response, |y, bounds| within(f64::from(y) + offset, bounds))
     }
 
-    /// Predicts the sets from the proposed pressures, offset.
+    /// Predicts the sets from the proposed pressures after an offset.
     pub(super) fn predict_sets(&mut self, approach: Metre, stiffness: f64, offset: Pascal) {
         let (pressure, touch) = (flat(&self.pressure), flat(&self.touch));
         let proposed = |cells: ops::Range<usize>| {
@@ -378,7 +379,7 @@ impl<'a> Block<'a> {
         self.preconditioner.adapt(&self.sets);
     }
 
-    /// Sets the direction to what takes the cells predicted at a bound there. Returns whether any is elsewhere.
+    /// Sets the direction that brings the cells predicted at a bound to it. Returns whether any cell has to move.
     pub(super) fn direct_to_bounds(&mut self) -> bool {
         let bounds = self.site.bounds();
         let bands = self.bands;
@@ -404,8 +405,8 @@ impl<'a> Block<'a> {
         elsewhere.into_iter().any(|any| any)
     }
 
-    /// Predicts the residual of the free cells after the step along the direction, by the near field of its response. Returns
-    /// its sum.
+    /// Predicts the residual of the free cells after the step along the direction, from the near field of its
+    /// response. Returns its sum.
     pub(super) fn predict_residual(&mut self, approach: Metre) -> f64 {
         self.convolve_near_field();
         let bands = self.bands;
@@ -423,7 +424,7 @@ impl<'a> Block<'a> {
         sum
     }
 
-    /// Computes C·d within [`NEAR_FIELD`] cells of where d is not zero, without a convolution.
+    /// Computes C·d within [`NEAR_FIELD`] cells of the nonzero cells of d, without a convolution.
     fn convolve_near_field(&mut self) {
         let Self { bands, near, halo, direction, response, .. } = self;
         let direction = halo.around(flat(direction));
@@ -461,8 +462,8 @@ impl<'a> Block<'a> {
         self.preconditioner.apply(&self.sets, r, z)
     }
 
-    /// Sets the direction of the free cells to the preconditioned residual without its mean, damped. Returns what the whole
-    /// direction adds to Σ p, and what the free cells bear above their lower bounds.
+    /// Sets the direction of the free cells to the damped preconditioned residual without its mean. Returns the
+    /// sum of the direction, and the sum of the pressures of the free cells above their lower bounds.
     pub(super) fn direct_free_cells(&mut self, mean: f64, damping: f64) -> [f64; 2] {
         let (damping, mean) = (damping as f32, mean as f32);
         let (bands, bounds) = (self.bands, self.site.bounds());
@@ -480,8 +481,8 @@ impl<'a> Block<'a> {
         }))
     }
 
-    /// Subtracts from the direction of each free cell a uniform part, and one in proportion to the pressure above its lower
-    /// bound: the direction then leaves the load as it is.
+    /// Subtracts from the direction of each free cell a uniform part, and a part in proportion to the pressure
+    /// above its lower bound, so that the direction preserves the load.
     pub(super) fn balance_direction(&mut self, each: f64, per_pressure: f64) {
         let (bands, bounds) = (self.bands, self.site.bounds());
         let parts = bands.cut(flat(&self.pressure)).zip(bands.cut_mut(flat_mut(&mut self.direction)));
@@ -496,7 +497,7 @@ impl<'a> Block<'a> {
         });
     }
 
-    /// Moves along the direction to the bounds; updates the displacement, too, by a convolution, if `convolved`.
+    /// Moves along the direction to the bounds. If `convolved`, it also updates the displacement by a convolution.
     pub(super) fn step_to_bounds(&mut self, convolved: bool) {
         if convolved {
             self.convolve_direction();
@@ -510,7 +511,7 @@ impl<'a> Block<'a> {
             let cells = pressure.iter_mut().zip(direction).zip(sets).enumerate();
             with_bounds!(bounds, of => {
                 for (cell, ((p, d), set)) in cells {
-                    // Exactly at the bounds, whatever the rounding of the sum.
+                    // The pressures are exactly at the bounds, without the rounding of the sum.
                     *p = match set {
                         Set::Lower => of(first + cell).lower,
                         Set::Upper => of(first + cell).upper,
@@ -539,8 +540,8 @@ impl<'a> Block<'a> {
         sum
     }
 
-    /// Updates the direction to the conjugate one, d = z − mean + β d, and computes C·d. Returns the curvature dᵀC d of the
-    /// energy along it, and Σ C·d of the free cells.
+    /// Updates the direction to the conjugate direction, d = z − mean + β d, and computes C·d. Returns the
+    /// curvature dᵀC d of the energy along it, and Σ C·d of the free cells.
     pub(super) fn update_direction(&mut self, mean: f64, beta: f64) -> [f64; 2] {
         let (mean, beta) = (mean as f32, beta as f32);
         let bands = self.bands;
@@ -560,15 +561,15 @@ impl<'a> Block<'a> {
         }))
     }
 
-    /// Moves by `step` times the direction, in the pressure and its displacement, and computes the residual of the free
-    /// cells, whose gap is to close at `datum`. Returns its norm and that of the violations of the bounds.
+    /// Moves pressure and displacement by `step` times the direction. Computes the residual of the free cells,
+    /// whose gap closes at the approach `datum`. Returns its norm and the norm of the violations of the bounds.
     pub(super) fn step_along_direction(
         &mut self,
         step: f64,
         datum: Metre,
-        terms: &Settings,
+        settings: &Settings,
     ) -> ResidualNorms {
-        let c0 = terms.self_influence;
+        let c0 = settings.self_influence;
         let (bands, bounds) = (self.bands, self.site.bounds());
         let parts = bands.cut(self.sets.of()).zip(bands.cut(flat(&self.direction)));
         let parts = parts.zip(bands.cut(flat(&self.response)));
@@ -603,7 +604,7 @@ impl<'a> Block<'a> {
         Merged::of_parts(norms)
     }
 
-    /// Keeps the pressure as the last feasible one.
+    /// Stores the pressure as the last feasible one.
     pub(super) fn keep_feasible(&mut self) {
         zip(self.bands, &mut self.feasible, &self.pressure, |feasible, p| *feasible = *p);
     }
@@ -616,7 +617,8 @@ impl<'a> Block<'a> {
         self.convolutions += 1;
     }
 
-    /// Slope and curvature of the energy, at an approach, along the line from the last feasible pressure to this one.
+    /// Returns slope and curvature of the energy, at an approach, along the line from the last feasible pressure
+    /// to the present one.
     pub(super) fn descent(&self, approach: Metre) -> [f64; 2] {
         let before = self.feasible_touch.as_ref().expect("the feasible pressure is convolved");
         let bands = self.bands.cut(flat(&self.feasible)).zip(self.bands.cut(flat(before)));
@@ -631,7 +633,7 @@ impl<'a> Block<'a> {
         }))
     }
 
-    /// Goes to the `share` of the line from the last feasible pressure to this one.
+    /// Moves to the fraction `share` of the line from the last feasible pressure to the present one.
     pub(super) fn step_from_feasible(&mut self, share: f64) {
         let before = self.feasible_touch.as_ref().expect("the feasible pressure is convolved");
         let mix = |to: &mut f64, from: &f64| *to = from + share * (*to - from);
@@ -652,20 +654,20 @@ fn touch_under(site: &dyn Site, pressure: &Field, touch: &mut Field) {
     *touch += &*site.initial_gap();
 }
 
-/// Adds the displacements by a `pressure` that has these `influence` coefficients on neighbouring cells of a row.
+/// Adds the displacements by a `pressure` with these `influence` coefficients on consecutive cells of a row.
 fn add_scaled(row: &mut [f32], influence: &[f32], pressure: f32) {
     const WIDTH: usize = 2 * NEAR_FIELD + 1;
     let add = |row: &mut [f32], influence: &[f32]| {
         row.iter_mut().zip(influence).for_each(|(u, influence)| *u += influence * pressure);
     };
-    // Away from the edges all are as many: their loop is unrolled.
+    // Away from the edges their number is constant, and the loop is unrolled.
     match (<&mut [f32; WIDTH]>::try_from(&mut *row), <&[f32; WIDTH]>::try_from(influence)) {
         (Ok(row), Ok(influence)) => add(row, influence),
         _ => add(row, influence),
     }
 }
 
-/// Changes each value of a field by one of another.
+/// Changes each value of a field by the value of another field.
 fn zip<A: Send, B: Sync>(
     bands: Bands,
     field: &mut Array2<A>,
@@ -677,12 +679,12 @@ fn zip<A: Send, B: Sync>(
     });
 }
 
-/// The values of a field by flat index.
+/// Returns the values of a field by flat index.
 fn flat<T>(field: &Array2<T>) -> &[T] {
     field.as_slice().expect("standard layout")
 }
 
-/// The values of a field by flat index, to be changed.
+/// Returns the mutable values of a field by flat index.
 fn flat_mut<T>(field: &mut Array2<T>) -> &mut [T] {
     field.as_slice_mut().expect("standard layout")
 }

@@ -1,8 +1,8 @@
-//! Conjugate gradients on a predicted active set, with the projection onto the bounds deferred and folded into a
-//! preconditioned step, so that every convolution advances the answer.
+//! Conjugate gradients on a predicted active set. The projection onto the bounds is deferred and combined with a
+//! preconditioned step, so that every convolution improves the solution.
 //!
-//! One contact, or many that share an approach and bear a load together: their influence matrix is block-diagonal, and
-//! nothing but a few sums passes between the blocks.
+//! The method solves one contact, or many contacts that share an approach and carry a load together. Their influence
+//! matrix is block-diagonal, and the blocks exchange only a few sums.
 
 mod block;
 
@@ -14,50 +14,53 @@ use crate::solver::bounds::Interval;
 use crate::solver::feasible::{Cells, Range, make_feasible, offset_for_sum};
 use crate::solver::residual::Residual;
 use crate::solver::site::Site;
-use crate::solver::watch::go_on;
+use crate::solver::watch::check_stop;
 use crate::solver::{Control, Settings, Stats, TOLERANCE_REDUCTION, finite};
 use crate::units::{Metre, Pascal};
 
 use block::{Block, ResidualNorms};
 
-/// Conjugate gradient steps on one predicted active set, at the most.
+/// Largest number of conjugate gradient steps on one predicted active set.
 const MAX_CG_STEPS: usize = 60;
-/// Conjugate gradients end when the residual on the free cells is below so many times the violation of the bounds: more
-/// would be spent on a set that is about to change.
+/// Conjugate gradients stop when the residual on the free cells is below this multiple of the violation of the
+/// bounds, because the set is about to change.
 const CG_EXIT: f64 = 3.0;
 /// With each outer step without progress [`CG_EXIT`] is divided by this.
 const CG_EXIT_DIVISOR: f64 = 3.0;
-/// The ratio of residual to violation at which conjugate gradients end is no less than this.
+/// Smallest ratio of residual to violation at which conjugate gradients stop.
 const MIN_CG_EXIT: f64 = 0.05;
-/// With each outer step that has made progress that ratio is multiplied by this, up to [`CG_EXIT`].
+/// With each outer step with progress this ratio is multiplied by this factor, up to [`CG_EXIT`].
 const CG_EXIT_GROWTH: f64 = 1.5;
-/// Conjugate gradients end, too, when the largest residual is below this share of what is asked of the answer at its bounds.
+/// Conjugate gradients also stop when the largest residual is below this fraction of the target residual of the
+/// solution.
 const CG_TOLERANCE: f64 = 0.9;
 
-/// First damping of the preconditioned step that is folded into the step to the bounds. From there on it is a running mean of
-/// the step lengths of conjugate gradients.
+/// Initial damping of the preconditioned step that is combined with the step to the bounds. Later it is a running
+/// mean of the step lengths of conjugate gradients.
 const FIRST_DAMPING: f64 = 0.8;
 /// Weights of the mean so far and of a new step length in the running mean of the damping.
 const DAMPING_WEIGHTS: [f64; 2] = [0.7, 0.3];
-/// A step length counts up to this in the running mean of the damping.
+/// Largest step length in the running mean of the damping.
 const MAX_STEP_IN_DAMPING: f64 = 1.2;
 
-/// An outer step has made progress when it leaves less than this share of the best norm so far.
+/// An outer step makes progress if its norm is below this fraction of the best norm so far.
 const PROGRESS: f64 = 0.7;
-/// Outer steps without progress, one after another, after which the energy is lowered by a line search.
+/// Number of consecutive outer steps without progress before a line search lowers the energy.
 const MAX_STAGNATIONS: usize = 2;
-/// With each outer step without progress the compliance by which the sets are predicted is multiplied by this.
+/// With each outer step without progress the compliance in the prediction of the sets is multiplied by this factor.
 const COMPLIANCE_GROWTH: f64 = 4.0;
-/// With each outer step that has made progress that compliance is multiplied by this, down to the self-influence.
+/// With each outer step with progress this compliance is multiplied by this factor, down to the self-influence.
 const COMPLIANCE_REDUCTION: f64 = 0.5;
-/// A line search that goes less of its way than this leads nowhere.
+/// A line search with a smaller step fraction makes no progress.
 const MIN_SEARCH_STEP: f64 = 1e-3;
-/// After a line search the best norm is taken to be so much larger: the next outer step may lose a little.
+/// After a line search the best norm is multiplied by this factor, so that the next outer step may increase it a
+/// little.
 const BEST_AFTER_SEARCH: f64 = 2.0;
 
-/// The error of single precision in the displacement may be this share of the residual that is wanted.
+/// Largest error of the displacement due to single precision, as a fraction of the target residual.
 const MAX_ROUNDING: f64 = 0.1;
-/// Share of the interference of a cell that its first pressure closes under approach control, as if it were alone.
+/// Fraction of the interference of a cell that its first pressure closes under approach control, as if the cell were
+/// alone.
 const FIRST_PRESSURE: f64 = 0.3;
 
 /// Contacts in equilibrium under one approach.
@@ -66,40 +69,40 @@ pub(super) struct Answer {
     pub(super) fields: Vec<(Field, Field)>,
     /// Residual of all contacts together.
     pub(super) residual: Residual,
-    /// Cost of the solution; convolutions in the mean over the contacts.
+    /// Cost of the solution; convolutions are averaged over the contacts.
     pub(super) stats: Stats,
 }
 
-/// Solves from the `start` of each contact (uniform pressure, or the interference under approach control, where there
-/// is none) to the `tolerance` on η that belongs to a state.
+/// Solves from the `start` of each contact to the `tolerance` of η for a state. Without a start it uses a uniform
+/// pressure, or the interference under approach control.
 ///
-/// The sets are predicted as by a primal–dual active set method (Hintermüller, Ito and Kunisch, SIAM J. Optim. 13, 865
-/// (2003)), whose complementarity parameter is the compliance of a cell: at first `compliance_factor` times its
+/// The sets are predicted as in a primal–dual active set method (Hintermüller, Ito and Kunisch, SIAM J. Optim. 13,
+/// 865 (2003)). Its complementarity parameter is the compliance of a cell, initially `compliance_factor` times its
 /// self-influence.
 pub(super) fn solve(
     sites: &[&dyn Site],
-    terms: &Settings,
+    settings: &Settings,
     start: Option<Vec<Field>>,
     compliance_factor: f64,
     tolerance: &dyn Fn(&Residual) -> f64,
     max_convolutions: usize,
 ) -> Result<Answer> {
-    let mut iteration = Iteration::new(sites, terms, start, compliance_factor);
+    let mut iteration = Iteration::new(sites, settings, start, compliance_factor);
     let mut tightening = 1.0;
     let mut state = iteration.residual();
-    if let Some(pressure) = terms.pressure_sum() {
-        // What a uniform pressure leaves of a periodic displacement says nothing of that to come.
+    if let Some(pressure) = settings.pressure_sum() {
+        // The periodic displacement of a uniform pressure is no scale for later displacements.
         let cells: usize = sites.iter().map(|site| site.slab().whole_grid().cells()).sum();
-        state.scale = state.scale.max(terms.self_influence * terms.sum_scale(pressure) / cells as f64);
+        state.scale = state.scale.max(settings.self_influence * settings.sum_scale(pressure) / cells as f64);
     }
     loop {
         let mut wanted = tolerance(&state);
-        terms.watch.iteration(state.eta, wanted);
-        go_on(terms.watch)?;
-        // An answer that is feasible and free of rounding is handed out as it is.
+        settings.watch.iteration(state.eta, wanted);
+        check_stop(settings.watch)?;
+        // A feasible solution without significant rounding is returned unchanged.
         let exact = state.eta < wanted && iteration.rounding() == 0.0 && iteration.is_feasible();
         if exact || state.eta < tightening * wanted {
-            // The answer is the feasible pressure nearby; its own residual decides.
+            // The solution is the nearest feasible pressure, and its own residual decides.
             let max_rounding = MAX_ROUNDING * wanted * state.scale;
             if iteration.rounding() > max_rounding || !iteration.is_feasible() {
                 iteration.become_feasible(max_rounding);
@@ -118,7 +121,7 @@ pub(super) fn solve(
             return Err(Error::NotConverged { iterations, residual: state.eta, tolerance: wanted });
         }
         state = match iteration.outer_step(state, tightening * wanted) {
-            // Where the residual of the free cells alone is far too large there is no need to look further.
+            // If the residual of the free cells alone is far too large, the full residual is not needed.
             Some(left) if left.max_residual > wanted * state.scale => {
                 Residual { eta: left.max_residual / state.scale, approach: left.datum, ..state }
             }
@@ -128,23 +131,23 @@ pub(super) fn solve(
 }
 
 struct Iteration<'a> {
-    terms: Settings<'a>,
+    settings: Settings<'a>,
     blocks: Vec<Block<'a>>,
-    /// The slab that the first block has of a grid divided among ranks; several blocks are whole grids.
+    /// The slab of the first block, if its grid is divided among ranks. Several blocks are whole grids.
     slab: Slab,
     /// Number of free cells of all blocks.
     free_cells: f64,
-    /// Ratio of the residual to the violation of the bounds at which conjugate gradients end.
+    /// Ratio of the residual to the violation of the bounds at which conjugate gradients stop.
     cg_exit: f64,
-    /// Damping of the preconditioned step that is folded into the step to the bounds.
+    /// Damping of the preconditioned step that is combined with the step to the bounds.
     damping: f64,
-    /// The compliance by which the sets are predicted, as a multiple of the self-influence, ≥ 1.
+    /// The compliance in the prediction of the sets, as a multiple of the self-influence, ≥ 1.
     compliance_factor: f64,
-    /// Least norm that an outer step has left.
+    /// Smallest norm after an outer step.
     best: f64,
-    /// Outer steps without progress, one after another.
+    /// Number of consecutive outer steps without progress.
     stagnations: usize,
-    /// Outer steps, one after another, from pressures that are all at their bounds.
+    /// Number of consecutive outer steps from pressures that are all at their bounds.
     bound_steps: usize,
     iterations: usize,
     restarts: usize,
@@ -153,26 +156,26 @@ struct Iteration<'a> {
 impl<'a> Iteration<'a> {
     fn new(
         sites: &[&'a dyn Site],
-        terms: &Settings<'a>,
+        settings: &Settings<'a>,
         start: Option<Vec<Field>>,
         compliance_factor: f64,
     ) -> Self {
         let cells: usize = sites.iter().map(|site| site.slab().whole_grid().cells()).sum();
         let far = start.is_none();
         let pressures = start.unwrap_or_else(|| {
-            let guess = |site: &&dyn Site| match terms.control {
+            let guess = |site: &&dyn Site| match settings.control {
                 Control::Load(load) => {
-                    Field::from_elem(site.grid().shape, load / terms.cell_area / cells as f64)
+                    Field::from_elem(site.grid().shape, load / settings.cell_area / cells as f64)
                 }
                 Control::Approach(approach) => {
-                    site.initial_gap().mapv(|h| FIRST_PRESSURE * (approach - h) / terms.self_influence)
+                    site.initial_gap().mapv(|h| FIRST_PRESSURE * (approach - h) / settings.self_influence)
                 }
             };
             sites.iter().map(guess).collect()
         });
         let blocks = parallel::tasks(pressures.into_iter().zip(sites), |(p, site)| Block::new(*site, p));
         let mut iteration = Self {
-            terms: *terms,
+            settings: *settings,
             blocks,
             slab: sites[0].slab(),
             free_cells: 0.0,
@@ -185,16 +188,16 @@ impl<'a> Iteration<'a> {
             iterations: 0,
             restarts: 0,
         };
-        make_feasible(&mut iteration, terms);
+        make_feasible(&mut iteration, settings);
         iteration.each(Block::convolve_in_single);
-        if let (true, Control::Approach(approach)) = (far, terms.control) {
+        if let (true, Control::Approach(approach)) = (far, settings.control) {
             iteration.scale_to_least_energy(approach);
         }
         iteration.each(Block::keep_feasible);
         iteration
     }
 
-    /// Performs a task on each block, in parallel where there are several.
+    /// Performs a task on each block, in parallel for several blocks.
     fn each(&mut self, task: impl Fn(&mut Block<'a>) + Sync) {
         match self.blocks.as_mut_slice() {
             [block] => task(block),
@@ -204,7 +207,7 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    /// The results of a task on each block, merged in the order of the blocks, and of the ranks.
+    /// Performs a task on each block. Returns the results, merged in the order of the blocks and of the ranks.
     fn merged<M: Merged + Send>(&mut self, task: impl Fn(&mut Block<'a>) -> M + Sync) -> M {
         let part = match self.blocks.as_mut_slice() {
             [block] => task(block),
@@ -223,15 +226,15 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    /// Largest error of the displacements by single precision.
+    /// Returns the error bound of the displacements due to single precision.
     fn rounding(&self) -> Metre {
         self.blocks.iter().map(Block::rounding).fold(0.0, f64::max)
     }
 
-    /// The mean over the free cells of values with this sum, which a direction loses under load control: it keeps the load. 0
-    /// under approach control.
+    /// Returns the mean over the free cells of values with this sum. Under load control a direction without this
+    /// mean preserves the load. Returns 0 under approach control.
     fn mean(&self, sum: f64) -> f64 {
-        match self.terms.control {
+        match self.settings.control {
             Control::Load(_) => sum / self.free_cells,
             Control::Approach(_) => 0.0,
         }
@@ -243,7 +246,7 @@ impl<'a> Iteration<'a> {
         Answer { fields, residual, stats }
     }
 
-    /// Under approach control a guess is only as good as its size: the multiple of least energy, at no cost.
+    /// Under approach control, scales the guess to the multiple with the least energy, without a convolution.
     fn scale_to_least_energy(&mut self, approach: Metre) {
         let [work, twice_energy] = self.merged(|block| block.work(approach));
         if twice_energy > 0.0 {
@@ -252,31 +255,31 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    /// The residual of all blocks, at the approach prescribed or at the multiplier of the load.
+    /// Returns the residual of all blocks, at the prescribed approach or at the multiplier of the load.
     fn residual(&mut self) -> Residual {
-        let terms = self.terms;
-        let approach = match terms.control {
+        let settings = self.settings;
+        let approach = match settings.control {
             Control::Approach(approach) => approach,
             Control::Load(_) => self.merged(|block| block.multiplier()).approach(),
         };
-        let sums = self.merged(|block| block.residual_sums(approach, &terms));
-        sums.residual(approach, terms.self_influence)
+        let sums = self.merged(|block| block.residual_sums(approach, &settings));
+        sums.residual(approach, settings.self_influence)
     }
 
-    /// Whether all pressures are within their bounds and bear the load.
+    /// Whether all pressures are within their bounds and carry the load.
     fn is_feasible(&mut self) -> bool {
         if self.merged(|block| !block.is_within_bounds()) {
             return false;
         }
         let [sum] = self.sum(|p, _| [p]);
-        self.terms.bears_the_load(sum)
+        self.settings.carries_the_load(sum)
     }
 
-    /// Moves to the feasible pressure nearby, at the cost of a convolution: in single precision where its error is less than
-    /// `max_rounding`.
+    /// Moves to the nearest feasible pressure, with one convolution. It is in single precision if its error is
+    /// below `max_rounding`.
     fn become_feasible(&mut self, max_rounding: Metre) {
-        let terms = self.terms;
-        make_feasible(self, &terms);
+        let settings = self.settings;
+        make_feasible(self, &settings);
         let Largest(rounding) = self.merged(|block| Largest(block.rounding_in_single()));
         if rounding < max_rounding {
             self.each(Block::convolve_in_single);
@@ -285,8 +288,8 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    /// One outer step: predicts the sets, takes the other cells to their bounds, and solves for the free ones by conjugate
-    /// gradients. Returns their norms, unless the pressure has changed since.
+    /// Performs an outer step: predicts the sets, moves the other cells to their bounds, and solves for the free
+    /// cells by conjugate gradients. Returns the norms, unless the pressure has changed since.
     fn outer_step(&mut self, state: Residual, wanted: f64) -> Option<ResidualNorms> {
         self.predict_sets(state.approach);
         if self.free_cells == 0.0 {
@@ -302,8 +305,8 @@ impl<'a> Iteration<'a> {
         (!searched).then_some(left)
     }
 
-    /// Every cell at a bound and no equilibrium: one step along the gap frees some; where it has only taken them to the other
-    /// bound, as much of it as lowers the energy most.
+    /// Handles pressures that are all at their bounds without equilibrium. One step along the gap frees some
+    /// cells. If it only moves cells to the other bound, a line search limits the step.
     fn step_from_bounds(&mut self, approach: Metre) {
         self.bound_steps += 1;
         if self.bound_steps == 1 {
@@ -322,22 +325,22 @@ impl<'a> Iteration<'a> {
         });
     }
 
-    /// One diagonal step along the gap, to a feasible pressure.
+    /// Performs one diagonal step along the gap, to a feasible pressure.
     fn step_along_gap(&mut self, approach: Metre) {
-        let compliance = 2.0 * self.terms.self_influence;
+        let compliance = 2.0 * self.settings.self_influence;
         self.each(|block| block.step_along_gap(approach, compliance));
         self.become_feasible(0.0);
     }
 
-    /// Predicts cells at a bound where the proposal, one diagonal Newton step, takes them there. Under load control its datum is the one at
-    /// which the proposed pressures, in their bounds, bear the load.
+    /// Predicts the sets by one diagonal Newton step: a cell whose proposed pressure is beyond a bound belongs to
+    /// it. Under load control the approach is chosen so that the clipped proposed pressures carry the load.
     fn predict_sets(&mut self, approach: Metre) {
-        let stiffness = 1.0 / (self.compliance_factor * self.terms.self_influence);
-        let terms = self.terms;
-        let offset = match terms.pressure_sum() {
+        let stiffness = 1.0 / (self.compliance_factor * self.settings.self_influence);
+        let settings = self.settings;
+        let offset = match settings.pressure_sum() {
             Some(wanted) => {
                 let range = self.merged(|block| block.propose(approach, stiffness));
-                offset_for_sum(range, wanted, terms.sum_accuracy(wanted), |offset| {
+                offset_for_sum(range, wanted, settings.sum_accuracy(wanted), |offset| {
                     self.merged(|block| block.proposed_sum(offset))
                 })
             }
@@ -349,8 +352,9 @@ impl<'a> Iteration<'a> {
         });
     }
 
-    /// Takes the cells predicted at a bound there, and the free cells one preconditioned step further, in one convolution:
-    /// of the step, or where single precision has left more than `max_rounding`, of the whole pressure in double.
+    /// Moves the cells predicted at a bound to it, and the free cells by one preconditioned step, in one
+    /// convolution. The convolution is of the step, or of the total pressure in double precision if the error
+    /// bound exceeds `max_rounding`.
     fn step_to_bounds(&mut self, approach: Metre, max_rounding: Metre) {
         if !self.merged(Block::direct_to_bounds) {
             return;
@@ -363,8 +367,8 @@ impl<'a> Iteration<'a> {
         });
         let (mean, damping) = (self.mean(sum), self.damping);
         let [added, borne] = self.merged(|block| block.direct_free_cells(mean, damping));
-        if let Control::Load(_) = self.terms.control {
-            // The load does not change: the free cells bear the difference, in proportion.
+        if let Control::Load(_) = self.settings.control {
+            // The load does not change: the free cells take the difference in proportion to their pressures.
             let (each, per_pressure) =
                 if borne > 0.0 { (0.0, added / borne) } else { (added / self.free_cells, 0.0) };
             self.each(|block| block.balance_direction(each, per_pressure));
@@ -377,27 +381,27 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    /// Restores exactly the load, whatever the rounding of the directions: what they have left of it is in the order of what
-    /// they have left in the displacement.
+    /// Restores the load exactly. The rounding of the directions causes errors of the same order in the load as
+    /// in the displacement.
     fn restore_the_sum(&mut self) {
-        let Some(wanted) = self.terms.pressure_sum() else { return };
+        let Some(wanted) = self.settings.pressure_sum() else { return };
         let [sum] = self.sum(|p, _| [p]);
         let pressure = (wanted - sum) / self.free_cells;
         self.each(|block| block.add_to_free_cells(pressure));
     }
 
-    /// Preconditioned conjugate gradients on the free cells until the bounds are violated more than the residual.
-    /// Returns the norms of both.
+    /// Performs preconditioned conjugate gradients on the free cells until the violation of the bounds exceeds
+    /// the residual. Returns both norms.
     fn conjugate_gradients(&mut self, state: Residual, wanted: f64) -> ResidualNorms {
         let [sum] = self.merged(|block| [block.reset_direction()]);
-        let mut datum = match self.terms.control {
+        let mut datum = match self.settings.control {
             Control::Approach(approach) => approach,
             Control::Load(_) => self.mean(sum),
         };
         let mut left = self.step_along_direction(0.0, datum);
         let mut product_before = f64::INFINITY;
         for _ in 0..MAX_CG_STEPS {
-            if self.terms.watch.stop() {
+            if self.settings.watch.stop() {
                 break;
             }
             let [sum, drift, product] = self.merged(Block::precondition);
@@ -426,14 +430,14 @@ impl<'a> Iteration<'a> {
 
     /// Moves along the direction. Returns the norms of residual and violation: roots of the sums of squares.
     fn step_along_direction(&mut self, step: f64, datum: Metre) -> ResidualNorms {
-        let terms = self.terms;
-        let sums = self.merged(|block| block.step_along_direction(step, datum, &terms));
+        let settings = self.settings;
+        let sums = self.merged(|block| block.step_along_direction(step, datum, &settings));
         ResidualNorms { residual: sums.residual.sqrt(), violation: sums.violation.sqrt(), ..sums }
     }
 
-    /// The globalisation: after some outer steps without progress back to a feasible pressure, from which an exact line search
-    /// lowers the energy. It makes the iteration safe where the predicted sets cycle. Returns whether
-    /// it had to.
+    /// Safeguards the iteration against cycles of the predicted sets. After some outer steps without progress it
+    /// returns to a feasible pressure, from which an exact line search lowers the energy. Returns whether it did
+    /// so.
     fn safeguard(&mut self, norm: f64, approach: Metre) -> bool {
         if norm < PROGRESS * self.best {
             self.best = norm;
@@ -452,7 +456,7 @@ impl<'a> Iteration<'a> {
         self.each(Block::convolve_feasible);
         let mut share = self.line_search(approach);
         if share <= MIN_SEARCH_STEP {
-            // That way leads nowhere: along the gap of the feasible pressure itself.
+            // If this makes no progress, it searches along the gap of the feasible pressure.
             self.each(|block| block.step_from_feasible(0.0));
             let datum = self.residual().approach;
             self.step_along_gap(datum);
@@ -467,9 +471,9 @@ impl<'a> Iteration<'a> {
         true
     }
 
-    /// The step in [0, 1] from the last feasible pressure to this one at which the energy is least.
+    /// Returns the step in [0, 1] from the last feasible pressure to the present one with the least energy.
     fn line_search(&mut self, approach: Metre) -> f64 {
-        let datum = match self.terms.control {
+        let datum = match self.settings.control {
             Control::Load(_) => 0.0,
             Control::Approach(_) => approach,
         };

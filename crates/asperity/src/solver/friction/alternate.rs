@@ -1,5 +1,5 @@
-//! Normal and tangential problem in turn, each under the tractions of the other: a block Gauss–Seidel iteration
-//! (Panagiotopoulos 1975), under-relaxed where they influence each other.
+//! Alternates between the normal and the tangential problem, each under the tractions of the other: a block
+//! Gauss–Seidel iteration (Panagiotopoulos 1975), under-relaxed if they influence each other.
 
 use std::borrow::Cow;
 
@@ -16,34 +16,34 @@ use crate::solver::watch::InnerWatch;
 use crate::solver::{Bounds, Params, Solution, Stats, Watch, solve_normal_watched};
 use crate::units::Metre;
 
-/// Tolerance of the first round where pressure and shear influence each other.
+/// Tolerance of the first round if pressure and shear influence each other.
 const FIRST_TOLERANCE: f64 = 3e-2;
-/// Each round is solved to this share of the residual that the one before has left.
+/// Each round is solved to this fraction of the residual after the previous round.
 const TOLERANCE_REDUCTION: f64 = 0.1;
-/// No round is solved to less than this share of the tolerance of the answer.
+/// No round is solved to less than this fraction of the tolerance of the solution.
 const MIN_TOLERANCE_SHARE: f64 = 0.5;
-/// The factor by which a round that has not lowered the residual reduces the relaxation: the share of the change of the
-/// normal displacement under shear that the next round takes up.
+/// Factor of the relaxation after a round that has not lowered the residual. The relaxation is the fraction of the
+/// change of the normal displacement under shear that the next round applies.
 const RELAXATION_REDUCTION: f64 = 0.5;
-/// The factor by which a round that has lowered the residual raises the relaxation, up to 1.
+/// Factor of the relaxation after a round that has lowered the residual, up to 1.
 const RELAXATION_GROWTH: f64 = 1.2;
-/// The least relaxation.
+/// Smallest relaxation.
 const MIN_RELAXATION: f64 = 0.2;
-/// A round converges slowly that leaves more than this share of the residual before it.
+/// A round converges slowly if it leaves more than this fraction of the previous residual.
 const SLOW_CONTRACTION: f64 = 0.5;
-/// Rounds after which the iteration is given up.
+/// Largest number of rounds.
 const MAX_ROUNDS: usize = 200;
 
 /// The state in which an increment begins.
 #[derive(Default)]
 pub(crate) struct Start {
-    /// A pressure near the answer.
+    /// A pressure near the solution.
     pub(crate) pressure: Option<Field>,
     /// The bounds of that pressure.
     pub(crate) bounds: Option<Bounds>,
-    /// The shear beside it.
+    /// The shear with this pressure.
     pub(crate) shear: Option<[Field; 2]>,
-    /// What the slip is counted from.
+    /// Reference of the slip.
     pub(crate) history: History,
 }
 
@@ -59,8 +59,8 @@ impl Start {
     }
 }
 
-/// Solves one increment. The bounds `unsheared` are those of cells without shear, in sliding those that the shear leaves. Where it finds
-/// no answer it adds its cost to that of what has `failed`.
+/// Solves one increment. `unsheared` are the bounds of cells without shear; in sliding, the bounds under shear. If it
+/// fails, it adds its cost to `failed`.
 #[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
 pub(super) fn alternate(
     operator: &mut dyn CoupledOperator,
@@ -96,27 +96,27 @@ pub(super) fn alternate(
     solution
 }
 
-/// An increment of the loading: what stays the same from round to round, and what the rounds have cost.
+/// An increment of the loading: data that are the same in all rounds, and the cost of the rounds.
 struct Increment<'a> {
     bodies: Bodies<'a>,
     initial_gap: &'a Field,
     /// Bounds of the pressure of cells without shear.
     unsheared: &'a Bounds,
     friction: Friction,
-    /// Whether shear takes from the pressure of plastic cells, and their junctions grow.
+    /// Whether shear lowers the pressure of plastic cells, so that their junctions grow.
     grows_junctions: bool,
     loading: Loading,
     history: History,
     params: &'a Params,
     watch: &'a dyn Watch,
-    /// The same watch within a round.
+    /// The watch of the solutions within a round.
     within: &'a dyn Watch,
     shear_method: Option<Box<dyn Method>>,
     stats: Stats,
 }
 
 impl Increment<'_> {
-    /// Solves the two problems in turn, from a pressure within these bounds and a shear, if they are known.
+    /// Solves the two problems alternately, from a pressure within these bounds and a shear, if they are known.
     fn alternate(
         &mut self,
         mut pressure: Option<Field>,
@@ -171,8 +171,8 @@ impl Increment<'_> {
                 f64::max(RELAXATION_REDUCTION * relaxation, MIN_RELAXATION)
             };
             if start_met_tolerance && (reached > SLOW_CONTRACTION * last || !self.grows_junctions) {
-                // The normal problem has accepted its start, by a share of its own displacement, which may be much more than what
-                // the shear leaves of it.
+                // The normal problem has accepted its start relative to its own displacement, which
+                // may be much larger than the displacement that remains with the shear.
                 tightening *= TOLERANCE_REDUCTION;
             }
             last = reached;
@@ -189,7 +189,7 @@ impl Increment<'_> {
         Err(Error::NotConverged { iterations, residual: last, tolerance })
     }
 
-    /// The cost so far.
+    /// Returns the cost so far.
     fn cost(&self) -> Stats {
         let mut stats = self.stats;
         stats.convolutions += self.bodies.convolutions;
@@ -199,13 +199,13 @@ impl Increment<'_> {
         }
     }
 
-    /// The bounds of a `pressure` beside a `shear`, where junctions grow.
+    /// Returns the bounds of a `pressure` with a `shear`, if junctions grow.
     fn combined_bounds(&self, pressure: &Field, shear: &[Field; 2]) -> Option<Bounds> {
         self.grows_junctions.then(|| bounds_under_shear(&self.friction, self.unsheared, pressure, shear))
     }
 
-    /// Solves the normal problem beside a shear that displaces the surface normally by `shear_displacement`, and leaves its
-    /// pressure the `combined` bounds.
+    /// Solves the normal problem under a shear that displaces the surface normally by `shear_displacement`, with
+    /// the `combined` bounds of the pressure.
     fn solve_normal_problem(
         &mut self,
         shear_displacement: Option<&Field>,
@@ -265,9 +265,9 @@ impl Increment<'_> {
         solver.solve(self.bodies.operator, &task, shear, self.params.max_convolutions, self.within)
     }
 
-    /// How far the pressure is from equilibrium beside the shear that it has led to.
+    /// Computes the residual of the pressure under the shear that follows from it.
     fn residual(&self, normal: &Solution, bounds: &Bounds) -> Residual {
-        // The multiplier of the load does not see cells that come off their upper bounds by a little.
+        // The multiplier of the load does not depend on cells that leave their upper bounds by a small amount.
         let approach = match self.grows_junctions {
             true => Some(normal.approach),
             false => self.loading.normal.approach(),
@@ -317,18 +317,18 @@ impl Increment<'_> {
     }
 }
 
-/// The displacement of which the residual of the tangential problem is a share.
+/// Returns the scale of the residual of the tangential problem.
 fn shear_scale(normal: &Solution, limit: &Field, operator: &dyn CoupledOperator) -> Metre {
     let local = operator.self_influence().zz * normal.max_pressure();
     let deviation = normal.displacement.std(0.0);
     let share = (limit.sum() / normal.pressure.sum()).min(1.0);
     let largest = normal.displacement.iter().fold(local, |most, u| most.max(u.abs()));
     let scale = share * scale(deviation, largest);
-    // Without contact, or without friction, nothing is left to be a share of.
+    // Without contact, or without friction, there is no scale.
     if scale > 0.0 { scale } else { 1.0 }
 }
 
-/// The slip where the bodies touch, 0 elsewhere.
+/// Returns the slip of cells in contact, and 0 elsewhere.
 fn where_pressed(pressure: &Field, slip: [Field; 2]) -> [Field; 2] {
     slip.map(|mut slip| {
         slip.zip_mut_with(pressure, |s, p| *s = if *p > 0.0 { *s } else { 0.0 });
@@ -336,7 +336,7 @@ fn where_pressed(pressure: &Field, slip: [Field; 2]) -> [Field; 2] {
     })
 }
 
-/// The cells that stick: 1 where |q + Δs/c| ≤ g > 0, else 0.
+/// Returns 1 for cells that stick, |q + Δs/c| ≤ g > 0, else 0.
 fn stick(shear: &[Field; 2], slip: &[Field; 2], limit: &Field, compliance: f64) -> Field {
     let mut stick = limit.clone();
     let predicted = |axis: usize| &shear[axis] + &slip[axis] / compliance;

@@ -1,15 +1,15 @@
-//! The displacements of two bodies under pressure and shear, with the coupling that is asked for.
+//! Displacements of two bodies under pressure and shear, with a prescribed coupling.
 
 use crate::grid::Field;
 use crate::operator::CoupledOperator;
 use crate::solver::friction::Coupling;
 use crate::solver::friction::transport::History;
 
-/// Two bodies that displace each other by pressure and shear, with the coupling that is asked for.
+/// Two bodies under pressure and shear, with a prescribed coupling.
 pub(super) struct Bodies<'a> {
     pub(super) operator: &'a mut dyn CoupledOperator,
     pub(super) coupling: Coupling,
-    /// Convolutions spent on coupling terms and on whole displacements.
+    /// Number of convolutions for coupling terms and for total displacements.
     pub(super) convolutions: f64,
 }
 
@@ -24,7 +24,7 @@ impl Bodies<'_> {
         self.coupling.pressure_displaces_tangentially(self.operator.couples())
     }
 
-    /// Normal displacement of the surface under shear alone; none where the two are not coupled.
+    /// Computes the normal displacement of the surface under shear alone; none without coupling.
     pub(super) fn normal_displacement(&mut self, shear: &[Field; 2]) -> Option<Field> {
         if !self.shear_displaces_normally() {
             return None;
@@ -35,7 +35,7 @@ impl Bodies<'_> {
         Some(displacement)
     }
 
-    /// The slip that there would be without shear and without rigid displacement.
+    /// Computes the slip without shear and without rigid displacement.
     pub(super) fn free_slip(&mut self, pressure: &Field, history: &History) -> [Field; 2] {
         let grid = *self.operator.grid();
         let mut displacement = [grid.zeros(), grid.zeros()];
@@ -47,7 +47,7 @@ impl Bodies<'_> {
         history.slip([0.0; 2], &displacement)
     }
 
-    /// Tangential displacement under both tractions.
+    /// Computes the tangential displacement under both tractions.
     pub(super) fn displacement(&mut self, shear: &[Field; 2], pressure: &Field) -> [Field; 2] {
         let grid = *self.operator.grid();
         let mut u = [grid.zeros(), grid.zeros()];

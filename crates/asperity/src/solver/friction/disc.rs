@@ -1,40 +1,40 @@
-//! Vectors in the plane, and the discs in which friction keeps the shear tractions.
+//! Vectors in the plane, and the discs to which friction restricts the shear tractions.
 
 /// A vector in the plane of the surface.
 pub(super) type Vector = [f64; 2];
 
-/// The sum of two vectors.
+/// Returns the sum of two vectors.
 pub(super) fn add(a: Vector, b: Vector) -> Vector {
     [a[0] + b[0], a[1] + b[1]]
 }
 
-/// The difference a − b.
+/// Returns the difference a − b.
 pub(super) fn minus(a: Vector, b: Vector) -> Vector {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-/// A vector by a factor.
+/// Multiplies a vector by a factor.
 pub(super) fn times(factor: f64, a: Vector) -> Vector {
     [factor * a[0], factor * a[1]]
 }
 
-/// The scalar product.
+/// Returns the scalar product.
 pub(super) fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// The magnitude of a vector.
+/// Returns the magnitude of a vector.
 pub(super) fn length(a: Vector) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// The vector of the disc of that `radius` nearest to `a`.
+/// Returns the vector nearest to `a` in the disc of this `radius`.
 pub(super) fn onto_disc(a: Vector, radius: f64) -> Vector {
     let length = length(a);
     if length <= radius { a } else { times(radius / length, a) }
 }
 
-/// The factors by which two vectors add up to `b`: none of them where they are parallel.
+/// Returns the factors with which two vectors add up to `b`; none if the vectors are parallel.
 pub(super) fn combination([x, y]: [Vector; 2], b: Vector) -> Vector {
     let determinant = x[0] * y[1] - x[1] * y[0];
     if determinant.abs() > REGULARISATION * length(x) * length(y) {
@@ -64,8 +64,8 @@ impl Symmetric {
         Self(std::array::from_fn(|n| self.0[n] + other.0[n]))
     }
 
-    /// The solution x of `A x = b` of a positive semidefinite A, regularised by [`REGULARISATION`] of its trace: along a null
-    /// direction of A, x is short.
+    /// Solves `A x = b` with a positive semidefinite A, regularised by [`REGULARISATION`] of its trace, so that x
+    /// is short along a null direction of A.
     pub(super) fn solve(self, b: Vector) -> Vector {
         let least = REGULARISATION * (self.0[0] + self.0[2]);
         let [xx, xy, yy] = [self.0[0] + least, self.0[1], self.0[2] + least];
@@ -78,31 +78,33 @@ impl Symmetric {
     }
 }
 
-/// Share of the trace that is added to the diagonal of a matrix before it is solved; determinants below that share count as zero.
+/// Fraction of the trace that is added to the diagonal of a matrix before it is solved. Smaller relative determinants
+/// count as zero.
 const REGULARISATION: f64 = 1e-12;
-/// Newton steps after which [`offset_for_sum`] takes its offset as it is.
+/// Largest number of Newton steps of [`offset_for_sum`].
 const MAX_STEPS: usize = 100;
-/// Error of the sum, as a share of the magnitudes added up in it, that is as good as none.
+/// Negligible error of the sum, relative to the sum of the magnitudes.
 const SUM_ACCURACY: f64 = 1e-13;
-/// Step lengths tried along Newton's direction: where nearly all cells slip alike the full step is far too long.
+/// Number of step lengths tried along Newton's direction. If nearly all cells slip alike, the full step is far too
+/// long.
 const STEP_LENGTHS: [f64; 2] = [1.0, 0.1];
-/// A step to the minimum of the majorant is made so many times as long, while that lowers the function.
+/// Factor by which a step to the minimum of the majorant is lengthened while this lowers the function.
 const LENGTHENING: f64 = 4.0;
-/// Armijo's constant: a step must lower the function by this share of what its slope promises.
+/// Armijo's constant: a step must lower the function by this fraction of the linear prediction.
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 /// Units of rounding in a comparison of two values of the function.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// Where the gradient is less than this share of the magnitudes added up in it, the function is so near its minimum that rounding hides
-/// how it falls.
+/// If the gradient is below this fraction of the sum of its magnitudes, the decrease of the function is below rounding.
 const NEAR: f64 = 1e-5;
-/// There Newton's step is no more than so many times the one to the minimum of the majorant.
+/// Newton's step is then limited to this multiple of the step to the minimum of the majorant.
 const MAX_STEP: f64 = 1e3;
 
-/// The offset e at which Σ P(yᵢ + e) is `wanted`, P the projection [`onto_disc`] of radius gᵢ: it exists where |`wanted`| is
-/// less than Σ gᵢ. `cells` are y and g of each, `start` an offset nearby.
+/// Computes the offset e with Σ P(yᵢ + e) = `wanted`, where P is the projection [`onto_disc`] of radius gᵢ. It exists
+/// if |`wanted`| is less than Σ gᵢ. `cells` are y and g of each cell, `start` is an offset nearby.
 ///
-/// The sum is the gradient of a convex function, that of [`Objective`]: its minimum by Newton's iteration with a sufficient
-/// decrease, and where that fails by the step to the minimum of a quadratic majorant, as in Weiszfeld's iteration, or beyond.
+/// The sum is the gradient of the convex function [`Objective`]. Newton's iteration with a sufficient decrease finds
+/// its minimum. If it fails, a step to the minimum of a quadratic majorant or beyond follows, as in Weiszfeld's
+/// iteration.
 pub(super) fn offset_for_sum<I: Iterator<Item = (Vector, f64)>>(
     cells: impl Fn() -> I,
     wanted: Vector,
@@ -139,7 +141,8 @@ pub(super) fn offset_for_sum<I: Iterator<Item = (Vector, f64)>>(
         };
         let to = |step: Vector| (add(offset, step), at(add(offset, step)));
         let by_newton = STEP_LENGTHS.into_iter().map(|step| (to(times(step, newton)), step));
-        // Where the function is nearly a cone, far from all discs, the majorant sees but the first bit of the way down.
+        // If the function is nearly a cone, far from all discs, the step of the majorant is only a small part
+        // of the way.
         let lengthened = |mut step: Vector| {
             let (mut found, mut next) = (to(step), to(times(LENGTHENING, step)));
             while next.1.value < found.1.value - rounding(&next.1) {
@@ -164,13 +167,13 @@ pub(super) fn offset_for_sum<I: Iterator<Item = (Vector, f64)>>(
 /// The convex function Σ φ(yᵢ + e) − `wanted`·e of an offset e, with φ(v) = ½|v|² in the disc and g|v| − ½g² outside, whose
 /// gradient is Σ P(yᵢ + e) − `wanted`.
 struct Objective {
-    /// The value of the function.
+    /// Value of the function.
     value: f64,
     /// Its gradient Σ P(y + e) − wanted.
     gradient: Vector,
     /// Its Hessian.
     hessian: Symmetric,
-    /// Curvature Σ min(1, g/|v|) of a quadratic majorant: a step by it never fails.
+    /// Curvature Σ min(1, g/|v|) of a quadratic majorant, whose step never fails.
     majorant: f64,
     /// Sum of the magnitudes that the gradient adds up.
     gradient_magnitude: f64,
@@ -179,7 +182,7 @@ struct Objective {
 }
 
 impl Objective {
-    /// Adds the part of a cell with v = y + e and this radius.
+    /// Adds the contribution of a cell with v = y + e and this radius.
     fn add(&mut self, v: Vector, radius: f64) {
         let length = (v[0] * v[0] + v[1] * v[1]).sqrt();
         let (value, projected, hessian) = if length <= radius {

@@ -1,17 +1,17 @@
-//! The law of friction: the most shear that a cell bears under its pressure.
+//! The law of friction: the largest shear of a cell under its pressure.
 
 use crate::choice::choice;
 use crate::error::{Result, check, check_in};
 use crate::solver::Bounds;
 use crate::units::{Dimension, Pascal};
 
-/// How normal and tangential displacements are coupled where the bodies are dissimilar.
+/// Coupling of normal and tangential displacements between dissimilar bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Coupling {
-    /// As elasticity has it: pressure displaces tangentially, shear displaces normally.
+    /// Full elastic coupling: pressure displaces tangentially, and shear displaces normally.
     #[default]
     Full,
-    /// Goodman's approximation: pressure displaces tangentially, shear leaves the pressure alone.
+    /// Goodman's approximation: pressure displaces tangentially, but shear does not change the pressure.
     Goodman,
     /// No coupling, as between identical bodies: pressure displaces normally, shear tangentially.
     None,
@@ -33,25 +33,26 @@ impl Coupling {
 
 /// Friction in each cell: |q| ≤ min(μp, τ), in any direction of the plane.
 ///
-/// Where |q| is less the bodies stick; where it is that much they may slip, and q on the lower body points where the upper
-/// one slips to.
+/// A cell with a smaller |q| sticks. A cell at the limit may slip, and q on the lower body points in the direction of
+/// the slip of the upper body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Friction {
-    /// Coefficient of friction μ ≥ 0; infinite where the bodies stick wherever they touch.
+    /// Coefficient of friction μ ≥ 0; infinite if touching bodies always stick.
     pub coefficient: f64,
-    /// Shear strength τ > 0 of the interface, as of a boundary film; infinite without.
+    /// Shear strength τ > 0 of the interface, for example of a boundary film; infinite without a limit.
     pub shear_strength: Pascal,
     /// The coupling of normal and tangential displacements.
     pub coupling: Coupling,
-    /// Weight α ≥ 0 of the shear in what a plastic cell bears, p² + αq² ≤ H²: under shear it bears less pressure, and the
-    /// contact grows. 0: the hardness limits the pressure alone. Tabor, Proc. R. Soc. A 251, 378 (1959), found α near 9
-    /// for metals; a criterion after von Mises or Tresca has 27 or 36, where H is three times the yield stress.
+    /// Weight α ≥ 0 of the shear in the yield condition p² + αq² ≤ H² of a plastic cell. Shear then lowers the
+    /// largest pressure, and the contact grows. With α = 0 the hardness limits only the pressure. Tabor, Proc. R.
+    /// Soc. A 251, 378 (1959), found α near 9 for metals. The criteria of von Mises and Tresca give 27 and 36 if
+    /// H is three times the yield stress.
     pub junction_growth: f64,
 }
 
 impl Friction {
-    /// Coulomb's law.
+    /// Creates Coulomb's law.
     ///
     /// # Errors
     /// [`crate::Error::OutOfRange`] for a negative coefficient.
@@ -60,31 +61,31 @@ impl Friction {
         Self { coefficient, shear_strength, coupling, junction_growth: 0.0 }.checked()
     }
 
-    /// The same with another coefficient of friction μ ≥ 0.
+    /// Sets the coefficient of friction μ ≥ 0.
     #[must_use]
     pub const fn with_coefficient(self, coefficient: f64) -> Self {
         Self { coefficient, ..self }
     }
 
-    /// The same with a shear strength τ of the interface, > 0.
+    /// Sets the shear strength τ of the interface, > 0.
     #[must_use]
     pub const fn with_shear_strength(self, shear_strength: Pascal) -> Self {
         Self { shear_strength, ..self }
     }
 
-    /// The same with another coupling of normal and tangential displacements.
+    /// Sets the coupling of normal and tangential displacements.
     #[must_use]
     pub const fn with_coupling(self, coupling: Coupling) -> Self {
         Self { coupling, ..self }
     }
 
-    /// The same with a weight α ≥ 0 of the shear in what a plastic cell bears.
+    /// Sets the weight α ≥ 0 of the shear in the yield condition of plastic cells.
     #[must_use]
     pub const fn with_junction_growth(self, junction_growth: f64) -> Self {
         Self { junction_growth, ..self }
     }
 
-    /// The same law, if its numbers have a meaning.
+    /// Returns the law, or an error if a number is out of range.
     pub(crate) fn checked(self) -> Result<Self> {
         check("friction coefficient", self.coefficient, self.coefficient >= 0.0, "a number of at least 0")?;
         check_in(
@@ -104,25 +105,25 @@ impl Friction {
         Ok(self)
     }
 
-    /// The most shear that a cell under `pressure` bears.
+    /// Returns the largest shear of a cell under `pressure`.
     pub fn shear_limit(&self, pressure: Pascal) -> Pascal {
         if pressure > 0.0 { (self.coefficient * pressure).min(self.shear_strength) } else { 0.0 }
     }
 
-    /// Whether the junctions of bodies of that hardness grow: shear makes their plastic cells bear less pressure.
+    /// Whether the junctions of bodies with this hardness grow: shear lowers the pressure of their plastic cells.
     pub(super) fn grows_junctions(&self, hardness: Pascal) -> bool {
         self.junction_growth > 0.0 && self.coefficient > 0.0 && hardness.is_finite()
     }
 
-    /// The same friction of bodies whose cells bear no more shear than they do without pressure, H/√α.
+    /// Returns this friction with the largest shear of plastic cells without pressure, H/√α.
     pub(super) fn within(self, hardness: Pascal) -> Self {
         let shear_strength = self.shear_strength.min(hardness / self.junction_growth.sqrt());
         Self { shear_strength, ..self }
     }
 
-    /// The most pressure that a cell bears beside its `shear`, where p² + αq² = H²: from a `pressure` that does not meet
-    /// this yet, halfway between the answer of a cell whose shear stays and that of one whose shear changes in proportion.
-    /// No less than a cell bears that slides.
+    /// Returns the largest pressure of a cell under `shear`, from p² + αq² = H². For a `pressure` that does not
+    /// satisfy this yet, it returns the mean of the solutions at constant shear and at a shear in proportion to
+    /// the pressure. The result is at least the cap of a sliding cell.
     pub(super) fn cap(&self, hardness: Pascal, pressure: Pascal, shear: Pascal) -> Pascal {
         let square = self.junction_growth * shear * shear;
         if pressure <= 0.0 || square == 0.0 {
@@ -133,12 +134,12 @@ impl Friction {
         (0.5 * (stays + changes)).max(self.sliding_cap(hardness))
     }
 
-    /// What the shear of bodies that slide leaves of their `bounds`: see [`Friction::sliding_cap`].
+    /// Returns the `bounds` of sliding bodies under their shear, see [`Friction::sliding_cap`].
     pub fn sliding_bounds(&self, bounds: &Bounds) -> Bounds {
         Bounds::up_to(bounds.upper().map(|hardness| self.sliding_cap(hardness))).above(bounds.lower().clone())
     }
 
-    /// The most pressure that a cell of that hardness bears that slides.
+    /// Returns the largest pressure of a sliding cell with this hardness.
     pub fn sliding_cap(&self, hardness: Pascal) -> Pascal {
         if !self.grows_junctions(hardness) {
             return hardness;

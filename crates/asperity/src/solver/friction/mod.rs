@@ -1,4 +1,4 @@
-//! The contact with friction: normal and tangential tractions, and where the bodies stick.
+//! Contact with friction: normal and tangential tractions, stick and slip.
 
 mod alternate;
 mod bodies;
@@ -23,18 +23,18 @@ pub(crate) use alternate::Start;
 use alternate::alternate;
 pub(crate) use transport::History;
 
-/// The displacement, force or direction of sliding that is prescribed in the plane, along x and y.
+/// Prescribed displacement, force or sliding direction in the plane, along x and y.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tangential {
-    /// Rigid-body displacement D of the upper body against the lower one, from the beginning of the loading.
+    /// Rigid-body displacement D of the upper body relative to the lower one, from the beginning of the loading.
     Displacement([Metre; 2]),
     /// Force of the upper body on the lower one.
     Force([Newton; 2]),
-    /// The upper body slides in this direction, a unit vector, at every cell.
+    /// The upper body slides in this direction, a unit vector, and every cell slips.
     Sliding([f64; 2]),
 }
 
-/// Bodies that slide over each other.
+/// Gross sliding of two bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sliding {
     /// Friction of the bodies.
@@ -44,7 +44,7 @@ pub struct Sliding {
 }
 
 impl Sliding {
-    /// Shear on the lower body of a cell under `pressure`.
+    /// Returns the shear on the lower body of a cell under `pressure`.
     pub fn shear(&self, pressure: Pascal) -> [Pascal; 2] {
         self.direction.map(|n| n * self.friction.shear_limit(pressure))
     }
@@ -55,12 +55,12 @@ impl Sliding {
     }
 }
 
-/// What is prescribed of a contact at the end of an increment.
+/// Prescribed loading of a contact at the end of an increment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loading {
-    /// What is prescribed in the normal direction.
+    /// Normal loading.
     pub normal: Control,
-    /// What is prescribed in the plane.
+    /// Tangential loading.
     pub tangential: Tangential,
 }
 
@@ -68,65 +68,68 @@ pub struct Loading {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct FrictionalSolution {
-    /// Pressure, approach, and the normal displacement under pressure and shear together; the residual is the larger of
-    /// the normal and the tangential one. Its upper bounds are what the shear leaves to the pressure.
+    /// Pressure, approach, and the normal displacement under pressure and shear together. Its residual is the
+    /// larger of the normal and the tangential residual. Its upper bounds include the effect of the shear.
     pub normal: Solution,
     /// Shear tractions q along x and y on the lower body, Pa.
     pub shear: [Field; 2],
-    /// The most shear g that each cell bears, Pa.
+    /// Largest shear g of each cell, Pa.
     pub shear_limit: Field,
     /// Tangential displacement u along x and y, lower minus upper body, m.
     pub displacement: [Field; 2],
-    /// Rigid-body displacement D of the upper body against the lower one; from the end of the sliding, after sliding.
+    /// Rigid-body displacement D of the upper body relative to the lower one; after sliding, from the end of the
+    /// sliding.
     pub rigid_displacement: [Metre; 2],
-    /// Slip of the upper surface over the lower one in this increment along x and y, m; 0 where they do not touch, and in
-    /// gross sliding, where it is arbitrary.
+    /// Slip of the upper surface over the lower one in this increment along x and y, m. It is 0 for cells that do
+    /// not touch, and in gross sliding, in which it is arbitrary.
     pub slip: [Field; 2],
-    /// 1 where the bodies touch and stick, |q + Δs/c| ≤ g, else 0.
+    /// 1 for cells that touch and stick, |q + Δs/c| ≤ g, else 0.
     pub stick: Field,
 }
 
 impl FrictionalSolution {
-    /// Tangential force Q = ΔA Σ q of the upper body on the lower one.
+    /// Returns the tangential force Q = ΔA Σ q of the upper body on the lower one.
     pub fn force(&self) -> [Newton; 2] {
         self.shear.each_ref().map(|q| self.normal.grid.cell_area() * q.sum())
     }
 
-    /// The slip D − u since the bodies have touched first, m.
+    /// Returns the slip D − u since the first contact of the bodies, m.
     pub(crate) fn whole_slip(&self) -> [Field; 2] {
         [0, 1].map(|axis| self.displacement[axis].mapv(|u| self.rigid_displacement[axis] - u))
     }
 
-    /// Largest shear traction |q|.
+    /// Returns the largest shear traction |q|.
     pub fn max_shear(&self) -> Pascal {
         self.shear[0].iter().zip(&self.shear[1]).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max)
     }
 
-    /// Elastic energy ½ ΔA Σ (p u_z + q·u) (periodic: without that of the mean displacements, which are free).
+    /// Returns the elastic energy ½ ΔA Σ (p u_z + q·u). Under a periodic boundary it excludes the mean
+    /// displacements, which are free.
     pub fn elastic_energy(&self) -> Joule {
         let work = |t: &Field, u: &Field| (t * u).sum();
         let tangential: f64 = self.shear.iter().zip(&self.displacement).map(|(q, u)| work(q, u)).sum();
         self.normal.elastic_energy() + 0.5 * self.normal.grid.cell_area() * tangential
     }
 
-    /// Energy ΔA Σ ½(g₀ + g)|Δs| over the cells that slip, which friction took in this increment: g₀ is the most shear that
-    /// a cell bore `before` it, g the most that it bears after it. Without a state before, g alone: as if the load had come
-    /// before the slip.
+    /// Computes the energy dissipated by friction in this increment, ΔA Σ ½(g₀ + g)|Δs| over the cells that slip.
+    /// g₀ and g are the largest shear of a cell `before` and after the increment. Without a state before, g
+    /// replaces g₀, as if the load came before the slip.
     ///
-    /// A cell slips at its limit only, so this is exact, however large the increment, where pressures stay and the slip keeps
-    /// its direction. Where pressures change with the slip it is of the second order in the increment, and
-    /// [`FrictionalSolution::dissipation_error`] bounds its error.
+    /// A cell slips only at its limit. The energy is therefore exact for increments of any size if pressures are
+    /// constant and the slip keeps its direction. If pressures change with the slip, the error is of second order
+    /// in the increment, and [`FrictionalSolution::dissipation_error`] bounds it.
     pub fn dissipation(&self, before: Option<&Self>) -> Joule {
         self.over_slips(before, |then, now| 0.5 * (then + now))
     }
 
-    /// The most by which [`FrictionalSolution::dissipation`] can be wrong where the limit of each cell goes one way in the
-    /// increment, and its slip keeps its direction: ΔA Σ ½|g − g₀||Δs|, all the slip at one of the two limits.
+    /// Computes the error bound of [`FrictionalSolution::dissipation`], ΔA Σ ½|g − g₀||Δs|, in which all slip
+    /// occurs at one of the two limits. It holds if the limit of each cell changes monotonically in the
+    /// increment, and its slip keeps its direction.
     pub fn dissipation_error(&self, before: &Self) -> Joule {
         self.over_slips(Some(before), |then, now| 0.5 * (now - then).abs())
     }
 
-    /// ΔA Σ |Δs| times what `shear` makes of the limits before and after the increment, over the cells that slip.
+    /// Computes ΔA Σ |Δs| · `shear`(g₀, g) over the cells that slip, with the limits before and after the increment.
     fn over_slips(&self, before: Option<&Self>, shear: impl Fn(Pascal, Pascal) -> Pascal) -> Joule {
         let mut sum = 0.0;
         for ((cell, &now), &sticks) in self.shear_limit.indexed_iter().zip(&self.stick) {
@@ -139,17 +142,18 @@ impl FrictionalSolution {
     }
 }
 
-/// Solves one increment of a contact with friction, implicitly: the normal contact of [`crate::solver::solve_normal`] together with
+/// Solves one implicit increment of a contact with friction: the normal contact of [`crate::solver::solve_normal`]
+/// together with
 ///
 /// ```text
 /// |q| ≤ g = min(μp, τ);   |q| < g ⇒ Δs = 0;   |q| = g ⇒ Δs = λ q, λ ≥ 0
 /// s = D − u(q, p),   Δs = s − s₀
 /// ```
 ///
-/// s₀ belongs to the solution `before`, of which there is none for bodies that have not touched yet. Normal and tangential
-/// problems are solved in turn, each for the tractions of the other (Panagiotopoulos 1975), until both are met: at once
-/// where shear neither displaces the surface normally nor softens it. Residuals are η of [`crate::solver::residual()`],
-/// and its like
+/// s₀ is the slip of the solution `before`; none for bodies that have not touched yet. Normal and tangential problems
+/// are solved alternately, each for the tractions of the other (Panagiotopoulos 1975), until both are solved. One
+/// round is enough if shear neither displaces the surface normally nor lowers its caps. Residuals are η of
+/// [`crate::solver::residual()`] and
 ///
 /// ```text
 /// max |c (q − P(q + Δs/c))| / (f std(u_z)),   P onto |q| ≤ g,   f = min(1, Σg/Σp),   c = ½(C^xx + C^yy) of a cell
@@ -172,7 +176,7 @@ pub fn solve_frictional(
     solve_frictional_watched(operator, initial_gap, bounds, friction, loading, before, params, &())
 }
 
-/// As [`solve_frictional`], while somebody looks on.
+/// [`solve_frictional`] with a watch.
 #[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
 pub(crate) fn solve_frictional_watched(
     operator: &mut dyn CoupledOperator,
@@ -189,8 +193,7 @@ pub(crate) fn solve_frictional_watched(
     solve_frictional_from(operator, initial_gap, bounds, friction, loading, start, params, watch, failed)
 }
 
-/// As [`solve_frictional`], from what is known of the contact before it, while somebody looks on. Where it finds no answer it adds its
-/// cost to that of what has `failed`.
+/// [`solve_frictional`] from a given state, with a watch. If it fails, it adds its cost to `failed`.
 #[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
 pub(crate) fn solve_frictional_from(
     operator: &mut dyn CoupledOperator,
@@ -212,8 +215,8 @@ pub(crate) fn solve_frictional_from(
     alternate(operator, initial_gap, bounds, friction, loading, start, params, watch, failed)
 }
 
-/// Solves the contact of bodies that slide, as [`solve_frictional`] does under [`Tangential::Sliding`], from a pressure
-/// near the answer; the `bounds` are what the shear leaves of them, [`Friction::sliding_bounds`].
+/// Solves the contact of sliding bodies, like [`solve_frictional`] with [`Tangential::Sliding`], from a pressure near
+/// the solution. The `bounds` include the effect of the shear, see [`Friction::sliding_bounds`].
 #[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
 pub(crate) fn solve_sliding(
     operator: &mut dyn CoupledOperator,
@@ -231,7 +234,7 @@ pub(crate) fn solve_sliding(
     alternate(operator, initial_gap, bounds.clone(), sliding.friction, loading, start, params, watch, failed)
 }
 
-/// Whether what is prescribed in the plane has a meaning.
+/// Returns an error if the tangential loading is out of range.
 fn validate(tangential: &Tangential) -> Result<()> {
     match *tangential {
         Tangential::Displacement(displacement) => displacement.into_iter().try_for_each(|d| {
@@ -247,10 +250,10 @@ fn validate(tangential: &Tangential) -> Result<()> {
     }
 }
 
-/// The displacement c of a cell per unit shear on itself, in the mean of the directions, m/Pa.
+/// Returns the displacement c of a cell per unit shear on itself, averaged over the directions, m/Pa.
 fn self_compliance(operator: &dyn CoupledOperator) -> f64 {
     let influence = operator.self_influence();
     let compliance = 0.5 * (influence.xx + influence.yy);
-    // A periodic contact of one cell does not deform: any number will do by which a slip exceeds all shear.
+    // A periodic contact of one cell does not deform. Any number serves for which a slip exceeds all shear.
     if compliance > 0.0 { compliance } else { 1e-40 }
 }

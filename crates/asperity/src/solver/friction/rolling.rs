@@ -12,32 +12,32 @@ use crate::solver::watch::InnerWatch;
 use crate::solver::{Bounds, Control, Params, Stats, Watch};
 use crate::units::{Joule, Newton};
 
-/// Cells of rolling after which rolling cell by cell is given up, in lengths of the grid.
+/// Largest distance of rolling cell by cell, in lengths of the grid.
 const MAX_LENGTHS: usize = 50;
-/// Rolling cell by cell is given up where a length of the grid, or [`MIN_LENGTH`] cells if that is more, leaves more than this share of the
-/// change of the shear before it.
+/// Rolling cell by cell stops without convergence if the change of the shear over a length of the grid, at least
+/// [`MIN_LENGTH`] cells, exceeds this fraction of the previous change.
 const SLOW_CONTRACTION: f64 = 0.5;
-/// The least number of cells of rolling in which a change of the shear is expected.
+/// Smallest number of cells of rolling in which a change of the shear is expected.
 const MIN_LENGTH: usize = 10;
 /// Tolerance on the residual of the first cells of rolling.
 const FIRST_TOLERANCE: f64 = 1e-3;
-/// Each further cell is solved to this share of the change of the shear in the one before.
+/// Each further cell is solved to this fraction of the change of the shear in the previous one.
 const TOLERANCE_REDUCTION: f64 = 0.1;
 
-/// Steady rolling as it is prescribed. The contact moves towards +x over both bodies.
+/// Prescribed steady rolling. The contact moves towards +x over both bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rolling {
-    /// What is prescribed in the plane: creepage or force.
+    /// Prescribed creepage or force.
     pub creep: Creep,
-    /// Spin φ, 1/m: angular velocity of the upper body against the lower one over the rolling velocity, about z through the
-    /// middle of the grid, positive from +x towards +y.
+    /// Spin φ, 1/m: angular velocity of the upper body relative to the lower one, over the rolling velocity. Its
+    /// axis is z through the middle of the grid, positive from +x towards +y.
     pub spin: f64,
 }
 
-/// What is prescribed of the rolling in the plane, along x and y.
+/// Prescribed creepage or force of the rolling, along x and y.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Creep {
-    /// Creepage ξ: velocity of the upper body against the lower one, as a share of the rolling velocity.
+    /// Creepage ξ: velocity of the upper body relative to the lower one, over the rolling velocity.
     Creepage([f64; 2]),
     /// Force of the upper body on the lower one.
     Force([Newton; 2]),
@@ -47,51 +47,54 @@ pub enum Creep {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct RollingSolution {
-    /// The contact, whose slip is that while it moves on by a cell.
+    /// The contact. Its slip is the slip while the contact moves by one cell.
     pub contact: FrictionalSolution,
-    /// Creepage ξ along x and y: velocity of the upper body against the lower one, as a share of the rolling velocity.
+    /// Creepage ξ along x and y: velocity of the upper body relative to the lower one, over the rolling velocity.
     pub creepage: [f64; 2],
-    /// Energy that friction takes while the contact moves on by a cell, from the work of the force Q and the moment M:
+    /// Energy dissipated by friction while the contact moves by one cell, from the work of the force Q and the
+    /// moment M:
     ///
     /// ```text
     /// (ξ·Q + φM) Δx + ΔA Σ q·[v(x + Δx) − v(x − Δx)]/2
     /// ```
     ///
-    /// with v the tangential displacement under pressure, which is 0 between identical bodies. Between dissimilar ones the last term is the
-    /// work of the pressure: it leans to one side of the gap and resists the rolling. Exact but for the error of the tractions; where
-    /// nothing slips, under an infinite coefficient of friction, the energy leaves at the trailing edge.
+    /// with v the tangential displacement under pressure, which is 0 between identical bodies. Between dissimilar
+    /// bodies the last term is the work of the pressure, which shifts to one side of the gap and resists the
+    /// rolling. The energy is exact except for the error of the tractions. Without slip, under an infinite
+    /// coefficient of friction, the energy is lost at the trailing edge.
     pub dissipation: Joule,
 }
 
 impl RollingSolution {
-    /// Work ΔA Σ q·Δs of the shear on the slip of the cells while the contact moves on by a cell: the
-    /// [`RollingSolution::dissipation`] without what the step from cell to cell takes by itself, which is of the first order in Δx and
-    /// may be most of it where little slips.
+    /// Work ΔA Σ q·Δs of the shear on the slip of the cells while the contact moves by one cell. It is the
+    /// [`RollingSolution::dissipation`] without the discretisation error of a step by one cell. This error is of
+    /// first order in Δx, and may be the larger part if little slips.
     pub fn slip_work(&self) -> Joule {
         let FrictionalSolution { shear, slip, normal, .. } = &self.contact;
         normal.grid.cell_area() * (0..2).map(|axis| (&shear[axis] * &slip[axis]).sum()).sum::<f64>()
     }
 }
 
-/// Solves the steady state of bodies that roll along x under friction: their gap stays, and their material passes
-/// through it.
+/// Solves the steady state of bodies that roll along x under friction. Their gap is constant, and their material
+/// passes through it.
 ///
-/// In the time in which the contact moves on by a cell, material that was a cell ahead arrives, and slips by
+/// While the contact moves by one cell, material that was a cell ahead arrives, and slips by
 ///
 /// ```text
 /// Δs = [ξ + φ (−y, x)] Δx − u(x) + u₀(x + Δx)
 /// ```
 ///
-/// with u₀ the displacement before, and x and y from the middle of the grid. In the steady state u₀ = u, and this is solved for the
-/// shear at once, as an increment of [`crate::solver::solve_frictional`] is. The residual of the tangential problem is
+/// with u₀ the displacement before, and x and y from the middle of the grid. In the steady state u₀ = u. This problem
+/// is solved directly for the shear, like an increment of [`crate::solver::solve_frictional`]. The residual of the
+/// tangential problem is
 ///
 /// ```text
 /// max |q − P(q + Δs/c)| / max |q|,   P onto |q| ≤ g,   c = ½(C^xx + C^yy) of a cell
 /// ```
 ///
-/// Where its iteration does not converge, as in contacts of one or two cells it may not, bodies roll on by a cell at a time, u₀ that of the
-/// cell before, until the shear changes by less than the tolerance, as a share of the largest. Where this does not settle either, the
-/// steady state is found by the proximal point method. The cost counts all that was tried.
+/// If the iteration does not converge, as in some contacts of one or two cells, the bodies roll cell by cell, with u₀
+/// from the cell before, until the relative change of the shear is below the tolerance. If this does not converge
+/// either, the proximal point method follows. The cost includes all attempts.
 ///
 /// The traction grows from the leading edge, where the bodies stick. Carter, Proc. R. Soc. A 112, 151 (1926); Kalker, Three-dimensional elastic bodies in rolling contact (1990).
 ///
@@ -112,7 +115,7 @@ pub fn solve_rolling(
     solve_rolling_watched(operator, initial_gap, bounds, friction, normal, rolling, params, &())
 }
 
-/// As [`solve_rolling`], while somebody looks on.
+/// [`solve_rolling`] with a watch.
 #[expect(clippy::too_many_arguments, reason = "the contact, what is asked of it, and who looks on")]
 pub(crate) fn solve_rolling_watched(
     operator: &mut dyn CoupledOperator,
@@ -180,7 +183,8 @@ pub(crate) fn solve_rolling_watched(
     Ok(RollingSolution { contact, creepage, dissipation })
 }
 
-/// Work ΔA Σ q·[v(x + Δx) − v(x − Δx)]/2 while the contact moves on by a cell, v the tangential displacement under pressure.
+/// Computes the work ΔA Σ q·[v(x + Δx) − v(x − Δx)]/2 while the contact moves by one cell, with v the tangential
+/// displacement under pressure.
 fn work_of_pressure(
     operator: &mut dyn CoupledOperator,
     friction: &Friction,
@@ -193,7 +197,8 @@ fn work_of_pressure(
     if !bodies.pressure_displaces_tangentially() {
         return 0.0;
     }
-    // The shear does no work on half the difference of its own displacement at the cells ahead and behind, where both are on the grid.
+    // The shear does no work on the central difference of its own displacement, if both neighbouring cells are on
+    // the grid.
     let at_end = |i: usize| contact.shear_limit.row(i).iter().any(|limit| *limit > 0.0);
     let under_pressure = (!repeats && (at_end(0) || at_end(columns - 1))).then(|| {
         let mut v = [grid.zeros(), grid.zeros()];
@@ -209,7 +214,7 @@ fn work_of_pressure(
             true => ((i + 1) % columns, (i + columns - 1) % columns),
             false => ((i + 1).min(columns - 1), i.saturating_sub(1)),
         };
-        // At an end the difference is that of one step.
+        // At an end the difference is one-sided.
         let steps = usize::from(ahead != i) + usize::from(behind != i);
         if steps > 0 {
             for (q, v) in contact.shear.iter().zip(displacement) {
@@ -221,8 +226,8 @@ fn work_of_pressure(
     grid.cell_area() * work
 }
 
-/// Rolls by a cell at a time, each an increment that `solve` finds, from the state without creepage till the shear changes by less than
-/// the tolerance, as a share of the largest, on a grid of so many cells along the rolling.
+/// Rolls cell by cell from the state without creepage until the relative change of the shear is below the tolerance.
+/// `solve` computes the increment of each cell.
 fn cell_by_cell(
     solve: &mut impl FnMut(Loading, Start, f64, &dyn Watch) -> Result<FrictionalSolution>,
     loading: Loading,
@@ -259,21 +264,22 @@ fn cell_by_cell(
     Err(Error::NotConverged { iterations, residual: left, tolerance })
 }
 
-/// Largest change of the shear from one state to the next, as a share of the largest shear.
+/// Returns the largest change of the shear between two states, relative to the largest shear.
 fn change(next: &FrictionalSolution, state: &FrictionalSolution) -> f64 {
     let pairs = next.shear.iter().flatten().zip(state.shear.iter().flatten());
     let most = pairs.fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
     if most == 0.0 { 0.0 } else { most / next.max_shear() }
 }
 
-/// Coordinate of each cell along an axis, from the middle of the grid.
+/// Returns the coordinate of each cell along an axis, from the middle of the grid.
 fn lever(grid: &Grid, axis: usize) -> Field {
     let middle = 0.5 * grid.extent()[axis];
     Field::from_shape_fn(grid.shape, |(i, j)| grid.centre(axis, [i, j][axis]) - middle)
 }
 
 impl FrictionalSolution {
-    /// Moment M = ΔA Σ (x q_y − y q_x) of the upper body on the lower one about z through the middle of the grid, N·m.
+    /// Computes the moment M = ΔA Σ (x q_y − y q_x) of the upper body on the lower one about z through the middle
+    /// of the grid, N·m.
     pub fn moment(&self) -> f64 {
         let [x, y] = [0, 1].map(|axis| lever(&self.normal.grid, axis));
         self.normal.grid.cell_area() * ((x * &self.shear[1]).sum() - (y * &self.shear[0]).sum())

@@ -1,10 +1,10 @@
-//! What the material of a cell has gone through: what its slip is counted from.
+//! History of the material of a cell: the reference of its slip.
 
 use crate::grid::Field;
 use crate::operator::CoupledOperator;
 use crate::units::Metre;
 
-/// What the slip Δs of each cell is counted from.
+/// Reference of the slip Δs of each cell.
 #[derive(Clone, Default)]
 pub(crate) enum History {
     /// The bodies have not touched yet.
@@ -12,40 +12,41 @@ pub(crate) enum History {
     None,
     /// The slip s₀ of the cell before the increment, m.
     Increment([Field; 2]),
-    /// Steady rolling: the material comes from the cell ahead, as it is there.
+    /// Steady rolling: the material comes from the cell ahead, with the displacement of that cell.
     Rolling(Transport),
 }
 
-/// How material passes through a contact that moves on by a cell.
+/// Transport of material through a contact that moves by one cell.
 #[derive(Clone)]
 pub(crate) struct Transport {
-    /// The cells whose material comes.
+    /// The cells from which the material arrives.
     pub(super) ahead: ShiftByCell,
-    /// What the spin turns the upper body by meanwhile, m.
+    /// Displacement of the upper body by the spin meanwhile, m.
     pub(super) turn: [Field; 2],
-    /// The method by which the steady state is found.
+    /// Method of computing the steady state.
     pub(super) method: SteadyMethod,
 }
 
-/// A method by which the steady state of rolling bodies is found.
+/// Method of computing the steady state of rolling bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SteadyMethod {
     /// Newton's iteration.
     Newton,
-    /// The proximal point method: slower, but it converges where Newton's iteration does not.
+    /// The proximal point method. It is slower, but converges if Newton's iteration does not.
     ProximalPoint,
 }
 
 impl Transport {
-    /// The displacement of the material that arrives at each cell, after the turn, where the surfaces are displaced by u.
+    /// Computes the displacement of the material that arrives at each cell, including the spin, from the
+    /// displacement u of the surfaces.
     pub(super) fn arriving(&self, displacement: &[Field; 2]) -> [Field; 2] {
         [0, 1].map(|axis| self.ahead.field(&displacement[axis]) + &self.turn[axis])
     }
 }
 
 impl History {
-    /// The slip Δs under a rigid displacement D of surfaces that are displaced by u: D − u − s₀, in rolling D − u + S u and the
-    /// turn.
+    /// Computes the slip Δs under a rigid displacement D of surfaces with the displacement u: D − u − s₀; in
+    /// rolling, D − u + S u plus the spin.
     pub(super) fn slip(&self, rigid: [Metre; 2], displacement: &[Field; 2]) -> [Field; 2] {
         let [mut x, mut y] = [0, 1].map(|axis| displacement[axis].mapv(|u| rigid[axis] - u));
         match self {
@@ -64,7 +65,8 @@ impl History {
     }
 }
 
-/// The shift S by a cell along the rolling, x: the last column stays, or is followed by the first where the surface repeats itself.
+/// The shift S by a cell along the rolling direction x. The last column keeps its values, or takes those of the first
+/// column on a periodic surface.
 #[derive(Clone, Copy)]
 pub(super) struct ShiftByCell {
     cells: usize,
@@ -79,7 +81,7 @@ impl ShiftByCell {
         Self { cells: grid.cells(), columns: grid.shape[1], repeats }
     }
 
-    /// The flat index of the cell whose material comes to a `cell`.
+    /// Returns the flat index of the cell whose material arrives at a `cell`.
     pub(super) fn of(&self, cell: usize) -> usize {
         match (cell + self.columns, self.repeats) {
             (next, _) if next < self.cells => next,
@@ -88,7 +90,7 @@ impl ShiftByCell {
         }
     }
 
-    /// The values that come to each cell.
+    /// Returns the values that arrive at each cell.
     pub(super) fn field(&self, field: &Field) -> Field {
         let values = field.as_slice().expect("standard layout");
         let mut ahead = field.clone();

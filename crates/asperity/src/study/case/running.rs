@@ -129,7 +129,7 @@ pub(super) fn film(table: &Table<'_>, body: &Hardness) -> Result<FilmSpec> {
     if let (Some(hardness), Hardness::Uniform(body)) = (hardness, body)
         && hardness > *body
     {
-        let hint = "give the body a 'hardness', or leave that of the film out".to_owned();
+        let hint = "give the body a 'hardness', or leave out the hardness of the film".to_owned();
         return Err(film::HARDNESS
             .demand(table)?
             .unexpected("no more than the hardness of the body", Some(hint)));

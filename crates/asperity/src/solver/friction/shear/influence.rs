@@ -1,4 +1,4 @@
-//! The tangential displacement of cells under their shear, and an approximate inverse of it.
+//! Tangential displacement of cells under their shear, and its approximate inverse.
 
 use crate::grid::{Field, SingleField};
 use crate::operator::CoupledOperator;
@@ -15,15 +15,15 @@ pub(super) struct Influence {
     /// The displacement c of a cell per unit shear on itself.
     pub(super) compliance: f64,
     preconditioner: Preconditioner,
-    /// The cells that the preconditioner couples, as free ones.
+    /// The cells that the preconditioner couples, as free cells.
     sets: Sets,
-    /// What the preconditioner takes and gives along one axis, in single precision.
+    /// Input and output of the preconditioner along one axis, in single precision.
     single: [Vec<f32>; 2],
-    /// Shear on the grid that is convolved.
+    /// Shear on the grid, input of the convolution.
     loaded: [Field; 2],
     /// Displacement of the grid under that shear.
     displaced: [Field; 2],
-    /// Shear on the grid that is convolved in single precision.
+    /// Shear on the grid, input of the convolution in single precision.
     loaded_single: [SingleField; 2],
     /// Displacement of the grid under that shear.
     displaced_single: [SingleField; 2],
@@ -44,7 +44,7 @@ impl Influence {
         }
     }
 
-    /// Takes the shear of all cells away: those that are loaded next are others.
+    /// Sets the shear of all cells to zero, because other cells are loaded next.
     pub(super) fn unload(&mut self) {
         self.loaded.iter_mut().for_each(|field| field.fill(0.0));
         self.loaded_single.iter_mut().for_each(|field| field.fill(0.0));
@@ -94,8 +94,8 @@ impl Influence {
         self.preconditioner.adapt(&self.sets);
     }
 
-    /// The shear that displaces the coupled cells by about as much as is asked for: by the preconditioner of the normal problem
-    /// along each axis. Zero for the other cells.
+    /// Computes a shear that displaces the coupled cells approximately by the given displacement, by the
+    /// preconditioner of the normal problem along each axis. The shear is zero for the other cells.
     pub(super) fn invert(&mut self, cells: &[usize], displacement: &[Vector]) -> Vec<Vector> {
         let mut shear = vec![[0.0; 2]; displacement.len()];
         let largest = displacement.iter().map(|u| length(*u)).fold(0.0, f64::max);
@@ -115,7 +115,7 @@ impl Influence {
     }
 }
 
-/// The vectors of two fields at some cells.
+/// Returns the vectors of two fields at some cells.
 pub(super) fn at(fields: &[Field; 2], cells: &[usize]) -> Vec<Vector> {
     let [x, y] = fields.each_ref().map(|field| field.as_slice().expect("standard layout"));
     cells.iter().map(|cell| [x[*cell], y[*cell]]).collect()

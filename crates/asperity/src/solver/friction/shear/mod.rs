@@ -1,4 +1,4 @@
-//! The tangential problem: shear tractions that hold the surfaces where they stick, under given pressures.
+//! The tangential problem: shear tractions that hold sticking surfaces, under given pressures.
 
 mod influence;
 mod state;
@@ -9,7 +9,7 @@ use crate::grid::Field;
 use crate::operator::CoupledOperator;
 use crate::solver::friction::disc::{Vector, add, dot, length, minus, times};
 use crate::solver::friction::transport::History;
-use crate::solver::watch::go_on;
+use crate::solver::watch::check_stop;
 use crate::solver::{Stats, TOLERANCE_REDUCTION, Watch};
 use crate::units::{Metre, SquareMetre};
 
@@ -17,50 +17,51 @@ use influence::{Influence, at};
 use state::{Freedom, State};
 use steady::SteadySolver;
 
-/// The compliance by which stick and slip are predicted, as a multiple of that of a cell alone: the least value of the
-/// complementarity parameter of a primal–dual active set. What slips far moves its neighbours too: with 1 nearly all of a
-/// smooth contact on a fine grid is at first predicted to slip, and the prediction swings.
+/// Compliance in the prediction of stick and slip, as a multiple of the compliance of a single cell: the smallest
+/// complementarity parameter of a primal–dual active set. A cell with a large slip moves its neighbours too. With the
+/// value 1, nearly all of a smooth contact on a fine grid is first predicted to slip, and the prediction oscillates.
 const COMPLIANCE_FACTOR: f64 = 8.0;
 /// With each outer step without progress the factor is multiplied by this.
 const COMPLIANCE_GROWTH: f64 = 2.0;
-/// With each outer step that has made progress the factor is multiplied by this, down to [`COMPLIANCE_FACTOR`].
+/// With each outer step with progress the factor is multiplied by this, down to [`COMPLIANCE_FACTOR`].
 const COMPLIANCE_REDUCTION: f64 = 0.5;
-/// An outer step has made progress when it leaves less than this share of the least residual so far.
+/// An outer step makes progress if its residual is below this fraction of the smallest residual so far.
 const PROGRESS: f64 = 0.7;
-/// Outer steps without progress, one after another, of which one more ends in projected gradient steps.
+/// Number of consecutive outer steps without progress before projected gradient steps.
 const MAX_STAGNATIONS: usize = 4;
-/// After the projected gradient steps the least residual is taken to be so much larger: the next outer step may lose a little.
+/// After the projected gradient steps the smallest residual is multiplied by this factor, so that the next outer step
+/// may increase it a little.
 const BEST_AFTER_GRADIENT: f64 = 2.0;
-/// The displacement is computed anew, in double precision, when its rounding is more than this share of the residual.
+/// The displacement is computed again in double precision if its rounding exceeds this fraction of the residual.
 const ROUNDING_SHARE: f64 = 0.01;
-/// Conjugate gradient steps on one prediction of stick and slip, at the most.
+/// Largest number of conjugate gradient steps on one prediction of stick and slip.
 const MAX_CG_STEPS: usize = 60;
-/// Conjugate gradients end when their residual is below so many times the violation of the limits.
+/// Conjugate gradients stop when their residual is below this multiple of the violation of the limits.
 const CG_EXIT: f64 = 3.0;
-/// Conjugate gradients end when their residual is below this share of the first one.
+/// Conjugate gradients stop when their residual is below this fraction of the first one.
 const CG_REDUCTION: f64 = 2e-2;
-/// Conjugate gradients end when their largest residual is below this share of what is asked of the answer.
+/// Conjugate gradients stop when their largest residual is below this fraction of the target residual.
 const CG_TOLERANCE: f64 = 0.5;
-/// Projected gradient steps, one after another.
+/// Number of consecutive projected gradient steps.
 const GRADIENT_STEPS: usize = 5;
 
-/// The tangential problem: |q| ≤ g in each cell, and where it is less the slip s = D + b − T q is zero; where it is not, s points
-/// along q. It minimises ½ qᵀTq − qᵀ(D + b) over the discs.
+/// The tangential problem: |q| ≤ g in each cell. If |q| < g, the slip s = D + b − T q is zero; otherwise s points
+/// along q. The solution minimises ½ qᵀTq − qᵀ(D + b) over the discs.
 #[derive(Clone, Copy)]
 pub(super) struct Task<'a> {
-    /// The most shear g that each cell bears, Pa.
+    /// Largest shear g of each cell, Pa.
     pub(super) limit: &'a Field,
-    /// The slip b without shear, but for the rigid-body displacement D, m.
+    /// The slip b without shear and without the rigid-body displacement D, m.
     pub(super) free_slip: &'a [Field; 2],
-    /// What is prescribed of the rigid bodies.
+    /// Prescribed displacement or force of the rigid bodies.
     pub(super) control: Rigid,
-    /// A displacement: the residual is a share of it.
+    /// Scale of the residual, a displacement.
     pub(super) scale: Metre,
-    /// Residual at which the answer is accepted.
+    /// Residual at which the solution is accepted.
     pub(super) tolerance: f64,
 }
 
-/// What is prescribed of the rigid bodies in the plane.
+/// Prescribed displacement or force of the rigid bodies in the plane.
 #[derive(Clone, Copy)]
 pub(super) enum Rigid {
     /// The rigid-body displacement D.
@@ -75,7 +76,7 @@ pub(super) struct Answer {
     pub(super) shear: [Field; 2],
     /// The rigid-body displacement D.
     pub(super) rigid: Vector,
-    /// max|φ| as a share of the scale, φ = c (q − P(q + s/c)) with P the projection onto the discs.
+    /// max|φ| over the scale, φ = c (q − P(q + s/c)) with P the projection onto the discs.
     pub(super) residual: f64,
 }
 
@@ -94,11 +95,11 @@ pub(super) trait Method {
         watch: &dyn Watch,
     ) -> Result<Answer>;
 
-    /// What all that has cost.
+    /// Returns the total cost.
     fn stats(&self) -> &Stats;
 }
 
-/// The method for contacts of this `history`.
+/// Creates the method for contacts with this `history`.
 pub(super) fn method(history: &History, operator: &mut dyn CoupledOperator) -> Box<dyn Method> {
     match history {
         History::None | History::Increment(_) => Box::new(ShearSolver::new(operator)),
@@ -108,12 +109,12 @@ pub(super) fn method(history: &History, operator: &mut dyn CoupledOperator) -> B
     }
 }
 
-/// Solves tangential problems on one grid, by a semismooth Newton iteration: a prediction of the cells that stick, and of
-/// those that slip, whose shear may only turn; then preconditioned conjugate gradients on these freedoms. The projection of
-/// the tractions onto their discs is deferred to the next prediction.
+/// Solves tangential problems on one grid by a semismooth Newton iteration. It predicts the cells that stick, and the
+/// cells that slip, whose shear may only turn. Preconditioned conjugate gradients then solve for these freedoms. The
+/// projection of the tractions onto their discs is deferred to the next prediction.
 ///
-/// Directions and their responses are computed in single precision, what they add up to in double: what single precision may have left
-/// in the answer counts in its residual.
+/// Directions and their responses are in single precision, and their sums in double precision. The residual includes
+/// the possible error of single precision.
 struct ShearSolver {
     cell_area: SquareMetre,
     influence: Influence,
@@ -147,7 +148,7 @@ impl Method for ShearSolver {
         let (mut best, mut stagnations, mut factor, mut tightening): (f64, usize, f64, f64) =
             (f64::INFINITY, 0, COMPLIANCE_FACTOR, 1.0);
         loop {
-            go_on(watch)?;
+            check_stop(watch)?;
             state.find_rigid_displacement(self.influence.compliance);
             let mut residual = state.residual(self.influence.compliance) / task.scale;
             let feasible = residual < tightening * task.tolerance;
@@ -196,7 +197,7 @@ impl Method for ShearSolver {
 }
 
 impl ShearSolver {
-    /// Computes the displacement of the cells under their whole shear, in double precision.
+    /// Computes the displacement of the cells under their total shear, in double precision.
     fn respond(&mut self, operator: &mut dyn CoupledOperator, state: &mut State) {
         self.stats.convolutions += 1.0;
         state.response = at(self.influence.displace(operator, &state.cells, &state.shear), &state.cells);
@@ -214,7 +215,7 @@ impl ShearSolver {
         self.influence.displace_in_single(operator, cells, direction)
     }
 
-    /// Takes the cells predicted to slip to the rims of their discs.
+    /// Moves the cells predicted to slip to the rims of their discs.
     fn step_to_rims(&mut self, operator: &mut dyn CoupledOperator, state: &mut State) {
         if let Some(direction) = state.direction_to_rims() {
             let (response, error) = self.convolve(operator, &state.cells, &direction);
@@ -222,8 +223,8 @@ impl ShearSolver {
         }
     }
 
-    /// Preconditioned conjugate gradients on the predicted freedoms, to the largest residual `wanted` or until the limits are
-    /// violated more.
+    /// Performs preconditioned conjugate gradients on the predicted freedoms, until the largest residual is
+    /// `wanted` or the violation of the limits is larger.
     fn conjugate_gradients(&mut self, operator: &mut dyn CoupledOperator, state: &mut State, wanted: f64) {
         self.influence.adapt(state);
 
@@ -269,8 +270,9 @@ impl ShearSolver {
         }
     }
 
-    /// Computes the preconditioned residual: by the inverse of the influence, scaled on both sides by the weight of a cell that
-    /// slips, the root of its own compliance over that with its slip compliance, and by the diagonal where that dominates.
+    /// Computes the preconditioned residual by the inverse of the influence. Slipping cells are scaled on both
+    /// sides by the square root of their own compliance over the compliance including slip. If the slip
+    /// compliance dominates, the diagonal is used.
     fn precondition(&mut self, state: &State, residual: &[Vector]) -> Vec<Vector> {
         let compliance = self.influence.compliance;
         let weight = |freedom: &Freedom| 1.0 / (1.0 + freedom.slip_compliance() / compliance).sqrt();
@@ -287,7 +289,8 @@ impl ShearSolver {
         z
     }
 
-    /// Projected gradient steps with an exact line search, from the tractions in their discs: the energy falls with each.
+    /// Performs projected gradient steps with an exact line search, from the tractions in their discs. Each step
+    /// lowers the energy.
     fn projected_gradient(&mut self, operator: &mut dyn CoupledOperator, state: &mut State) {
         if state.project() {
             self.respond(operator, state);

@@ -8,34 +8,34 @@ use crate::solver::friction::disc::{
 use crate::solver::friction::shear::{Answer, Rigid, Task};
 use crate::units::{Metre, SquareMetre};
 
-/// Shear below this share of its limit is inside its disc, not on the rim.
+/// Shear below this fraction of its limit is inside its disc, not on the rim.
 const INSIDE_RIM: f64 = 1.0 - 1e-12;
-/// A slipping cell whose [`Freedom::slip_compliance`] is more than so many times its own compliance hardly turns: its block
-/// of the Newton matrix is taken to be diagonal.
+/// A slipping cell whose [`Freedom::slip_compliance`] exceeds this multiple of its own compliance hardly turns. Its
+/// block of the Newton matrix is treated as diagonal.
 const DIAGONAL_DOMINANCE: f64 = 3.0;
-/// The complementarity parameter of a cell whose slip does not depend on its shear, as a share of the compliance of a cell: so small that
-/// all slip takes it to its limit.
+/// Complementarity parameter of a cell whose slip does not depend on its shear, relative to the compliance of a cell.
+/// It is so small that any slip takes the cell to its limit.
 const UNYIELDING_SHARE: f64 = 1e-9;
-/// Relative error of the sum of the shear that a projection may leave.
+/// Relative tolerance of the sum of the shear after a projection.
 const SUM_ACCURACY: f64 = 1e-12;
 
-/// How the shear of a cell may change in a Newton step.
+/// Freedom of the shear of a cell in a Newton step.
 #[derive(Clone, Copy)]
 pub(super) enum Freedom {
-    /// In both directions: the cell sticks.
+    /// The shear may change in both directions: the cell sticks.
     Stick,
-    /// Along the rim of its disc: the cell slips.
+    /// The shear may change along the rim of its disc: the cell slips.
     Slip {
         /// Unit vector along the rim.
         rim: Vector,
-        /// Slip over shear |s|/g > 0, m/Pa: the diagonal term of the Newton matrix that comes of the condition that the slip
-        /// points along the shear.
+        /// Slip over shear |s|/g > 0, m/Pa: the diagonal term of the Newton matrix due to the condition that
+        /// the slip points along the shear.
         slip_compliance: f64,
     },
 }
 
 impl Freedom {
-    /// The part of a vector along which the cell may move.
+    /// Returns the component of a vector along which the shear may change.
     pub(super) fn part(&self, a: Vector) -> Vector {
         match self {
             Self::Stick => a,
@@ -43,7 +43,7 @@ impl Freedom {
         }
     }
 
-    /// The projector onto these directions.
+    /// Returns the projector onto these directions.
     fn projector(&self) -> Symmetric {
         match self {
             Self::Stick => Symmetric::identity(1.0),
@@ -51,12 +51,12 @@ impl Freedom {
         }
     }
 
-    /// Whether the block of a cell of this `compliance` in the Newton matrix is taken to be diagonal.
+    /// Whether the block of a cell with this `compliance` in the Newton matrix is treated as diagonal.
     pub(super) fn is_diagonal(&self, compliance: f64) -> bool {
         self.slip_compliance() > DIAGONAL_DOMINANCE * compliance
     }
 
-    /// The slip compliance of a cell that slips; 0 of one that sticks.
+    /// Returns the slip compliance of a slipping cell, and 0 for a sticking cell.
     pub(super) fn slip_compliance(&self) -> f64 {
         match self {
             Self::Stick => 0.0,
@@ -70,9 +70,9 @@ impl Freedom {
 pub(super) struct State {
     /// Flat indices of the cells.
     pub(super) cells: Vec<usize>,
-    /// The most shear g that each bears.
+    /// Largest shear g of each cell.
     limit: Vec<f64>,
-    /// The slip b without shear, but for the rigid-body displacement.
+    /// The slip b without shear and without the rigid-body displacement.
     free_slip: Vec<Vector>,
     /// The sum Σ q under force control.
     pub(super) wanted: Option<Vector>,
@@ -82,11 +82,11 @@ pub(super) struct State {
     pub(super) shear: Vec<Vector>,
     /// The displacement T q of the cells under their shear.
     pub(super) response: Vec<Vector>,
-    /// Largest error of that displacement by single precision.
+    /// Error bound of this displacement due to single precision.
     pub(super) rounding: Metre,
     /// The predicted freedom of each cell.
     pub(super) freedom: Vec<Freedom>,
-    /// Whether the slip of each cell does not depend on the shear; none where it does in all cells.
+    /// Whether the slip of each cell is independent of the shear; none if no cell is.
     pub(super) unyielding: Option<Vec<bool>>,
 }
 
@@ -132,32 +132,34 @@ impl State {
         self.unyielding.as_ref().is_some_and(|cells| cells[k])
     }
 
-    /// The complementarity parameter of a cell: the compliance of a cell alone, or a small one where its slip does not depend on the shear.
+    /// Returns the complementarity parameter of a cell: the compliance of a single cell, or a small value if its
+    /// slip does not depend on the shear.
     fn parameter(&self, k: usize, compliance: f64) -> f64 {
         if self.is_unyielding(k) { UNYIELDING_SHARE * compliance } else { compliance }
     }
 
-    /// The freedom of each cell, its shear and its limit.
+    /// Iterates over the freedom of each cell, its shear and its limit.
     pub(super) fn cells(&self) -> impl Iterator<Item = (&Freedom, Vector, f64)> {
         self.freedom.iter().zip(&self.shear).zip(&self.limit).map(|((f, q), g)| (f, *q, *g))
     }
 
-    /// The slip s = D + b − T q of a cell.
+    /// Returns the slip s = D + b − T q of a cell.
     pub(super) fn slip(&self, k: usize) -> Vector {
         minus(add(self.rigid, self.free_slip[k]), self.response[k])
     }
 
-    /// The proposed shear q + s/c of a cell, in or outside its disc.
+    /// Returns the proposed shear q + s/c of a cell, inside or outside its disc.
     fn proposed(&self, k: usize, compliance: f64) -> Vector {
         add(self.shear[k], times(1.0 / self.parameter(k, compliance), self.slip(k)))
     }
 
-    /// The proposed shear of a cell, projected onto its disc.
+    /// Returns the proposed shear of a cell, projected onto its disc.
     pub(super) fn projected(&self, k: usize, compliance: f64) -> Vector {
         onto_disc(self.proposed(k, compliance), self.limit[k])
     }
 
-    /// Under force control, sets the rigid-body displacement D to that at which the projected shear bears the force. No cell is unyielding.
+    /// Under force control, sets the rigid-body displacement D at which the projected shear carries the force. No
+    /// cell is unyielding.
     pub(super) fn find_rigid_displacement(&mut self, compliance: f64) {
         let Some(wanted) = self.wanted else { return };
         let start = times(1.0 / compliance, self.rigid);
@@ -168,15 +170,15 @@ impl State {
         self.rigid = times(compliance, offset);
     }
 
-    /// The complementarity residual max|φ|, φ = c (q − P(q + s/c)), of the cells.
+    /// Returns the complementarity residual max|φ|, φ = c (q − P(q + s/c)), of the cells.
     pub(super) fn residual(&self, compliance: f64) -> Metre {
         let phi = |k| compliance * length(minus(self.shear[k], self.projected(k, compliance)));
-        // What is not a number is no answer, though a maximum would pass over it.
+        // A NaN is no solution, although a maximum would ignore it.
         (0..self.cells.len()).map(phi).fold(0.0, |m, phi| if phi > m || phi.is_nan() { phi } else { m })
     }
 
-    /// The larger of max|q − P(q + s/c)| as a share of the largest shear, and of what the shear misses of the force, as a share of
-    /// what all cells bear.
+    /// Returns the larger of two relative residuals: max|q − P(q + s/c)| over the largest shear, and the missing
+    /// force over the sum of the shears of all cells.
     pub(super) fn relative_residual(&self, compliance: f64) -> f64 {
         let largest =
             |most: f64, k| most.max(length(self.shear[k])).max(length(self.projected(k, compliance)));
@@ -189,12 +191,12 @@ impl State {
         residual.max(share(length(minus(wanted, sum)), size))
     }
 
-    /// Takes the proposed shear of all cells, projected onto their discs.
+    /// Sets the shear of all cells to the proposed shear, projected onto their discs.
     pub(super) fn take_projected(&mut self, compliance: f64) {
         self.shear = (0..self.cells.len()).map(|k| self.projected(k, compliance)).collect();
     }
 
-    /// The largest change of the shear from another, as a share of the largest shear.
+    /// Returns the largest difference from another shear, relative to the largest shear.
     pub(super) fn relative_change(&self, from: &[Vector]) -> f64 {
         let most = self.shear.iter().map(|q| length(*q)).fold(0.0, f64::max);
         let change =
@@ -211,7 +213,7 @@ impl State {
             *q = inside;
         }
         if let Some(wanted) = self.wanted {
-            // The cells inside their rims bear the difference; those on them stay there.
+            // The cells inside their rims take the difference; the cells on their rims stay there.
             let within: Vec<usize> = (0..self.shear.len())
                 .filter(|k| length(self.shear[*k]) < INSIDE_RIM * self.limit[*k])
                 .collect();
@@ -247,8 +249,9 @@ impl State {
         }
     }
 
-    /// What takes the cells predicted to slip to the rims of their discs, in the direction of their slip; under force control all
-    /// freedoms bear what that changes of the force. None where all are there.
+    /// Returns the step that takes the cells predicted to slip to the rims of their discs, in the direction of
+    /// their slip. Under force control all freedoms compensate the change of the force. Returns none if all cells
+    /// are already there.
     pub(super) fn direction_to_rims(&self) -> Option<Vec<Vector>> {
         let mut direction: Vec<Vector> = self
             .cells()
@@ -268,21 +271,21 @@ impl State {
         direction.iter().any(|d| *d != [0.0; 2]).then_some(direction)
     }
 
-    /// The residual of the Newton equations along the freedoms, under force control without its net force.
+    /// Returns the residual of the Newton equations along the freedoms; under force control without its net force.
     pub(super) fn newton_residual(&self) -> Vec<Vector> {
         let mut left: Vec<Vector> = (0..self.cells.len()).map(|k| self.newton_residual_of(k)).collect();
         self.balance(&mut left);
         left
     }
 
-    /// The residual of the Newton equations of a cell.
+    /// Returns the residual of the Newton equations of a cell.
     fn newton_residual_of(&self, k: usize) -> Vector {
         let freedom = &self.freedom[k];
         let along_shear = times(freedom.slip_compliance(), self.shear[k]);
         freedom.part(minus(self.slip(k), along_shear))
     }
 
-    /// Under force control, moves the rigid bodies by what takes the net force from the residual of the Newton equations.
+    /// Under force control, moves the rigid bodies so that the residual of the Newton equations has no net force.
     pub(super) fn balance_rigid_displacement(&mut self) {
         if self.wanted.is_some() {
             let net = (0..self.cells.len()).fold([0.0; 2], |sum, k| add(sum, self.newton_residual_of(k)));
@@ -290,12 +293,12 @@ impl State {
         }
     }
 
-    /// The sum of the projectors of all freedoms: the shear sum per unit vector added to all cells.
+    /// Returns the sum of the projectors of all freedoms: the shear sum per unit vector added to all cells.
     pub(super) fn mobility(&self) -> Symmetric {
         self.freedom.iter().fold(Symmetric::default(), |sum, f| sum.and(f.projector()))
     }
 
-    /// Under force control, projects `values` along the freedoms onto those that leave the force as it is.
+    /// Under force control, projects `values` along the freedoms so that they preserve the force.
     pub(super) fn balance(&self, values: &mut [Vector]) {
         if self.wanted.is_some() {
             let sum = values.iter().fold([0.0; 2], |sum, v| add(sum, *v));
@@ -304,7 +307,7 @@ impl State {
         }
     }
 
-    /// Norm of the violation of the limits: of what sticking cells bear beyond theirs, as a displacement.
+    /// Returns the norm of the violation of the limits by sticking cells, as a displacement.
     pub(super) fn violation(&self, compliance: f64) -> Metre {
         let beyond = self.cells().map(|(freedom, q, limit)| match freedom {
             Freedom::Stick => (length(q) - limit).max(0.0),
@@ -313,7 +316,7 @@ impl State {
         compliance * beyond.map(|b| b * b).sum::<f64>().sqrt()
     }
 
-    /// Moves by `step` times a direction, whose displacement is `response` but for an error.
+    /// Moves by `step` times a direction, with the displacement `response` and its error bound.
     pub(super) fn advance(&mut self, step: f64, direction: &[Vector], response: &[Vector], error: Metre) {
         self.rounding += step.abs() * error;
         self.shear.iter_mut().zip(direction).for_each(|(q, d)| *q = add(*q, times(step, *d)));

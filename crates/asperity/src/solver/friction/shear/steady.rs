@@ -10,70 +10,72 @@ use crate::solver::friction::shear::influence::{Influence, at};
 use crate::solver::friction::shear::state::{Freedom, State};
 use crate::solver::friction::shear::{Answer, Method, PROGRESS, Task};
 use crate::solver::friction::transport::{ShiftByCell, SteadyMethod};
-use crate::solver::watch::go_on;
+use crate::solver::watch::check_stop;
 use crate::solver::{Stats, TOLERANCE_REDUCTION, Watch};
 use crate::units::SquareMetre;
 
-/// Newton steps without progress, one after another, of which one more ends the iteration. The first ones may lose: where all sticks at
-/// first, the shear is large at the trailing edge.
+/// Largest number of consecutive Newton steps without progress. The first steps may increase the residual: in initial
+/// full stick the shear is large at the trailing edge.
 const MAX_STAGNATIONS: usize = 8;
-/// The Newton equations are solved to this share of their residual,
+/// The Newton equations are solved to this fraction of their residual.
 const REDUCTION: f64 = 0.1;
-/// less where the last step has reduced the residual much, down to this,
+/// Smallest fraction, after a step with a large reduction of the residual.
 const MIN_REDUCTION: f64 = 1e-6;
-/// and no further than to this share of what is asked of the answer.
+/// Fraction of the target residual that is always sufficient.
 const RESIDUAL_SHARE: f64 = 0.3;
-/// Products in one Newton step, at the most.
+/// Largest number of operator applications in one Newton step.
 const MAX_PRODUCTS: usize = 60;
-/// First weight of the proximal terms, as a share of the compliance of a cell.
+/// Initial weight of the proximal terms, relative to the compliance of a cell.
 const FIRST_WEIGHT: f64 = 0.1;
-/// A proximal step that has converged multiplies the weight by this, down to [`MIN_WEIGHT`].
+/// Factor of the weight after a converged proximal step, down to [`MIN_WEIGHT`].
 const WEIGHT_REDUCTION: f64 = 0.1;
-/// The least weight.
+/// Smallest weight.
 const MIN_WEIGHT: f64 = 1e-8;
-/// A proximal step that has not converged multiplies the weight by this, up to [`MAX_WEIGHT`].
+/// Factor of the weight after a proximal step that has not converged, up to [`MAX_WEIGHT`].
 const WEIGHT_GROWTH: f64 = 10.0;
-/// The largest weight.
+/// Largest weight.
 const MAX_WEIGHT: f64 = 1e4;
-/// Above this weight the Newton matrix of a proximal step is taken to be diagonal.
+/// Above this weight the Newton matrix of a proximal step is treated as diagonal.
 const DOMINANT_WEIGHT: f64 = 0.3;
-/// After a proximal step that has not converged, so many leave the weight as it is.
+/// Number of proximal steps with a constant weight after one that has not converged.
 const STEPS_AT_WEIGHT: usize = 3;
-/// Two proximal steps one after the other whose changes have at least this cosine are extrapolated.
+/// Two consecutive proximal steps are extrapolated if their changes have at least this cosine.
 const MIN_COSINE: f64 = 0.9;
-/// The longest extrapolation, in steps.
+/// Longest extrapolation, in steps.
 const MAX_EXTRAPOLATION: f64 = 1e3;
-/// Proximal steps, at the most.
+/// Largest number of proximal steps.
 const MAX_PROXIMAL_STEPS: usize = 300;
-/// A proximal step is solved until its residual is this share of the change of the shear in it,
+/// A proximal step is solved until its residual is below this fraction of the change of the shear in it.
 const PROXIMAL_REDUCTION: f64 = 0.1;
-/// and no further than to this share of what is asked of the answer.
+/// Fraction of the target residual that is always sufficient.
 const PROXIMAL_SHARE: f64 = 0.1;
-/// The Newton equations of a proximal step are solved to this share of their residual.
+/// The Newton equations of a proximal step are solved to this fraction of their residual.
 const PROXIMAL_NEWTON_REDUCTION: f64 = 1e-2;
-/// Above this weight projected steps contract.
+/// Above this weight projected steps are a contraction.
 const CONTRACTING_WEIGHT: f64 = 3.0;
-/// Projected steps in a proximal step, at the most.
+/// Largest number of projected steps in a proximal step.
 const MAX_PROJECTED_STEPS: usize = 50;
 
-/// Solves tangential problems of steady rolling on one grid. As the contact moves on by a cell, the material of the next cell arrives
-/// with the displacement that it has there, S T q, and slips by
+/// Solves tangential problems of steady rolling on one grid. While the contact moves by one cell, the material of the
+/// next cell arrives with its displacement S T q, and slips by
 ///
 /// ```text
 /// Δs = D + b − (1 − S) T q
 /// ```
 ///
-/// which is zero where |q| is less than g, and points along q where it is not. The matrix (1 − S) T is not symmetric, but its
-/// symmetric part is positive: a variational inequality with one answer. The iteration is that of [`ShearSolver`], a prediction of
-/// stick and slip after each of which Newton's equations are solved, here by minimal residuals.
+/// The slip is zero if |q| < g, and otherwise points along q. The matrix (1 − S) T is not symmetric, but its
+/// symmetric part is positive, so that this variational inequality has a unique solution. The iteration is that of
+/// [`ShearSolver`]: after each prediction of stick and slip it solves Newton's equations, here by GMRES.
 ///
-/// The preconditioner follows the material: without other cells a Newton step Δq displaces by u = c Δq, and (u − S u) + κ Δq = r along
-/// a line from the leading edge; with that u the shear is that of the [`Influence`]'s approximate inverse.
+/// The preconditioner follows the material. For single cells a Newton step Δq causes the displacement u = c Δq, and
+/// (u − S u) + κ Δq = r is solved along each line from the leading edge. The approximate inverse of the [`Influence`]
+/// gives the shear for this u.
 ///
-/// Newton's iteration may not converge. It is sure not to where all cells of a line along the rolling touch under a periodic boundary: a
-/// uniform shear of them causes no slip, and the matrix is singular. The proximal point method (Rockafellar, SIAM J. Control Optim. 14,
-/// 877 (1976)) converges for any monotone matrix. It adds a weight times c (q − q₀) to the displacement, solves this problem, and takes
-/// its answer for the next q₀ until the added term vanishes.
+/// Newton's iteration may not converge. It never converges if all cells of a line along the rolling touch under a
+/// periodic boundary, because their uniform shear causes no slip and the matrix is singular. The proximal point
+/// method (Rockafellar, SIAM J. Control Optim. 14, 877 (1976)) converges for any monotone matrix. It adds a weight
+/// times c (q − q₀) to the displacement and solves this problem. The solution is the next q₀, until the added term
+/// vanishes.
 pub(super) struct SteadySolver {
     cell_area: SquareMetre,
     influence: Influence,
@@ -84,9 +86,9 @@ pub(super) struct SteadySolver {
     stats: Stats,
 }
 
-/// The displacement w (q − q₀) that is added to that of the cells.
+/// The displacement w (q − q₀) that is added to the displacement of the cells.
 struct Proximal {
-    /// The compliance w as a share of that of a cell.
+    /// The compliance w relative to the compliance of a cell.
     weight: f64,
     /// The shear q₀ of each cell in contact.
     from: Vec<Vector>,
@@ -106,7 +108,7 @@ impl SteadySolver {
 }
 
 impl Method for SteadySolver {
-    /// The residual is max|q − P(q + Δs/c)| as a share of the largest shear.
+    /// The residual is max|q − P(q + Δs/c)| over the largest shear.
     fn solve(
         &mut self,
         operator: &mut dyn CoupledOperator,
@@ -130,10 +132,10 @@ impl Method for SteadySolver {
     }
 }
 
-/// What stays the same in all steps of a solution.
+/// Data that are the same in all steps of a solution.
 struct Contact<'a> {
     task: &'a Task<'a>,
-    /// For each cell the place of that whose material arrives there.
+    /// Index of the cell whose material arrives at each cell.
     coming: Vec<Option<usize>>,
     max_convolutions: usize,
     watch: &'a dyn Watch,
@@ -151,13 +153,13 @@ impl SteadySolver {
         contact: &Contact,
     ) -> Result<Answer> {
         let (task, compliance) = (contact.task, self.influence.compliance);
-        // Its rigid displacement is that of cells that are all alike.
+        // Its rigid displacement assumes identical cells.
         self.respond(operator, &mut state);
         state.find_rigid_displacement(compliance);
         self.mark_unyielding(&mut state);
         let (mut best, mut last, mut stagnations, mut tightening) = (f64::INFINITY, f64::INFINITY, 0, 1.0);
         loop {
-            go_on(contact.watch)?;
+            check_stop(contact.watch)?;
             let mut residual = state.relative_residual(compliance);
             if residual < tightening * task.tolerance {
                 if state.project() {
@@ -177,7 +179,7 @@ impl SteadySolver {
             if stagnations > MAX_STAGNATIONS || self.has_cost_too_much(contact) {
                 return Err(self.not_converged(residual, task));
             }
-            // As good as the quadratic convergence of the last step lets the next one be.
+            // The accuracy follows from the quadratic convergence of the last step.
             let wanted = RESIDUAL_SHARE * tightening * task.tolerance / residual;
             let reduction =
                 (residual / last).powi(2).clamp(MIN_REDUCTION, REDUCTION).max(wanted.min(REDUCTION));
@@ -220,7 +222,7 @@ impl SteadySolver {
                 }
                 let change: Vec<Vector> =
                     state.shear.iter().zip(&before.shear).map(|(q, from)| minus(*q, *from)).collect();
-                // A shear that causes no slip grows by the same in each step until cells slip.
+                // A shear that causes no slip grows by the same amount in each step until cells slip.
                 let steps = last_change.as_ref().map_or(0.0, |last| extrapolation(last, &change));
                 if steps > 0.0 {
                     state.shear.iter_mut().zip(&change).for_each(|(q, d)| *q = add(*q, times(steps, *d)));
@@ -243,8 +245,8 @@ impl SteadySolver {
         Err(self.not_converged(residual, task))
     }
 
-    /// Solves the problem with its proximal term by Newton's iteration, and where that stagnates under a large weight by projected steps,
-    /// which then contract. Returns whether it has converged.
+    /// Solves the problem with its proximal term by Newton's iteration. If this stagnates under a large weight,
+    /// projected steps follow, which are then a contraction. Returns whether it has converged.
     fn proximal_step(
         &mut self,
         operator: &mut dyn CoupledOperator,
@@ -264,7 +266,7 @@ impl SteadySolver {
         let before = state.clone();
         let (mut best, mut stagnations) = (state.relative_residual(compliance), 0);
         while stagnations <= MAX_STAGNATIONS && !self.has_cost_too_much(contact) {
-            go_on(contact.watch)?;
+            check_stop(contact.watch)?;
             if !self.newton_step(operator, state, &contact.coming, PROXIMAL_NEWTON_REDUCTION) {
                 break;
             }
@@ -283,7 +285,7 @@ impl SteadySolver {
             return Ok(false);
         }
         for _ in 0..MAX_PROJECTED_STEPS {
-            go_on(contact.watch)?;
+            check_stop(contact.watch)?;
             state.take_projected(compliance);
             self.respond(operator, state);
             state.find_rigid_displacement(compliance);
@@ -295,12 +297,12 @@ impl SteadySolver {
         Ok(false)
     }
 
-    /// Whether more convolutions were needed than are allowed.
+    /// Whether the number of convolutions exceeds its limit.
     fn has_cost_too_much(&self, contact: &Contact) -> bool {
         self.stats.convolutions as usize >= contact.max_convolutions
     }
 
-    /// Marks the cells to which their own material comes: their slip does not depend on the shear.
+    /// Marks the cells that receive their own material. Their slip does not depend on the shear.
     fn mark_unyielding(&self, state: &mut State) {
         let stays = state.cells.iter().map(|cell| self.ahead.of(*cell) == *cell).collect::<Vec<_>>();
         state.unyielding = stays.contains(&true).then_some(stays);
@@ -341,7 +343,8 @@ impl SteadySolver {
         }
     }
 
-    /// For each cell the place in the list of that whose material arrives there, if that is in contact and comes later.
+    /// Returns, for each cell, the index in the list of the cell whose material arrives there, if this cell is in
+    /// contact and later in the list.
     fn cells_ahead(&self, state: &State) -> Vec<Option<usize>> {
         state
             .cells
@@ -355,8 +358,8 @@ impl SteadySolver {
             .collect()
     }
 
-    /// Predicts the freedoms of the cells, solves their Newton equations to that `reduction` of their residual, and computes the
-    /// response to the new shear. Returns whether the equations have a solution.
+    /// Predicts the freedoms of the cells, solves their Newton equations to this `reduction` of their residual,
+    /// and computes the response to the new shear. Returns whether the equations have a solution.
     fn newton_step(
         &mut self,
         operator: &mut dyn CoupledOperator,
@@ -370,7 +373,7 @@ impl SteadySolver {
             state.advance(1.0, &direction, &response, 0.0);
         }
         self.influence.adapt(state);
-        // What the preconditioner makes of a rigid displacement, by which it leaves the force as it is.
+        // The preconditioned rigid displacement, with which the step preserves the force.
         let under_rigid = state.wanted.map(|_| {
             [[1.0, 0.0], [0.0, 1.0]].map(|rigid| {
                 let residual: Vec<Vector> = state.freedom.iter().map(|f| f.part(rigid)).collect();
@@ -414,7 +417,7 @@ impl SteadySolver {
         solved
     }
 
-    /// An approximate solution of the Newton equations without regard to the force.
+    /// Computes an approximate solution of the Newton equations without the force condition.
     fn precondition(&mut self, state: &State, coming: &[Option<usize>], residual: &[Vector]) -> Vec<Vector> {
         let compliance = self.influence.compliance;
         if let Some(Proximal { weight, .. }) = self.proximal.as_ref().filter(|p| p.weight > DOMINANT_WEIGHT) {
@@ -442,7 +445,8 @@ impl SteadySolver {
     }
 }
 
-/// The steps by which the sum of a geometric series exceeds its present term, from its last and its present one; 0 where they are none.
+/// Returns the number of further steps in the sum of a geometric series, from its last and its present term; 0 for
+/// none.
 fn extrapolation(last: &[Vector], present: &[Vector]) -> f64 {
     let product = |a: &[Vector], b: &[Vector]| a.iter().zip(b).map(|(a, b)| dot(*a, *b)).sum::<f64>();
     let (along, last, present) = (product(last, present), product(last, last), product(present, present));
@@ -454,7 +458,8 @@ fn extrapolation(last: &[Vector], present: &[Vector]) -> f64 {
     if ratio < 1.0 { (ratio / (1.0 - ratio)).min(MAX_EXTRAPOLATION) } else { MAX_EXTRAPOLATION }
 }
 
-/// The sum of vectors.
+/// Returns the sum of vectors.
+
 fn sum(vectors: &[Vector]) -> Vector {
     vectors.iter().fold([0.0; 2], |sum, v| add(sum, *v))
 }

@@ -1,4 +1,4 @@
-//! Rules of a single body, and of two.
+//! Rules of one body, and of two.
 
 use super::super::Case;
 use super::Rule;
@@ -21,8 +21,8 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`hardness` of a film",
         with: "no `hardness` of its body",
-        message: "the film has a 'hardness', its body has none",
-        hint: "give the body a 'hardness', or leave that of the film out",
+        message: "the film has a 'hardness', but its body has none",
+        hint: "give the body a 'hardness', or leave out the hardness of the film",
         at: "lower.film.hardness",
         example: &[
             r#"lower.film = { law = "mechano-chemical", max_thickness = "150 nm", x = 1e-16, c3 = 0, c4 = 0, hardness = "2 GPa" }"#,

@@ -1,4 +1,4 @@
-//! Keys that several examples share, as a case file writes them above its tables.
+//! Keys shared by several examples, as written above the tables of a case file.
 
 /// A body wears.
 pub(super) const WEARS: &str = r#"lower.wear = { coefficient = "1e-7 mm3/(N m)" }"#;
@@ -10,7 +10,7 @@ pub(super) const GROWS: &str =
 /// A body deforms plastically.
 pub(super) const FLOWS: &str = r#"lower.plasticity = { yield_stress = "1.5 GPa" }"#;
 
-/// The volume of bodies that deform plastically.
+/// The volume of elasto-plastic bodies.
 pub(super) const VOLUME: &str = r#"plasticity = { depth = "20 um", layers = 16 }"#;
 
 /// A body is coated.
@@ -55,5 +55,5 @@ pub(super) const RUBS: &str = "friction = { coefficient = 0.3 }";
 /// The bodies roll.
 pub(super) const ROLLS: &str = "friction = { coefficient = 0.3, creepage = 0.001 }";
 
-/// Passes stand for others.
+/// Passes are extrapolated.
 pub(super) const JUMPS: &str = "acceleration = {}";

@@ -66,7 +66,7 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "`spin`",
-        with: "bodies that do not roll",
+        with: "no rolling",
         message: "'spin' needs a rolling contact",
         hint: "give `creepage`, which may be 0, or `rolling_force`",
         at: "friction.spin",

@@ -1,7 +1,7 @@
-//! What does not go together in a case file: one table.
+//! Excluded combinations of a case file, in one table.
 //!
-//! Each row has a message, a hint and the key that the error points to. A case is held against the rows once all of its tables
-//! are read, `docs/input/combinations.md` lists them, and a test walks them by their examples.
+//! Each row has a message, a hint and the key that the error points to. A case is checked against the rows once all of its
+//! tables are read. `docs/input/combinations.md` lists them, and a test runs their examples.
 
 mod bodies;
 mod examples;
@@ -18,34 +18,34 @@ use super::{Body, Case, FrictionSpec, MotionSpec};
 use crate::error::{Error, Result};
 use crate::motion::Strategy;
 
-/// Two things that a case file cannot have together, or of which one needs the other.
+/// A rule: two entries of a case file exclude each other, or one requires the other.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct Rule {
-    /// What is refused, in Markdown.
+    /// The excluded entry, in Markdown.
     pub this: &'static str,
-    /// With what it is refused, in Markdown.
+    /// The entry that excludes it, in Markdown.
     pub with: &'static str,
     /// The message of the error. `{key}` stands for the key that it points to, `{path}` for its dotted name, `{value}` for its
     /// value.
     pub message: &'static str,
-    /// What to do instead; empty where the message says it.
+    /// The hint; empty if the message is enough.
     pub hint: &'static str,
     /// The dotted key that the error of the example points to.
     pub at: &'static str,
-    /// Keys that break the rule, as a case file writes them above its tables.
+    /// Keys that break the rule, as written above the tables of a case file.
     pub example: &'static [&'static str],
-    /// The entry of the case file that breaks it.
+    /// Returns the entry of the case file that breaks the rule.
     broken: for<'a> fn(&Tables<'a>) -> Option<Entry<'a>>,
 }
 
-/// The case as it is read, with its tables.
+/// The case, with its tables.
 struct Tables<'a> {
     root: &'a Table<'a>,
     case: &'a Case,
 }
 
-/// An error if the case has what does not go together.
+/// Returns an error if the case breaks a rule.
 pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
     let tables = Tables { root, case };
     match rules().find_map(|rule| Some(rule.error(&(rule.broken)(&tables)?))) {
@@ -54,7 +54,7 @@ pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
     }
 }
 
-/// What does not go together in a case file, in the order in which a case is held against it.
+/// Returns the rules of a case file, in the order in which a case is checked.
 pub fn rules() -> impl Iterator<Item = &'static Rule> {
     let tables: [&[Rule]; 8] = [
         bodies::RULES,
@@ -78,7 +78,7 @@ impl Rule {
 }
 
 impl<'a> Tables<'a> {
-    /// The entry of a dotted key, where it is given.
+    /// Returns the entry of a dotted key, if it is given.
     fn at(&self, key: &str) -> Option<Entry<'a>> {
         fn find<'a>(table: &Table<'a>, key: &str) -> Option<Entry<'a>> {
             match key.split_once('.') {
@@ -89,12 +89,12 @@ impl<'a> Tables<'a> {
         find(self.root, key)
     }
 
-    /// The first of some keys of a table that is given.
+    /// Returns the first given key of these keys of a table.
     fn first(&self, table: &str, keys: &[&str]) -> Option<Entry<'a>> {
         keys.iter().find_map(|key| self.at(&format!("{table}.{key}")))
     }
 
-    /// The entry of a key in the first body of this kind that gives it.
+    /// Returns the entry of a key in the first body of this kind that has it.
     fn of_body(&self, key: &str, is: impl Fn(&Body) -> bool) -> Option<Entry<'a>> {
         let bodies = [("lower", &self.case.lower), ("upper", &self.case.upper)];
         bodies
@@ -103,17 +103,17 @@ impl<'a> Tables<'a> {
             .find_map(|(name, _)| self.at(&format!("{name}.{key}")))
     }
 
-    /// A film that changes with time.
+    /// Returns a film that changes with time.
     fn film_that_grows(&self) -> Option<Entry<'a>> {
         self.of_body("film", |body| body.film.is_some_and(|film| film.law.takes_time()))
     }
 
-    /// The key of a sweep in [contact].
+    /// Returns the key of a sweep in [contact].
     fn sweep(&self) -> Option<Entry<'a>> {
         self.first("contact", &super::prescribed::LISTS)
     }
 
-    /// The stages of the history, or the history where it has none.
+    /// Returns the stages of the history, or the history if it has none.
     fn stages(&self) -> Vec<Entry<'a>> {
         let Some(history) = self.at("history") else { return Vec::new() };
         match history.items("") {
@@ -122,14 +122,14 @@ impl<'a> Tables<'a> {
         }
     }
 
-    /// The first of some keys that a stage of the history gives.
+    /// Returns the first given key of these keys in a stage of the history.
     fn of_stage(&self, keys: &[&str]) -> Option<Entry<'a>> {
         let stages = self.stages().into_iter().filter_map(|stage| stage.table().ok());
         let mut given = stages.filter_map(|stage| keys.iter().find_map(|key| stage.get(key)));
         given.next()
     }
 
-    /// The boundary, where it is periodic along one axis alone.
+    /// Returns the boundary, if it is periodic along one axis only.
     fn line(&self) -> Option<Entry<'a>> {
         let boundary = self.case.contact.boundary;
         self.at("contact.boundary").filter(|_| boundary.repeats(0) != boundary.repeats(1))
@@ -143,12 +143,12 @@ impl<'a> Tables<'a> {
         self.case.friction.as_ref()
     }
 
-    /// The motion of an overlap.
+    /// Returns the motion of an overlap.
     fn overlap(&self) -> Option<&'a MotionSpec> {
         self.motion().filter(|motion| motion.strategy == Strategy::Overlap)
     }
 
-    /// The motion of a shift.
+    /// Returns the motion of a shift.
     fn shift(&self) -> Option<&'a MotionSpec> {
         self.motion().filter(|motion| motion.strategy != Strategy::Overlap)
     }
@@ -171,18 +171,18 @@ impl<'a> Tables<'a> {
         [&self.case.lower, &self.case.upper].iter().any(|body| body.hardness.yields())
     }
 
-    /// Whether passes extrapolate.
+    /// Whether passes are extrapolated.
     fn jumps(&self) -> bool {
         self.case.acceleration.is_some_and(|acceleration| acceleration.max_jump > 1)
     }
 
-    /// The place of a flash temperature, where one is computed.
+    /// Returns the entry that requests a flash temperature.
     fn flash(&self) -> Option<Entry<'a>> {
         let wanted = self.case.temperature.is_some_and(|temperature| temperature.every > 0);
         self.at("temperature.every").or(self.at("temperature")).filter(|_| wanted)
     }
 
-    /// The key `every`, where the flash temperature of a computed pass is kept for others.
+    /// Returns the key `every` if other passes use the flash temperature of a computed pass.
     fn seldom(&self) -> Option<Entry<'a>> {
         let every = self.case.temperature.map_or(0, |temperature| temperature.every);
         self.at("temperature.every").filter(|_| every > 1)

@@ -117,7 +117,7 @@ pub(super) const RULES: &[Rule] = &[
         this: "[sliding]",
         with: "[[history]]",
         message: "[sliding] does not take a [[history]]",
-        hint: "the load or approach in [contact] holds all the way",
+        hint: "the load or approach in [contact] holds over the whole distance",
         at: "sliding",
         example: &[WEARS, SLIDES, r#"history = [{ load = "1 N" }]"#],
         broken: |tables| tables.at("history").and(tables.at("sliding")),

@@ -1,4 +1,4 @@
-//! Rules of coatings, and of the stress under the surface.
+//! Rules of coatings, and of the stress below the surface.
 
 use super::Rule;
 use super::examples::{AT_ANY_SPEED, COATED, LINE};
@@ -7,7 +7,7 @@ use crate::solver::Coupling;
 pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`step` in [subsurface]",
-        with: "a contact at rest",
+        with: "a static contact",
         message: "'step' needs [motion]",
         hint: "leave it out: a static contact has one position",
         at: "subsurface.step",
@@ -16,7 +16,7 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "[subsurface]",
-        with: "a boundary periodic along one axis alone",
+        with: "a boundary periodic along one axis only",
         message: "[subsurface] does not support a boundary that is periodic along one axis only",
         hint: "leave [subsurface] out, or use \"free\" or \"periodic\"",
         at: "contact.boundary",
@@ -26,7 +26,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "a coating",
         with: "[friction] of a static contact",
-        message: "what shear does to a coated body is not known yet",
+        message: "coated bodies do not support shear yet",
         hint: "leave [friction] or the coating out",
         at: "friction",
         example: &[COATED, r#"friction = { coefficient = 0.3, force = "0.1 N" }"#],
@@ -34,8 +34,8 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "a coating",
-        with: "[friction] with another `coupling` than `\"none\"`",
-        message: "what shear does to a coated body is not known yet",
+        with: "[friction] with a `coupling` other than `\"none\"`",
+        message: "coated bodies do not support shear yet",
         hint: "set `coupling = \"none\"`, or leave the coating out",
         at: "friction.coupling",
         example: &[COATED, r#"friction = { coefficient = 0.3, coupling = "full" }"#, AT_ANY_SPEED],
@@ -48,7 +48,7 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "a coating",
-        with: "a boundary periodic along one axis alone",
+        with: "a boundary periodic along one axis only",
         message: "a coating does not support a boundary that is periodic along one axis only",
         hint: "use \"free\" or \"periodic\", or leave the coating out",
         at: "contact.boundary",

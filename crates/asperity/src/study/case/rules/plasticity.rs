@@ -1,4 +1,4 @@
-//! Rules of bodies that deform plastically below their surfaces.
+//! Rules of elasto-plastic bodies.
 
 use super::super::CounterBody;
 use super::Rule;
@@ -108,7 +108,7 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "a body's plasticity",
-        with: "a boundary periodic along one axis alone",
+        with: "a boundary periodic along one axis only",
         message: "elasto-plastic bodies do not support a boundary that is periodic along one axis only",
         hint: "use \"free\" or \"periodic\", or give the bodies a `hardness`",
         at: "contact.boundary",
@@ -126,7 +126,7 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "`keep` in [plasticity]",
-        with: "a contact at rest",
+        with: "a static contact",
         message: "'keep' needs [motion]",
         hint: "leave it out: a static contact stores its final plastic state",
         at: "plasticity.keep",
@@ -148,7 +148,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "`increments` in [plasticity]",
         with: "`increments` in [friction]",
-        message: "'increments' is given in [plasticity] and in [friction]",
+        message: "'increments' is given in [plasticity] and in [friction], expected in one of them",
         hint: "leave it out: [friction] sets the increments",
         at: "plasticity.increments",
         example: &[

@@ -32,7 +32,7 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "wear, a film",
-        with: "a contact at rest",
+        with: "a static contact",
         message: "{key} needs [motion] or [sliding]",
         hint: "add a [motion] with its `speed`, or [sliding]",
         at: "lower.wear",
@@ -82,7 +82,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "wear, a film",
         with: "`plastic_update = \"step\"`",
-        message: "'plastic_update' is {value}, expected \"pass\" where bodies wear or grow films",
+        message: "'plastic_update' is {value}, expected \"pass\" with wear or films",
         hint: "",
         at: "motion.plastic_update",
         example: &[WEARS, r#"motion = { speed = "0.5 m/s", plastic_update = "step" }"#],
@@ -169,8 +169,8 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "`max_jump` above 1",
-        with: "a one-way shift whose speeds have another ratio than 0 or 1",
-        message: "extrapolation needs passes that repeat: with these speeds the surfaces meet elsewhere in each pass",
+        with: "a one-way shift with a ratio of speeds other than 0 or 1",
+        message: "extrapolation needs passes that repeat: at these speeds the bodies meet at other places in each pass",
         hint: "set `max_jump = 1`, one speed to 0, both speeds equal, or `path = \"reciprocating\"`",
         at: "acceleration",
         example: &[

@@ -10,9 +10,9 @@ use crate::motion::PlasticUpdate;
 pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "thermal constants of [lower]",
-        with: "none of [upper]",
-        message: "[lower] has thermal constants, [upper] has none",
-        hint: "give them to [upper], too: both bodies conduct the heat",
+        with: "no thermal constants of [upper]",
+        message: "[lower] has thermal constants, but [upper] has none",
+        hint: "give [upper] thermal constants too: both bodies conduct heat",
         at: "lower.conductivity",
         example: &[CONDUCTS, MOVES, WARM],
         broken: |tables| {
@@ -22,9 +22,9 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "thermal constants of [upper]",
-        with: "none of [lower]",
-        message: "[upper] has thermal constants, [lower] has none",
-        hint: "give them to [lower], too: both bodies conduct the heat",
+        with: "no thermal constants of [lower]",
+        message: "[upper] has thermal constants, but [lower] has none",
+        hint: "give [lower] thermal constants too: both bodies conduct heat",
         at: "upper.conductivity",
         example: &[UPPER_CONDUCTS, MOVES, WARM],
         broken: |tables| {
@@ -46,7 +46,7 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "[temperature]",
-        with: "a contact at rest",
+        with: "a static contact",
         message: "[temperature] needs [motion] or [sliding]",
         hint: "",
         at: "temperature",

@@ -12,7 +12,7 @@ use crate::units::Dimension;
 const RATIO: Value<f64> = number(Between { least: 0.0, most: 0.5, open: [false, false] });
 
 /// An electrical resistivity.
-const RESISTIVITY_VALUE: Value<f64> = quantity(Dimension::Resistivity, AboveZero);
+const RESISTANCE: Value<f64> = quantity(Dimension::Resistivity, AboveZero);
 
 /// `[lower]` and `[upper]`.
 pub(in crate::study) mod both {
@@ -25,10 +25,10 @@ pub(in crate::study) mod both {
             "young",
             quantity(Dimension::Pressure, AboveZeroOrInfinite("a rigid body")),
             "\"210 GPa\"",
-            "Young's modulus; of a coated body, that of the material under the coating; at most one body without a coating is rigid",
+            "Young's modulus; for a coated body, the modulus below the coating; at most one uncoated body may be rigid",
         );
         POISSON: Typed<f64> =
-            required("poisson", RATIO, "0.3", "Poisson's ratio; of a coated body, that of the material under the coating");
+            required("poisson", RATIO, "0.3", "Poisson's ratio; for a coated body, the ratio below the coating");
         HARDNESS: Typed<Hardness> = super::super::typed::defaulted(
             "hardness",
             other(
@@ -41,39 +41,39 @@ pub(in crate::study) mod both {
             "largest pressure of the body, or a map of it",
         );
         COATING: Nested =
-            table("coating", Absent("none"), "an elastic layer that covers it, see [below](#lowercoating-and-uppercoating)");
+            table("coating", Absent("none"), "elastic surface layer, see [below](#lowercoating-and-uppercoating)");
         TOPOGRAPHY: Nested = table("topography", Required, "its surface");
-        WEAR: Nested = table("wear", Absent("none"), "how it wears, see [below](#running-in)");
-        FILM: Nested = table("film", Absent("none"), "the tribofilm that grows on it, see [below](#running-in)");
+        WEAR: Nested = table("wear", Absent("none"), "wear law, see [below](#running-in)");
+        FILM: Nested = table("film", Absent("none"), "growing tribofilm, see [below](#running-in)");
         PLASTICITY: Nested =
-            table("plasticity", Absent("elastic"), "how it deforms plastically below its surface, see [below](#plasticity)");
+            table("plasticity", Absent("elastic"), "plastic deformation below the surface, see [below](#plasticity)");
         CONDUCTIVITY: Optional<f64> = optional(
             "conductivity",
-            quantity(Dimension::Conductivity, AboveZeroOrInfinite("a body without resistance of its own, with [conductance] alone")),
-            "not known",
+            quantity(Dimension::Conductivity, AboveZeroOrInfinite("no resistance, only for [conductance]")),
+            "unknown",
             "\"46 W/(m K)\"",
-            "thermal conductivity, for a flash temperature and for [conductance]; of both bodies",
+            "thermal conductivity, for the flash temperature and for [conductance]; give it for both bodies",
         );
         RESISTIVITY: Optional<f64> = optional(
             "resistivity",
-            RESISTIVITY_VALUE,
-            "not known",
+            RESISTANCE,
+            "unknown",
             "\"1.7e-8 ohm m\"",
-            "electrical resistivity, for [conductance] with `kind = \"electrical\"`; of both bodies",
+            "electrical resistivity, for [conductance] with `kind = \"electrical\"`; give it for both bodies",
         );
         HEAT_CAPACITY: Optional<f64> = optional(
             "heat_capacity",
             quantity(Dimension::HeatCapacity, AboveZero),
-            "not known",
+            "unknown",
             "\"460 J/(kg K)\"",
-            "heat capacity, beside `conductivity`",
+            "heat capacity; required with `conductivity`",
         );
         DENSITY: Optional<f64> = optional(
             "density",
             quantity(Dimension::Density, AboveZero),
-            "not known",
+            "unknown",
             "\"7850 kg/m3\"",
-            "density, beside `conductivity`",
+            "density; required with `conductivity`",
         );
     }
 }
@@ -87,7 +87,7 @@ pub(in crate::study) mod upper {
         MOUNT: Optional<Mount> = optional(
             "mount",
             choice::<Mount>(),
-            "`\"turned-over\"`; `\"as-is\"` of an underside",
+            "`\"turned-over\"`; `\"as-is\"` for an underside",
             "\"as-is\"",
             "`[upper]` only: orientation of its heights",
         );
@@ -105,14 +105,14 @@ pub(in crate::study) mod coating {
         CONDUCTIVITY: Optional<f64> = optional(
             "conductivity",
             quantity(Dimension::Conductivity, AboveZero),
-            "not known",
+            "unknown",
             "\"20 W/(m K)\"",
             "its thermal conductivity, for [conductance]",
         );
         RESISTIVITY: Optional<f64> = optional(
             "resistivity",
-            RESISTIVITY_VALUE,
-            "not known",
+            RESISTANCE,
+            "unknown",
             "\"1e-6 ohm m\"",
             "its electrical resistivity, for [conductance]",
         );

@@ -1,4 +1,4 @@
-//! The keys of a map of the hardness.
+//! Keys of a hardness map.
 
 use super::typed::{Optional, TEXT, Typed, optional, other, required, section};
 use crate::units::Dimension;
@@ -12,10 +12,10 @@ pub(in crate::study) mod map {
             "file",
             TEXT,
             "\"hardness.npy\"",
-            "a file of numbers alone: npy, csv, text, tiff or HDF5, relative to the case file",
+            "file of numbers (npy, csv, text, tiff or HDF5), relative to the case file",
         );
         CHANNEL: Optional<String> =
-            optional("channel", TEXT, "the first", "\"hardness\"", "the channel, where the file has several");
+            optional("channel", TEXT, "the first", "\"hardness\"", "channel, if the file has several");
         UNIT: Typed<f64> = super::super::typed::defaulted(
             "unit",
             other(Some(Dimension::Pressure), "unit, or pressure > 0", |_, entry| entry.unit(Dimension::Pressure)),
@@ -26,11 +26,11 @@ pub(in crate::study) mod map {
     }
 }
 
-/// A map of the hardness that the caller has in memory.
+/// A hardness map in the memory of the caller.
 pub(in crate::study) mod given {
     use super::*;
 
     section! { &["lower.hardness", "upper.hardness"], "given";
-        GIVEN: Typed<String> = required("given", TEXT, "\"map\"", "the name under which a program gives the map");
+        GIVEN: Typed<String> = required("given", TEXT, "\"map\"", "name of a map in the memory of the caller");
     }
 }

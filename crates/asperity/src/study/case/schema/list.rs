@@ -1,9 +1,9 @@
-//! The keys of a table of values that are passed through, which stands in place of a list.
+//! Keys of a table that replaces a list of values.
 
 use super::typed::{Optional, Typed, Value, choice as word, count_to, optional, other, required, section};
 use crate::choice::choice;
 
-/// How values follow on each other.
+/// Spacing of the values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::study) enum Spacing {
     Log,
@@ -12,7 +12,7 @@ pub(in crate::study) enum Spacing {
 
 choice!(Spacing: "log" => Log, "linear" => Linear);
 
-const END: Value<()> = other(None, "as of the key in the singular", |_, _| Ok(()));
+const END: Value<()> = other(None, "as for the key in the singular", |_, _| Ok(()));
 
 section! { &["contact.loads", "contact.mean_pressures", "contact.approaches", "friction.creepages"], "";
     FROM: Typed<()> = required("from", END, "\"10 mN\"", "first value");
@@ -22,8 +22,8 @@ section! { &["contact.loads", "contact.mean_pressures", "contact.approaches", "f
     SPACING: Optional<Spacing> = optional(
         "spacing",
         word::<Spacing>(),
-        "`\"log\"`; of `approaches` and `creepages` `\"linear\"`",
+        "`\"log\"`; `\"linear\"` for `approaches` and `creepages`",
         "\"linear\"",
-        "`\"log\"`: in equal ratios, of values above 0; `\"linear\"`: in equal steps",
+        "`\"log\"`: equal ratios, for values above 0; `\"linear\"`: equal steps",
     );
 }

@@ -1,4 +1,4 @@
-//! The keys of a contact, of its friction and of its history.
+//! Keys of a contact, its friction and its history.
 
 use super::Bounds::{AboveZero, AboveZeroOrInfinite, Any, FromZero, FromZeroOrInfinite};
 use super::typed::{
@@ -17,7 +17,7 @@ const CREEPAGE: Value<f64> = number_named("a finite number", Any);
 const ONE: &str = "exactly one of the first six";
 const NONE: &str = "at most one of the six in the plane";
 
-/// The form of a list of values that are passed through.
+/// The form of a list of values.
 const SEVERAL: &str = "list of at least one value, or a [table](#a-sweep)";
 
 const LOAD: Optional<f64> = optional(
@@ -25,7 +25,7 @@ const LOAD: Optional<f64> = optional(
     FORCE,
     ONE,
     "\"2 N\"",
-    "total normal force; in a motion its mean over a pass, or that at each position: see `control`",
+    "total normal force; in a motion, the mean over a pass or the force at each position, see `control`",
 );
 const MEAN_PRESSURE: Optional<f64> = optional(
     "mean_pressure",
@@ -40,7 +40,7 @@ const APPROACH: Optional<f64> = optional(
     SIGNED_LENGTH,
     ONE,
     "\"10 nm\"",
-    "how far the bodies have moved together, of any sign; 0 where the planes z = 0 of the heights of both bodies coincide",
+    "distance by which the bodies have approached, of any sign; 0 if the planes z = 0 of both height maps coincide",
 );
 
 /// `[contact]`.
@@ -77,12 +77,12 @@ pub(in crate::study) mod contact {
         );
         BOUNDARY: Typed<Boundary> = defaulted(
             "boundary",
-            other(None, "`\"free\"`, `\"periodic\"`, or one for x and one for y: `[\"free\", \"periodic\"]`", |_, entry| {
+            other(None, "`\"free\"`, `\"periodic\"`, or one word for each axis: `[\"free\", \"periodic\"]`", |_, entry| {
                 read::boundary(entry)
             }),
             "\"free\"",
             "[\"free\", \"periodic\"]",
-            "what lies beyond the edges: `\"free\"`, an unloaded half-space; `\"periodic\"`, the contact itself over and over; one of \
+            "continuation beyond the edges: `\"free\"`, an unloaded half-space; `\"periodic\"`, copies of the contact; one of \
              each: a line contact",
         );
         GRID: Typed<GridMatch> = defaulted(
@@ -94,7 +94,7 @@ pub(in crate::study) mod contact {
              `\"as-prepared\"` requires surfaces that fit",
         );
         METHOD: Typed<Method> =
-            defaulted("method", choice::<Method>(), "\"auto\"", "\"direct\"", "the solver; all give the same answer");
+            defaulted("method", choice::<Method>(), "\"auto\"", "\"direct\"", "solver; all methods give the same result");
         TOLERANCE: Typed<f64> = defaulted(
             "tolerance",
             FRACTION,
@@ -112,14 +112,14 @@ const DISPLACEMENT: Optional<[f64; 2]> = optional(
     vector(&SIGNED_LENGTH),
     NONE,
     "\"0.1 um\"",
-    "displacement of the upper body against the lower one",
+    "displacement of the upper body relative to the lower one",
 );
 const SLIDING: Optional<[f64; 2]> = optional(
     "sliding",
-    other(None, "`[x, y]`, of any length", |_, entry| read::direction(entry)),
+    other(None, "`[x, y]` of any length", |_, entry| read::direction(entry)),
     NONE,
     "[1, 0]",
-    "direction in which the upper body slides: every cell slips",
+    "sliding direction of the upper body; every cell slips",
 );
 
 /// `[friction]`.
@@ -135,22 +135,22 @@ pub(in crate::study) mod friction {
             choice::<Coupling>(),
             "\"full\"",
             "\"none\"",
-            "of dissimilar bodies, which of pressure and shear acts on the other: `\"goodman\"`, pressure shears but shear does not \
-             press; `\"none\"`, neither",
+            "coupling between dissimilar bodies: `\"goodman\"`, pressure displaces tangentially, but shear does not displace \
+             normally; `\"none\"`, neither",
         );
         SHEAR_STRENGTH: Typed<f64> = defaulted(
             "shear_strength",
             quantity(Dimension::Pressure, AboveZeroOrInfinite("no limit")),
             "inf",
             "\"20 MPa\"",
-            "τ, the largest shear that the interface bears under any pressure, as a boundary film does",
+            "τ, the largest shear stress of the interface under any pressure, for example of a boundary film",
         );
         JUNCTION_GROWTH: Typed<f64> = defaulted(
             "junction_growth",
             number(FromZero),
             "0",
             "9",
-            "α in p² + αq² ≤ H²: shear softens what is plastic, and the contact grows; about 9 for metals",
+            "α in p² + αq² ≤ H²: shear lowers the cap of the pressure, and the contact grows; about 9 for metals",
         );
         FORCE: Optional<[f64; 2]> = super::IN_PLANE_FORCE;
         DISPLACEMENT: Optional<[f64; 2]> = super::DISPLACEMENT;
@@ -160,7 +160,7 @@ pub(in crate::study) mod friction {
             vector(&super::CREEPAGE),
             NONE,
             "0.001",
-            "steady rolling along x: velocity of the upper body against the lower one over the rolling velocity",
+            "steady rolling along x: velocity of the upper body relative to the lower one, over the rolling velocity",
         );
         CREEPAGES: Optional<Vec<[f64; 2]>> = optional(
             "creepages",
@@ -174,7 +174,7 @@ pub(in crate::study) mod friction {
             number_named("a number, in 1/m", Any),
             "0",
             "25",
-            "of rolling, in 1/m: angular velocity of the upper body against the lower one over the rolling velocity, about z through \
+            "rolling only, in 1/m: angular velocity of the upper body relative to the lower one, over the rolling velocity, about z through \
              the middle of the grid, positive from +x towards +y",
         );
         ROLLING_FORCE: Optional<[f64; 2]> = optional(
@@ -199,18 +199,18 @@ pub(in crate::study) mod history {
     use super::*;
 
     section! { &["history"], "";
-        LOAD: Optional<f64> = super::LOAD.elsewhere("as it was", "as in [contact]; at most one of the three");
-        MEAN_PRESSURE: Optional<f64> = super::MEAN_PRESSURE.elsewhere("as it was", "as in [contact]; at most one of the three");
-        APPROACH: Optional<f64> = super::APPROACH.elsewhere("as it was", "as in [contact]; at most one of the three");
-        FORCE: Optional<[f64; 2]> = super::IN_PLANE_FORCE.elsewhere("as it was", "as in [friction], and only with it; at most one of the three");
-        DISPLACEMENT: Optional<[f64; 2]> = super::DISPLACEMENT.elsewhere("as it was", "as in [friction], and only with it; at most one of the three");
-        SLIDING: Optional<[f64; 2]> = super::SLIDING.elsewhere("as it was", "as in [friction], and only with it; at most one of the three");
+        LOAD: Optional<f64> = super::LOAD.elsewhere("unchanged", "as in [contact]; at most one of the three");
+        MEAN_PRESSURE: Optional<f64> = super::MEAN_PRESSURE.elsewhere("unchanged", "as in [contact]; at most one of the three");
+        APPROACH: Optional<f64> = super::APPROACH.elsewhere("unchanged", "as in [contact]; at most one of the three");
+        FORCE: Optional<[f64; 2]> = super::IN_PLANE_FORCE.elsewhere("unchanged", "as in [friction], which it requires; at most one of the three");
+        DISPLACEMENT: Optional<[f64; 2]> = super::DISPLACEMENT.elsewhere("unchanged", "as in [friction], which it requires; at most one of the three");
+        SLIDING: Optional<[f64; 2]> = super::SLIDING.elsewhere("unchanged", "as in [friction], which it requires; at most one of the three");
         INCREMENTS: Optional<usize> = optional(
             "increments",
             count(1),
-            "1; of bodies that deform plastically that of [plasticity]",
+            "1; for elasto-plastic bodies, the number in [plasticity]",
             "10",
-            "equal steps from the end of the stage before",
+            "equal steps from the end of the previous stage",
         );
     }
 }

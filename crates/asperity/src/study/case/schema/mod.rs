@@ -1,7 +1,7 @@
-//! The keys of a case file, each declared once.
+//! Keys of a case file, each declared once.
 //!
-//! A declaration holds the name, the values that are accepted, what holds without the key, an example and the meaning. The
-//! reader of case files, its messages, the units of study axes and the tables of `docs/input` all come from it.
+//! A declaration holds the name, the accepted values, the default, an example and the meaning. The reader of case files,
+//! its messages, the units of study axes and the tables of `docs/input` are derived from it.
 
 pub(in crate::study) mod body;
 pub(in crate::study) mod loading;
@@ -22,12 +22,12 @@ use std::fmt;
 
 use crate::units::{Dimension, Range};
 
-/// Keys that stand together in one table, or in each of several.
+/// Keys that belong to one table, or to each of several tables.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Section {
     /// The dotted names of the tables: `lower.wear`, `upper.wear`; empty for the keys above all tables.
     pub tables: &'static [&'static str],
-    /// The choice with which the keys have a meaning, as the case file writes it: `form = "sphere"`; empty if they always have.
+    /// The choice that gives the keys a meaning, as in a case file: `form = "sphere"`; empty if they always have one.
     pub kind: &'static str,
     /// The keys, in the order of the documentation.
     pub keys: &'static [Key],
@@ -38,22 +38,22 @@ pub struct Section {
 pub struct Key {
     /// The name.
     pub name: &'static str,
-    /// The values that it takes.
+    /// The accepted values.
     pub kind: Kind,
-    /// What holds where the case file does not give it.
+    /// The default.
     pub default: Fallback,
-    /// A value as the case file writes it; empty for a table.
+    /// An example of the value, as in a case file; empty for a table.
     pub example: &'static str,
     /// The meaning, in Markdown.
     pub text: &'static str,
 }
 
-/// The values that a key takes. As text: `length > 0`.
+/// The accepted values of a key. Its text is, for example, `length > 0`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Kind {
     /// A number in SI, or a text with a unit.
     Quantity(Dimension, Bounds),
-    /// A number without a unit, and what it is called in messages.
+    /// A number without a unit, with its name in messages.
     Number(&'static str, Bounds),
     /// A whole number, both ends included.
     Count {
@@ -74,55 +74,55 @@ pub enum Kind {
     Tables,
     /// One value for x and y, or an array of two.
     Pair(&'static Kind),
-    /// A component along x, or an array of those along x and y.
+    /// A component along x, or an array of the components along x and y.
     Vector(&'static Kind),
     /// Values of another form.
     Other {
-        /// What the numbers among them measure; none of pure numbers.
+        /// Dimension of its numbers; none for pure numbers.
         dimension: Option<Dimension>,
         /// The form, in Markdown.
         value: &'static str,
     },
 }
 
-/// The numbers that are accepted, besides what [`Dimension::range`] and [`NUMBERS`](crate::units::NUMBERS) say of magnitudes.
+/// The accepted numbers, in addition to the limits of [`Dimension::range`] and [`NUMBERS`](crate::units::NUMBERS).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bounds {
-    /// All that are finite.
+    /// All finite numbers.
     Any,
     /// Values of at least 0.
     FromZero,
     /// Values of at least 0, and infinity with its meaning.
     FromZeroOrInfinite(&'static str),
-    /// Those above 0.
+    /// Values above 0.
     AboveZero,
-    /// Those above 0, and infinity with its meaning.
+    /// Values above 0, and infinity with its meaning.
     AboveZeroOrInfinite(&'static str),
-    /// Those between two numbers.
+    /// Values between two numbers.
     Between {
         /// The lower end.
         least: f64,
         /// The upper end.
         most: f64,
-        /// Whether the ends are left out.
+        /// Whether each end is excluded.
         open: [bool; 2],
     },
     /// Values in a narrower range of magnitudes, and 0 if true.
     Within(Range, bool),
 }
 
-/// What holds where a key is not given.
+/// Default of a key.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Fallback {
     /// Nothing: the key must be given.
     Required,
     /// This value, as the case file would write it.
     Value(&'static str),
-    /// No value of the key: what these words say, in Markdown.
+    /// No value; these words describe the behaviour, in Markdown.
     Absent(&'static str),
 }
 
-/// All keys of a case file, section by section, in the order in which a misplaced key is looked for.
+/// Returns all keys of a case file, section by section, in the order in which a misplaced key is searched.
 ///
 /// ```
 /// let keys = asperity::study::keys();
@@ -177,7 +177,7 @@ pub fn keys() -> &'static [Section] {
 }
 
 impl Kind {
-    /// What its numbers measure; none of pure numbers and of what is no number.
+    /// Dimension of its numbers; none for pure numbers and for other values.
     pub fn dimension(&self) -> Option<Dimension> {
         match self {
             Self::Quantity(dimension, _) => Some(*dimension),
@@ -209,12 +209,12 @@ impl fmt::Display for Kind {
     }
 }
 
-/// A noun without its article.
+/// Removes the article from a noun.
 fn bare_noun(noun: &str) -> &str {
     noun.split_once(' ').map_or(noun, |(_, noun)| noun)
 }
 
-/// As the tables of the documentation put it after a noun: ` > 0`.
+/// The text in the tables of the documentation, after a noun: ` > 0`.
 impl fmt::Display for Bounds {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
@@ -237,7 +237,7 @@ impl fmt::Display for Bounds {
     }
 }
 
-/// As the tables of the documentation show it.
+/// The text in the tables of the documentation.
 impl fmt::Display for Fallback {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -1,4 +1,4 @@
-//! The keys of bodies that deform plastically below their surfaces.
+//! Keys of elasto-plastic bodies.
 
 use super::Bounds::{Between, FromZero};
 use super::typed::{
@@ -23,14 +23,14 @@ pub(in crate::study) mod flow {
             MODULUS,
             "0",
             "\"20 GPa\"",
-            "growth of the yield stress with the plastic strain, E·Eₜ/(E − Eₜ) of a tangent modulus Eₜ; with `yield_stress`",
+            "increase of the yield stress per plastic strain, E·Eₜ/(E − Eₜ) for a tangent modulus Eₜ; with `yield_stress`",
         );
         CURVE: Optional<Vec<(f64, Pascal)>> = optional(
             "curve",
             other(None, "list of points `[strain, stress]`", |_, entry| read::curve(entry)),
             ONE,
             "[[0, \"1.5 GPa\"], [0.01, \"1.7 GPa\"]]",
-            "points of plastic strain and yield stress, from strain 0 on, rising; level beyond the last",
+            "increasing points of plastic strain and yield stress, from strain 0; constant beyond the last",
         );
         KINEMATIC: Typed<f64> =
             defaulted("kinematic", MODULUS, "0", "\"20 GPa\"", "Prager's modulus M of the back stress, ⅔Mε");
@@ -39,7 +39,7 @@ pub(in crate::study) mod flow {
             number(FromZero),
             "0",
             "50",
-            "Armstrong's and Frederick's recovery of the back stress; with `kinematic`",
+            "Armstrong–Frederick recovery of the back stress; with `kinematic`",
         );
     }
 }
@@ -53,9 +53,9 @@ pub(in crate::study) mod volume {
             "depth",
             LENGTH,
             "\"20 um\"",
-            "depth of the volume that may deform plastically, from a cell to the smaller side of the grid; take 2.5 radii of the largest spot",
+            "depth of the volume that may deform plastically, from one cell to the smaller side of the grid; 2.5 radii of the largest spot are enough",
         );
-        LAYERS: Typed<usize> = required("layers", count_to(1, 512), "16", "number of its layers");
+        LAYERS: Typed<usize> = required("layers", count_to(1, 512), "16", "number of layers");
         GROWTH: Typed<f64> = defaulted(
             "growth",
             number(Between { least: 1.0, most: 2.0, open: [false, false] }),
@@ -68,14 +68,14 @@ pub(in crate::study) mod volume {
             count(1),
             "16",
             "32",
-            "static: equal steps of the loading in [contact], of each [[history]] without its own number, and of the unloading",
+            "static: equal steps of the loading in [contact], of each [[history]] stage without its own number, and of the unloading",
         );
         TOLERANCE: Typed<f64> = defaulted(
             "tolerance",
             FRACTION,
             "1e-4",
             "1e-5",
-            "return-mapping residual over the yield stress at which a step ends",
+            "return-mapping residual over the yield stress at which an increment has converged",
         );
         UNLOAD: Typed<bool> =
             defaulted("unload", FLAG, "true", "false", "static: whether the contact is unloaded at the end");
@@ -84,7 +84,7 @@ pub(in crate::study) mod volume {
             choice::<read::Keep>(),
             "\"last\"",
             "\"passes\"",
-            "in a [motion]: whether the volumes of the last pass or of all passes are kept",
+            "[motion] only: whether the volumes of the last pass or of all passes are stored",
         );
     }
 }

@@ -1,11 +1,11 @@
-//! The keys above all tables.
+//! Keys above all tables.
 
 use super::Fallback::{Absent, Required};
 use super::typed::{Nested, Optional, TEXT, optional, section, table, tables};
 
 section! { &[], "";
     TITLE: Optional<String> =
-        optional("title", TEXT, "the file's name without its extension", "\"a ball on a plate\"", "a name for reports");
+        optional("title", TEXT, "file name without its extension", "\"a ball on a plate\"", "a name for reports");
     LOWER: Nested = table("lower", Required, "the body underneath");
     UPPER: Nested = table("upper", Required, "the body above");
     CONTACT: Nested = table("contact", Required, "load or approach, boundary, solver");
@@ -15,18 +15,18 @@ section! { &[], "";
     SLIDING: Nested = table(
         "sliding",
         Absent("none"),
-        "a static contact that slides some distance and wears in place",
+        "static contact that slides and wears in place",
     );
     ACCELERATION: Nested = table(
         "acceleration",
-        Absent("none: each is computed"),
-        "extrapolation over passes of bodies that wear",
+        Absent("none: every pass is computed"),
+        "extrapolation over passes of wearing bodies",
     );
-    TEMPERATURE: Nested = table("temperature", Absent("not known"), "temperature of the bodies");
+    TEMPERATURE: Nested = table("temperature", Absent("unknown"), "temperature of the bodies");
     PLASTICITY: Nested = table(
         "plasticity",
         Absent("none"),
-        "the volume under the surface in which bodies deform plastically",
+        "volume below the surface in which bodies deform plastically",
     );
     SUBSURFACE: Nested = table("subsurface", Absent("none"), "stress below the surface");
     CONDUCTANCE: Nested = table("conductance", Absent("none"), "thermal or electrical conductance of the contacts");

@@ -1,4 +1,4 @@
-//! The keys of bodies that run in: wear, films, acceleration and temperature.
+//! Keys of running-in: wear, films, acceleration and temperature.
 
 use super::Bounds::{AboveZero, FromZero, Within};
 use super::typed::{
@@ -22,24 +22,24 @@ pub(in crate::study) mod wear {
             RATE,
             ONE,
             "\"1e-7 mm3/(N m)\"",
-            "volume lost per load and distance slid (Archard)",
+            "wear volume per load and sliding distance (Archard)",
         );
         DIMENSIONLESS: Optional<f64> = optional(
             "dimensionless",
             number(AboveZero),
             ONE,
             "4e-7",
-            "the same times the `hardness` of the body, which must be one number",
+            "`coefficient` times the `hardness` of the body, which must be a single number",
         );
         ENERGY: Optional<f64> =
-            optional("energy", RATE, ONE, "\"1e-6 mm3/J\"", "volume lost per energy of friction; with [friction]");
+            optional("energy", RATE, ONE, "\"1e-6 mm3/J\"", "wear volume per frictional energy; requires [friction]");
         UNDER_FILM: Optional<f64> = optional(
             "under_film",
             RATE,
-            "that of the bare body",
+            "the coefficient of the bare body",
             "\"1e-8 mm3/(N m)\"",
-            "the coefficient under the thickest film, in the unit of `coefficient` or `energy`, also beside `dimensionless`, at most \
-             that of the bare body; in between it falls in proportion to the thickness; the body needs a film",
+            "coefficient under the thickest film, in the unit of `coefficient` or `energy`, also with `dimensionless`, at most \
+             the coefficient of the bare body; it decreases linearly with the thickness; the body needs a film",
         );
     }
 }
@@ -57,13 +57,13 @@ pub(in crate::study) mod film {
              that is there at its thickest in the beginning and is only worn off",
         );
         MAX_THICKNESS: Typed<f64> =
-            required("max_thickness", LENGTH, "\"150 nm\"", "the thickness that the film cannot exceed");
+            required("max_thickness", LENGTH, "\"150 nm\"", "upper limit of the film thickness");
         HARDNESS: Optional<f64> = optional(
             "hardness",
             PRESSURE,
-            "that of the body",
+            "the hardness of the body",
             "\"2 GPa\"",
-            "largest pressure under the thickest film, at most that of the body; in proportion in between",
+            "hardness under the thickest film, at most the hardness of the body; interpolated linearly in the thickness",
         );
     }
 }
@@ -78,19 +78,19 @@ pub(in crate::study) mod arrhenius {
             "rate",
             quantity(Dimension::Speed, AboveZero),
             "\"20 nm/s\"",
-            "growth of a film of no thickness, at `at_temperature` and `at_stress`",
+            "initial growth rate, at `at_temperature` and `at_stress`",
         );
         AT_TEMPERATURE: Typed<f64> = required(
             "at_temperature",
             quantity(Dimension::Temperature, Within(GROWTH_TEMPERATURES, false)),
             "\"100 °C\"",
-            "the temperature of that growth",
+            "temperature at which `rate` holds",
         );
         AT_STRESS: Typed<f64> = required(
             "at_stress",
             quantity(Dimension::Pressure, FromZero),
             "\"3 GPa\"",
-            "the stress of that growth",
+            "stress at which `rate` holds",
         );
         ACTIVATION_ENERGY: Typed<f64> = required(
             "activation_energy",
@@ -109,14 +109,14 @@ pub(in crate::study) mod arrhenius {
             choice::<FilmStress>(),
             "\"pressure\"",
             "\"shear\"",
-            "the stress that activates it; `\"shear\"` needs [friction]",
+            "stress that activates the growth; `\"shear\"` requires [friction]",
         );
         REMOVAL: Typed<f64> = defaulted(
             "removal",
             quantity(Dimension::RemovalRate, FromZero),
             "0",
             "\"1e-11 1/(Pa m)\"",
-            "removal per pressure and distance slid",
+            "removal per pressure and sliding distance",
         );
     }
 }
@@ -128,15 +128,15 @@ pub(in crate::study) mod mechano_chemical {
     use crate::study::case::schema::typed::DEPTH;
 
     section! { FILM, "law = \"mechano-chemical\"";
-        X: Typed<f64> = required("x", number(Within(GROWTH_FACTORS, false)), "1e-16", "the factor x");
+        X: Typed<f64> = required("x", number(Within(GROWTH_FACTORS, false)), "1e-16", "factor x of the growth");
         C3: Typed<f64> = required(
             "c3",
             DEPTH,
             "\"50 nm\"",
-            "the thickness C₃ that is removed in the end, at most `max_thickness`",
+            "final removal C₃ as a thickness, at most `max_thickness`",
         );
         C4: Typed<f64> =
-            required("c4", number(Within(REMOVAL_RATES, true)), "0.01", "the rate C₄ of the removal, in 1/s");
+            required("c4", number(Within(REMOVAL_RATES, true)), "0.01", "rate C₄ of the removal, in 1/s");
     }
 }
 
@@ -149,7 +149,7 @@ pub(in crate::study) mod solid_lubricant {
             "wear",
             RATE,
             "\"1e-6 mm3/(N m)\"",
-            "volume that the film loses per load and distance slid, while there is any; the heights of the surface are with the film",
+            "film volume lost per load and sliding distance, until the film is worn off; the heights of the surface include the film",
         );
     }
 }
@@ -164,14 +164,14 @@ pub(in crate::study) mod acceleration {
             number(AboveZero),
             "0.01",
             "0.01",
-            "largest error estimate of a jump, over the depth to which the largest pressure presses a single cell",
+            "largest error estimate of an extrapolation, over the depth to which the largest pressure presses a single cell",
         );
         MAX_JUMP: Typed<usize> = defaulted(
             "max_jump",
             count(1),
             "10000",
             "1000",
-            "largest number of passes that a computed pass represents; 1 computes all",
+            "largest number of passes per extrapolation, the computed pass included; 1 computes all passes",
         );
         MAX_WEAR: Typed<f64> = defaulted("max_wear", LENGTH, "\"5 nm\"", "\"2 nm\"", "largest wear depth in an extrapolation");
     }
@@ -198,16 +198,16 @@ pub(in crate::study) mod temperature {
                 read::bulk(entry)
             }),
             "\"100 °C\"",
-            "temperature of the bodies far from the contact; a number is in kelvins",
+            "temperature of the bodies far from the contact; a number without a unit is in kelvin",
         );
         EVERY: Optional<usize> = optional(
             "every",
             count(0),
-            "1 where thermal constants are given, else 0",
+            "1 with thermal constants, else 0",
             "10",
-            "the flash temperature is computed at each position of every n-th computed pass, from the first on, and films see it; \
-             between them cells are as warm as they were in the mean over their contacts of the last. It needs the thermal constants \
-             of both bodies, [friction] and a speed. 0: the surfaces are as warm as the bodies",
+            "computes the flash temperature at each position of every n-th computed pass, from the first on, for films and results; \
+             in other passes each cell has its mean temperature over the contacts of the last of these. It requires the thermal constants \
+             of both bodies, [friction] and a speed. 0: the surfaces have the temperatures of the bodies",
         );
     }
 }

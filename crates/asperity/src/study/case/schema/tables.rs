@@ -1,14 +1,14 @@
-//! Which keys a table knows, and where a misplaced one belongs.
+//! Keys of each table, and hints for misplaced keys.
 
 use super::super::cursor::Table;
 use super::{Key, Section, keys, root};
 use crate::error::Result;
 use crate::units::Dimension;
 
-/// The keys of a study file that a case file does not have.
+/// Keys of a study file that a case file does not have.
 const OF_A_STUDY: [&str; 4] = ["base", "axes", "table", "exclude"];
 
-/// The kind of topographies and hardness maps that only a program can give: hints do not speak of it.
+/// The kind of topographies and hardness maps in the memory of a program. Hints do not mention it.
 const GIVEN: &str = "given";
 
 impl Section {
@@ -16,14 +16,14 @@ impl Section {
         self.keys.iter().any(|known| known.name == key)
     }
 
-    /// Whether its keys have a meaning with a choice such as `form = "sphere"`, which is one of `form`.
+    /// Whether its keys require a choice of `of`, such as `form = "sphere"` for `form`.
     fn suits(&self, kind: &str) -> bool {
         self.kind.is_empty()
             || kind.strip_prefix(self.kind).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
     }
 }
 
-/// The dotted name under which a table is declared: that of an array for each of its tables, that of a topography for a layer.
+/// Returns the dotted name under which a table is declared. A table of an array has the name of the array, a layer that of its topography.
 fn declared(path: &str) -> String {
     let parts = path.trim_matches(['[', ']']).split('.');
     let name =
@@ -31,7 +31,7 @@ fn declared(path: &str) -> String {
     if name == "topography" { "lower.topography".to_owned() } else { name }
 }
 
-/// The sections of a table.
+/// Returns the sections of a table.
 fn sections(path: &str) -> impl Iterator<Item = &'static Section> {
     let name = declared(path);
     let is_root = name.is_empty();
@@ -41,7 +41,7 @@ fn sections(path: &str) -> impl Iterator<Item = &'static Section> {
     })
 }
 
-/// Returns what a dotted key of a case measures: `contact.load` a force; none for pure numbers and for what is no number.
+/// Returns the dimension of a dotted key of a case, for example force for `contact.load`; none for pure numbers and other values.
 pub fn dimension(key: &str) -> Option<Dimension> {
     let (table, name) = key.rsplit_once('.')?;
     let mut keys = sections(table).flat_map(|section| section.keys);
@@ -53,14 +53,14 @@ pub(in crate::study) fn is_of_root(key: &str) -> bool {
     root::SECTION.has(key)
 }
 
-/// An error unless every key of the table is one that it may have, with some choice at least.
+/// Returns an error if a key of the table is unknown for every choice.
 pub(in crate::study::case) fn known_in(table: &Table<'_>) -> Result<()> {
     let known: Vec<&str> =
         sections(table.path()).flat_map(|section| section.keys).map(|key| key.name).collect();
     table.known(&known, |key| belongs(key, table.path()))
 }
 
-/// What is wrong with a key that has its place in another table.
+/// Returns the message and the hint for an unknown key, with the table to which it belongs.
 pub(in crate::study) fn belongs(key: &str, table: &str) -> Option<(String, Option<String>)> {
     let here = if table.is_empty() { "outside a table".to_owned() } else { format!("in [{table}]") };
     let name = declared(table);
@@ -71,9 +71,9 @@ pub(in crate::study) fn belongs(key: &str, table: &str) -> Option<(String, Optio
             let of_body = section.tables.iter().find(|owner| owner.split('.').next() == body);
             format!("`{key}` belongs in [{}]", of_body.unwrap_or(&section.tables[0]))
         }
-        None if key == root::TITLE.key.name => "`title` stands above all tables".to_owned(),
-        None if key == root::HISTORY.key.name => "stages stand by themselves: [[history]]".to_owned(),
-        None if is_of_root(key) => format!("the table stands by itself: [{key}]"),
+        None if key == root::TITLE.key.name => "put `title` above all tables".to_owned(),
+        None if key == root::HISTORY.key.name => "write stages as separate tables: [[history]]".to_owned(),
+        None if is_of_root(key) => format!("write it as a separate table: [{key}]"),
         None if table.is_empty() && OF_A_STUDY.contains(&key) => {
             "this is a study: `asperity study` computes it".to_owned()
         }
@@ -82,7 +82,7 @@ pub(in crate::study) fn belongs(key: &str, table: &str) -> Option<(String, Optio
     Some((format!("unknown key '{key}' {here}"), Some(hint)))
 }
 
-/// An error if a key of a topography belongs to another kind than this one: `file`, `form = "sphere"`.
+/// Returns an error if a key of a topography belongs to a kind other than this one: `file`, `form = "sphere"`.
 pub(in crate::study::case) fn suits(table: &Table<'_>, kind: &str) -> Result<()> {
     let is_layer = table.path().ends_with("plus]");
     let of_the_whole = |key: &str| {
@@ -100,7 +100,7 @@ pub(in crate::study::case) fn suits(table: &Table<'_>, kind: &str) -> Result<()>
         let owners: Vec<_> = owners.map(|section| format!("`{}`", section.kind)).collect();
         let kind = match kind {
             "file" => "a file",
-            GIVEN => "heights that are given",
+            GIVEN => "heights in memory",
             kind => kind,
         };
         Some((
@@ -110,7 +110,7 @@ pub(in crate::study::case) fn suits(table: &Table<'_>, kind: &str) -> Result<()>
     })
 }
 
-/// An error if a key of the table has no meaning with this choice: `law = "arrhenius"`.
+/// Returns an error if a key of the table has no meaning with this choice: `law = "arrhenius"`.
 pub(in crate::study::case) fn suits_choice(table: &Table<'_>, kind: &str) -> Result<()> {
     let others =
         sections(table.path()).filter(|section| !section.suits(kind)).flat_map(|section| section.keys);

@@ -1,4 +1,4 @@
-//! The keys of a topography: those of every one, and those of each kind of source.
+//! Keys of topographies: common keys, and keys of each kind of source.
 
 use super::Bounds::{AboveZero, AboveZeroOrInfinite, Any, Between};
 use super::Fallback::Absent;
@@ -24,9 +24,9 @@ pub(in crate::study) mod every {
         PITCH: Optional<[f64; 2]> = optional(
             "pitch",
             super::PITCH,
-            "of `generate` and `form`, the other body's; of `file`, the file's own",
+            "`generate` and `form`: pitch of the other body; `file`: pitch of the file",
             "\"0.5 um\"",
-            "size of a cell; of a file without one, its pitch; of a file with one, what to resample to, not together with `resample`",
+            "size of a cell; for a file without a pitch, its pitch; for a file with a pitch, the pitch after resampling, without `resample`",
         );
         WINDOW: Optional<[usize; 4]> = optional(
             "window",
@@ -35,7 +35,7 @@ pub(in crate::study) mod every {
             }),
             "everything",
             "[0, 0, 96, 128]",
-            "the part to keep",
+            "part to keep",
         );
         LEVEL: Typed<Level> = defaulted(
             "level",
@@ -47,16 +47,16 @@ pub(in crate::study) mod every {
             ),
             "\"none\"",
             "\"plane\"",
-            "the form that is subtracted, fitted by least squares",
+            "form to subtract, fitted by least squares",
         );
         MIRROR: Optional<Axis> =
-            optional("mirror", choice::<Axis>(), "none", "\"x\"", "the direction in which first and last are exchanged");
+            optional("mirror", choice::<Axis>(), "none", "\"x\"", "direction to reverse");
         ROTATE: Typed<f64> = defaulted(
             "rotate",
             ANGLE,
             "0",
             "\"90 deg\"",
-            "angle to turn by, from x towards y; a number is in radians",
+            "angle of rotation, from x towards y; a number without a unit is in radians",
         );
         S_FILTER: Optional<f64> = optional(
             "s_filter",
@@ -75,20 +75,20 @@ pub(in crate::study) mod every {
         FILTER: Typed<Filter> =
             defaulted("filter", choice::<Filter>(), "\"gaussian\"", "\"robust\"", "kind of both filters");
         RESAMPLE: Optional<[usize; 2]> =
-            optional("resample", CELLS, "as it is", "[256, 256]", "number of cells to bring the same extent to");
+            optional("resample", CELLS, "as it is", "[256, 256]", "number of cells after resampling to the same extent");
         INTERPOLATE: Typed<Interpolation> = defaulted(
             "interpolate",
             choice::<Interpolation>(),
             "\"linear\"",
             "\"spline\"",
-            "how heights between samples are found where cells become smaller; the spline is cubic",
+            "interpolation of heights between samples on finer grids; the spline is cubic",
         );
         TAPER: Optional<f64> = optional(
             "taper",
             LENGTH,
             "none",
             "\"10 um\"",
-            "width of the rim that is brought down to the mean, at most half of the topography",
+            "width of the rim that tapers to the mean height, at most half of the topography",
         );
         PLUS: Nested =
             tables("plus", Absent("nothing"), "further heights to add, see [below](#plus-roughness-on-a-form-and-other-sums)");
@@ -111,24 +111,24 @@ pub(in crate::study) mod file {
         CHANNEL: Optional<String> = optional(
             "channel",
             TEXT,
-            "the first; of several data sets one is to be chosen",
+            "the first; required for several data sets",
             "\"height\"",
-            "the height channel; of results `lower`, `upper`, `gap`; of other HDF5 the path of a data set, `\"/scan/height\"`",
+            "height channel; for results `lower`, `upper` or `gap`; for other HDF5 files the path of a data set, `\"/scan/height\"`",
         );
         UNIT: Optional<f64> = optional(
             "unit",
             other(Some(Dimension::Length), "unit, or length > 0", |_, entry| entry.unit(Dimension::Length)),
-            "metres; integers in tiff need one",
+            "metres; required for integers in tiff",
             "\"nm\"",
-            "unit of the numbers in a file without units: the heights of npy, text, csv, tiff, HDF5, NetCDF and ibw, x and y of a \
-             table of points too; an error for a file that has its own",
+            "unit of the numbers in a file without units: heights of npy, text, csv, tiff, HDF5, NetCDF and ibw, and x and y of a \
+             table of points; an error for a file with its own unit",
         );
         DESPIKE: Optional<f64> = optional(
             "despike",
             number(AboveZero),
             "nothing",
             "6",
-            "spikes become missing: samples that deviate from their surroundings by more than so many standard deviations, 5 to 10 as a rule",
+            "turns spikes into missing heights: samples that deviate from their surroundings by more than this number of standard deviations, usually 5 to 10",
         );
         FILL: Typed<Fill> = defaulted(
             "fill",
@@ -140,12 +140,12 @@ pub(in crate::study) mod file {
     }
 }
 
-/// Heights that a program that calls the library has in memory.
+/// Heights in the memory of the caller.
 pub(in crate::study) mod given {
     use super::*;
 
     section! { TABLES, "given";
-        GIVEN: Typed<String> = required("given", TEXT, "\"disc\"", "the name under which a program gives the heights");
+        GIVEN: Typed<String> = required("given", TEXT, "\"disc\"", "name of heights in the memory of the caller");
         DESPIKE: Optional<f64> = super::file::DESPIKE;
         FILL: Typed<Fill> = super::file::FILL;
     }
@@ -179,7 +179,7 @@ const LAY: Typed<f64> = defaulted(
     ANGLE,
     "0",
     "\"90 deg\"",
-    "angle of the grooves, or of the first correlation length, against x, towards y",
+    "angle of the grooves, or of the first correlation length, from x towards y",
 );
 
 /// `generate = "low-pass"`.
@@ -216,14 +216,14 @@ pub(in crate::study) mod autocorrelation {
             "correlation_length",
             PITCH,
             "\"8 um\"",
-            "length over which the autocorrelation falls to 10 %, one or along and across the lay, from one pitch to the length of the surface",
+            "length over which the autocorrelation decays to 10 %, one value or two (along and across the lay), from one pitch to the length of the surface",
         );
         DECAY: Typed<Decay> = defaulted(
             "decay",
             choice::<Decay>(),
             "\"exponential\"",
             "\"gaussian\"",
-            "how it falls: `\"exponential\"`, rough down to the smallest scale, or `\"gaussian\"`, smooth",
+            "decay of the autocorrelation: `\"exponential\"`, rough down to the smallest scale, or `\"gaussian\"`, smooth",
         );
         LAY: Typed<f64> = super::LAY;
         SSK: Typed<f64> = super::SSK;
@@ -261,9 +261,9 @@ pub(in crate::study) mod self_affine {
         SHORTEST: Optional<f64> = optional(
             "shortest",
             LENGTH,
-            "two of the larger pitch",
+            "twice the larger pitch",
             "\"8 um\"",
-            "shortest wavelength, at least two of the larger pitch",
+            "shortest wavelength, at least twice the larger pitch",
         );
     }
 }
@@ -298,7 +298,7 @@ pub(in crate::study) mod ellipsoid {
             "radius",
             other(Some(Dimension::Length), "`[Rx, Ry]`, two lengths > 0", |_, entry| read::radii(entry)),
             "[\"1 mm\", \"2 mm\"]",
-            "principal radii of curvature; an ellipsoid of semi-axes a, b and c across the plane has a²/c and b²/c",
+            "principal radii of curvature; an ellipsoid with semi-axes a, b and c, c normal to the plane, has a²/c and b²/c",
         );
     }
 }
@@ -322,7 +322,7 @@ pub(in crate::study) mod cone {
             "angle",
             quantity(Dimension::Angle, AboveZero),
             "\"5 deg\"",
-            "slope α against the plane, below 90°; a number is in radians",
+            "slope angle α from the plane, below 90°; a number without a unit is in radians",
         );
     }
 }

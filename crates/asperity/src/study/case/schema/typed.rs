@@ -1,4 +1,4 @@
-//! Keys with the type of what they are read as.
+//! Keys with the types of their values.
 
 use std::ops::Deref;
 
@@ -9,20 +9,20 @@ use crate::choice::Choice;
 use crate::error::Result;
 use crate::units::Dimension;
 
-/// A kind of values, and how they are read.
+/// A kind of values, with its reader.
 #[derive(Clone, Copy)]
 pub(in crate::study::case) struct Value<T> {
     kind: Kind,
     read: fn(&Key, &Entry<'_>) -> Result<T>,
 }
 
-/// A key that has a value in every table, given or not.
+/// A key that has a value in every table, if only the default.
 pub(in crate::study::case) struct Typed<T> {
     pub(super) key: Key,
     read: fn(&Key, &Entry<'_>) -> Result<T>,
 }
 
-/// A key that may have no value.
+/// A key that may be missing.
 pub(in crate::study::case) struct Optional<T> {
     pub(super) key: Key,
     read: fn(&Key, &Entry<'_>) -> Result<T>,
@@ -33,7 +33,7 @@ pub(in crate::study::case) struct Nested {
     pub(super) key: Key,
 }
 
-/// A key that must be given.
+/// A required key.
 pub(super) const fn required<T>(
     name: &'static str,
     value: Value<T>,
@@ -46,7 +46,7 @@ pub(super) const fn required<T>(
     }
 }
 
-/// A key that has the value `default` if it is not given.
+/// A key with a default value.
 pub(super) const fn defaulted<T>(
     name: &'static str,
     value: Value<T>,
@@ -58,7 +58,7 @@ pub(super) const fn defaulted<T>(
     Typed { key: Key { name, kind: value.kind, default, example, text }, read: value.read }
 }
 
-/// A key without which `absent` holds.
+/// An optional key; `absent` describes the behaviour without it.
 pub(super) const fn optional<T>(
     name: &'static str,
     value: Value<T>,
@@ -105,12 +105,12 @@ pub(super) use section;
 // How keys are read.
 
 impl Key {
-    /// The entry of the key, where it is given.
+    /// Returns the entry of the key, if it is given.
     pub(in crate::study::case) fn entry<'a>(&self, table: &Table<'a>) -> Option<Entry<'a>> {
         table.get(self.name)
     }
 
-    /// The entry of the key, which must be given.
+    /// Returns the entry of a required key.
     pub(in crate::study::case) fn demand<'a>(&self, table: &Table<'a>) -> Result<Entry<'a>> {
         self.entry(table).ok_or_else(|| missing(self, table))
     }
@@ -131,7 +131,7 @@ macro_rules! is_a_key {
 is_a_key!(Typed<T>, Optional<T>, Nested);
 
 impl<T> Typed<T> {
-    /// The value in `table`, or the default.
+    /// Returns the value in `table`, or the default.
     pub(in crate::study::case) fn of(&self, table: &Table<'_>) -> Result<T> {
         match (table.get(self.key.name), self.key.default) {
             (Some(entry), _) => (self.read)(&self.key, &entry),
@@ -140,7 +140,7 @@ impl<T> Typed<T> {
         }
     }
 
-    /// The default.
+    /// Returns the default.
     ///
     /// # Panics
     /// If the key has none.
@@ -149,37 +149,37 @@ impl<T> Typed<T> {
         self.value_of(default)
     }
 
-    /// The value that a declaration writes as `text`.
+    /// Returns the value of a `text` in a declaration.
     fn value_of(&self, text: &str) -> T {
         read_text(&self.key, self.read, text).expect("a value in a declaration is one of the key")
     }
 }
 
 impl<T> Optional<T> {
-    /// The same key in another table, with what holds without it there.
+    /// Declares the key for another table, with another default.
     pub(super) const fn elsewhere(&self, absent: &'static str, text: &'static str) -> Self {
         let key = Key { default: Fallback::Absent(absent), text, ..self.key };
         Self { key, read: self.read }
     }
 
-    /// The value in `table`, where it is given.
+    /// Returns the value in `table`, if it is given.
     pub(in crate::study::case) fn of(&self, table: &Table<'_>) -> Result<Option<T>> {
         table.get(self.key.name).map(|entry| (self.read)(&self.key, &entry)).transpose()
     }
 
-    /// The value in `table`, which must be given.
+    /// Returns the value of a required key in `table`.
     pub(in crate::study::case) fn required(&self, table: &Table<'_>) -> Result<T> {
         (self.read)(&self.key, &self.demand(table)?)
     }
 }
 
 impl Nested {
-    /// The table, where it is given.
+    /// Returns the table, if it is given.
     pub(in crate::study::case) fn of<'a>(&self, table: &Table<'a>) -> Result<Option<Table<'a>>> {
         table.table(self.key.name)
     }
 
-    /// The table, which must be given.
+    /// Returns a required table.
     pub(in crate::study::case) fn demand<'a>(&self, table: &Table<'a>) -> Result<Table<'a>> {
         table.required_table(self.key.name)
     }
@@ -215,7 +215,7 @@ fn missing(key: &Key, table: &Table<'_>) -> crate::error::Error {
     table.error(format!("missing key '{}' in {}", key.name, table.name()), Some(hint))
 }
 
-/// Reads a value of the key as a case file would write it.
+/// Reads a value of the key from text, as in a case file.
 fn read_text<T>(key: &Key, read: fn(&Key, &Entry<'_>) -> Result<T>, text: &str) -> Result<T> {
     let text = format!("{} = {text}", key.name);
     let mut document = Document::default();
@@ -236,17 +236,17 @@ pub(super) const fn number(bounds: Bounds) -> Value<f64> {
     number_named("a number", bounds)
 }
 
-/// A number without a unit that messages call by a name of its own.
+/// A number without a unit, with its own name in messages.
 pub(super) const fn number_named(noun: &'static str, bounds: Bounds) -> Value<f64> {
     Value { kind: Kind::Number(noun, bounds), read: |key, entry| real(&key.kind, key, entry) }
 }
 
-/// A number of things.
+/// A count.
 pub(super) const fn count(least: u64) -> Value<usize> {
     count_to(least, u64::MAX)
 }
 
-/// A number of things that is limited.
+/// A count with limits.
 pub(super) const fn count_to(least: u64, most: u64) -> Value<usize> {
     let read = |key: &Key, entry: &Entry<'_>| {
         let Kind::Count { least, most } = key.kind else { unreachable!("a count is declared as one") };
@@ -294,7 +294,7 @@ pub(super) const fn vector(item: &'static Value<f64>) -> Value<[f64; 2]> {
     Value { kind: Kind::Vector(&item.kind), read }
 }
 
-/// Values of a form of their own, which the documentation calls `value`.
+/// Values of a special form, which the documentation describes as `value`.
 pub(super) const fn other<T>(
     dimension: Option<Dimension>,
     value: &'static str,
@@ -327,7 +327,7 @@ pub(in crate::study::case) fn real(kind: &Kind, key: &Key, entry: &Entry<'_>) ->
     }
 }
 
-/// What a message expects of a quantity or a number.
+/// Returns the expectation in the message about a quantity or a number.
 fn expected(kind: &Kind, key: &Key) -> String {
     match *kind {
         Kind::Quantity(dimension, Bounds::FromZero) => format!("{} of at least 0", dimension.noun()),
@@ -353,7 +353,7 @@ fn expected(kind: &Kind, key: &Key) -> String {
 }
 
 impl Bounds {
-    /// Whether a number lies within.
+    /// Whether a number lies within the bounds.
     fn hold(&self, value: f64) -> bool {
         match *self {
             Self::Any => true,
@@ -368,7 +368,7 @@ impl Bounds {
     }
 }
 
-// What several keys share.
+// Values shared by several keys.
 
 /// A length above 0.
 pub(super) const LENGTH: Value<f64> = quantity(Dimension::Length, Bounds::AboveZero);
@@ -376,5 +376,5 @@ pub(super) const LENGTH: Value<f64> = quantity(Dimension::Length, Bounds::AboveZ
 pub(super) const DEPTH: Value<f64> = quantity(Dimension::Length, Bounds::FromZero);
 /// A pressure or modulus above 0.
 pub(super) const PRESSURE: Value<f64> = quantity(Dimension::Pressure, Bounds::AboveZero);
-/// A share of a whole.
+/// A fraction of a whole.
 pub(super) const FRACTION: Value<f64> = number(Bounds::Between { least: 0.0, most: 1.0, open: [true, true] });

@@ -8,7 +8,7 @@ use crate::study::case::cursor::Entry;
 use crate::study::case::{Hardness, HardnessInput, HardnessMap};
 use crate::units::Dimension;
 
-/// One pressure or a table; a file as the table names it.
+/// Reads one pressure, or a table that names a map.
 pub(in crate::study::case) fn hardness(entry: &Entry<'_>) -> Result<Hardness> {
     if !entry.is_table() {
         let infinite = "an elastic body, as is leaving it out";

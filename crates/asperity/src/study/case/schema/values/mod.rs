@@ -1,4 +1,4 @@
-//! Values of keys whose form is their own: how they are read, and the words among them.
+//! Readers of values of special forms, and their words.
 
 pub(in crate::study::case) mod contact;
 pub(in crate::study::case) mod hardness;

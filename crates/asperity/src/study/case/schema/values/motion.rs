@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::study::case::RANDOM;
 use crate::study::case::cursor::Entry;
 
-/// A number of cells; none of `random`.
+/// Reads a number of cells; none for `random`.
 pub(in crate::study::case) fn offset(entry: &Entry<'_>) -> Result<Option<usize>> {
     if entry.text().is_err() {
         return entry.count(0).map(Some);

@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::study::case::cursor::Entry;
 use crate::units::{Dimension, Pascal};
 
-/// The passes of a motion whose volumes are kept.
+/// The passes of a motion whose volumes are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Keep {
     /// The last one.
@@ -36,14 +36,18 @@ pub(in crate::study::case) fn curve(entry: &Entry<'_>) -> Result<Vec<(f64, Pasca
     if first.0 != 0.0 {
         return Err(entry.error(
             "the first point of 'curve' has a plastic strain above 0".to_owned(),
-            hint("it begins with the yield stress of the virgin body, `[0, \"1.5 GPa\"]`"),
+            hint("begin with the yield stress of the virgin body, `[0, \"1.5 GPa\"]`"),
         ));
     }
     if points.windows(2).any(|pair| pair[1].0 <= pair[0].0) {
-        return Err(entry.error("the strains of 'curve' do not rise from point to point".to_owned(), None));
+        return Err(
+            entry.error("the strains of 'curve' do not increase from point to point".to_owned(), None)
+        );
     }
     if points.windows(2).any(|pair| pair[1].1 < pair[0].1) {
-        let softens = hint("a body that softens flows in bands, which depend on the cells: level the curve");
+        let softens = hint(
+            "a falling curve localises strain in bands whose width depends on the grid: make the curve constant there",
+        );
         return Err(entry.error("the stresses of 'curve' fall".to_owned(), softens));
     }
     Ok(points)

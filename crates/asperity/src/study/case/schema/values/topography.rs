@@ -7,7 +7,7 @@ use crate::study::case::cursor::Entry;
 use crate::surface::Level;
 use crate::units::Dimension;
 
-/// How a random topography is made.
+/// Method of generating a random topography.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::study::case) enum Method {
     LowPass,
@@ -48,7 +48,7 @@ pub(in crate::study::case) fn window(entry: &Entry<'_>) -> Result<[usize; 4]> {
     Ok(window)
 }
 
-/// One of the words of [`Level`]; of polynomials each order has its own.
+/// Reads a word of [`Level`]; each order of a polynomial has its own word.
 pub(in crate::study::case) fn level(entry: &Entry<'_>) -> Result<Level> {
     if let Some(level) = entry.text().ok().and_then(|text| text.parse().ok()) {
         return Ok(level);
