@@ -15,7 +15,7 @@ from ._keywords import ContactKeywords, SlideKeywords, takes
 from ._progress import Teller
 from ._same import Comparable
 from ._show import unit_of
-from ._table import Table, Units, records
+from ._table import by_direction, records, Table, Units
 from ._units import path
 from .body import Body, Handed, bodies
 from .errors import bad_input, warn
@@ -97,6 +97,12 @@ class Contact(Comparable):
     updates : Table
         A record for each update of a contact that slides in place, see :func:`slide`, else empty. The first record is the contact
         before sliding.
+    conductances : Table
+        A record for each contact whose conductance was asked for, with the columns of `conductance.csv`, else empty. The last one
+        belongs to the fields.
+    leakages : dict
+        The flow through the gap under a pressure that falls along ``"x"`` and along ``"y"``: a :class:`Table` each with the columns
+        of `flow.csv`. Empty if it was not asked for.
     warnings : list of str
         Warnings about doubtful input and results.
     case : dict
@@ -138,6 +144,8 @@ class Contact(Comparable):
     sweep: Table
     increments: Table
     updates: Table
+    conductances: Table
+    leakages: dict[str, Table]
     warnings: list[str]
     case: dict[str, Any]
     flow: dict[str, Flow]
@@ -150,6 +158,7 @@ class Contact(Comparable):
         sweep: list[dict[str, Any]],
         increments: list[dict[str, Any]],
         updates: list[dict[str, Any]],
+        passage: tuple[list[dict[str, Any]], list[dict[str, Any]]],
         found: Fields,
         warnings: list[str],
         case: dict[str, Any],
@@ -161,6 +170,9 @@ class Contact(Comparable):
         self.fields = found
         self.increments = records(increments, _core.INCREMENT_COLUMNS)
         self.updates = records(updates, ["update", "distance"])
+        conductance, leakage = passage
+        self.conductances = records(conductance, [])
+        self.leakages = by_direction(leakage)
         self.sweep = records(sweep, _core.SWEEP_COLUMNS)
         self.warnings = list(warnings)
         self.case = case
@@ -431,6 +443,7 @@ def _solved(pair: tuple[Body, Body], keywords: Any, options: Mapping[str, Any]) 
             found.get("sweep", []),
             found["increments"],
             found["updates"],
+            (found["conductance"], found["gap_flow"]),
             arrays,
             found["warnings"],
             found["case"],
@@ -461,6 +474,7 @@ def stored(directory: str, core: Any) -> Contact:
         core.sweep(),
         core.increments(),
         core.updates(),
+        (core.conductance(), core.gap_flow()),
         found,
         summary["warnings"],
         core.case(),

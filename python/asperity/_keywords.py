@@ -57,6 +57,9 @@ class Rest(TypedDict, total=False):
     subsurface: Annotated[keys.Subsurface | None, "",
         "The stress below the surface, written to `out`: `to`, `layers`, `planes` and others."
         " Without `out`, :func:`asperity.stress` computes stresses."]
+    conductance: Annotated[keys.Conductance | None, "",
+        "Conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`. Bodies need a `conductivity` or `resistivity`."]
+    flow: Annotated[keys.GapFlow | None, "", "Flow of a fluid through the gap: `viscosity`, `pressure` and others."]
     pressure_every: Annotated[int | None, "output",
         "In a sweep, the fields of every n-th point are stored; 0 stores none, 8 by default."]
 
@@ -118,6 +121,9 @@ class Motion(TypedDict, total=False):
         "`tolerance`, `keep`."]
     subsurface: Annotated[keys.Subsurface | None, "",
         "The stress below the surface: `to`, `layers` and others."]
+    conductance: Annotated[keys.Conductance | None, "",
+        "Conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`. Bodies need a `conductivity` or `resistivity`."]
+    flow: Annotated[keys.GapFlow | None, "", "Flow of a fluid through the gap: `viscosity`, `pressure` and others."]
     pressure_every: Annotated[int | None, "output", "The pressures of every n-th position are stored; 0 stores none, 8 by default."]
     rim: Annotated[float | None, "output",
         "Part of a body's length at free ends that the columns of its interior leave out; 0.1 by default."]

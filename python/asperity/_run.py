@@ -15,7 +15,7 @@ from ._keywords import Execution, takes
 from ._progress import Teller
 from ._optional import need
 from ._same import Comparable
-from ._table import Table, Units, records
+from ._table import by_direction, records, Table, Units
 from ._temporary import Temporary
 from ._units import path as paths
 from .errors import _make, bad_input
@@ -120,6 +120,16 @@ class Run(Comparable):
     def steps(self) -> Table:
         """A record for each position of each pass, with the columns of `steps.csv`."""
         return records(self._core.steps(), _core.STEP_COLUMNS)
+
+    @property
+    def conductances(self) -> Table:
+        """A record for each position whose conductance was asked for, with the columns of `conductance.csv`."""
+        return records(self._core.conductance(), [])
+
+    @property
+    def leakages(self) -> dict[str, Table]:
+        """The flow through the gap along ``"x"`` and ``"y"``: a table each with the columns of `flow.csv`."""
+        return by_direction(self._core.gap_flow())
 
     @property
     def warnings(self) -> list[str]:

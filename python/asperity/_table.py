@@ -112,6 +112,16 @@ def records(rows: Sequence[Mapping[str, Any]], columns: Sequence[str]) -> Table:
     return array.view(Table)
 
 
+def by_direction(rows: Sequence[Mapping[str, Any]]) -> dict[str, Table]:
+    """Makes a table of the flow along each direction."""
+    found = {}
+    for axis in ("x", "y"):
+        of_axis = [{key: value for key, value in row.items() if key != "along"} for row in rows if row["along"] == axis]
+        if of_axis:
+            found[axis] = records(of_axis, [])
+    return found
+
+
 def frame(table: NDArray[np.void], index: list[str], units: Mapping[str, str], shown: Units) -> DataFrame:
     """Makes a DataFrame of a structured array with these SI `units`, in SI or in units to display."""
     if shown not in ("si", "display"):

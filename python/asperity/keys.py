@@ -11,7 +11,7 @@ from typing import Literal, TypedDict
 
 from ._units import Pair, Quantity
 
-__all__ = ["Acceleration", "Film", "Friction", "Plasticity", "Stage", "Subsurface", "Temperature", "Thermal", "Wear"]
+__all__ = ["Acceleration", "Conductance", "Film", "Friction", "GapFlow", "Plasticity", "Stage", "Subsurface", "Temperature", "Thermal", "Wear"]
 
 
 class _Law(TypedDict):
@@ -161,6 +161,66 @@ class Subsurface(_Depth, total=False):
     step: int
 
 
+class Conductance(TypedDict, total=False):
+    """Keys of ``conductance``: the thermal or electrical conductance of the contacts.
+
+    Attributes
+    ----------
+    kind : {"thermal", "electrical"}
+        Whether heat or current passes.
+    film : float or str
+        Resistance of a film on the spots, of an area, at least 0, m² K/W or Ω m².
+    gas : float or str
+        Thermal conductivity of a gas in the gap, above 0, W/(m K).
+    jump : float or str
+        Temperature jump distance of the gas, at least 0, m.
+    drop : float or str
+        Difference between the bodies, above 0, K or V.
+    every : int
+        Interval of the contacts whose conductance is computed.
+    """
+
+    kind: Literal["thermal", "electrical"]
+    film: Quantity
+    gas: Quantity
+    jump: Quantity
+    drop: Quantity
+    every: int
+
+
+class _Viscosity(TypedDict):
+    viscosity: Quantity
+
+
+class GapFlow(_Viscosity, total=False):
+    """Keys of ``flow``: the flow of a fluid through the gap.
+
+    Attributes
+    ----------
+    viscosity : float or str
+        Viscosity of the fluid, above 0, Pa s. Required.
+    pressure : float or str
+        Pressure difference, at least 0, Pa.
+    along : {"x", "y", "both"}
+        Direction of the pressure gradient.
+    ends : {"periodic", "reservoirs"}
+        What lies beyond the ends of the grid along the gradient.
+    gas : bool
+        Whether the fluid is an ideal gas.
+    outlet : float or str
+        Absolute pressure of a gas at the outlet, above 0, Pa.
+    every : int
+        Interval of the contacts whose flow is computed.
+    """
+
+    pressure: Quantity
+    along: Literal["x", "y", "both"]
+    ends: Literal["periodic", "reservoirs"]
+    gas: bool
+    outlet: Quantity
+    every: int
+
+
 class Acceleration(TypedDict, total=False):
     """Keys of ``acceleration``: the extrapolation over several passes.
 
@@ -273,8 +333,10 @@ class Film(_Layer, total=False):
     wear: Quantity
 
 
-class Thermal(TypedDict):
-    """Keys of ``thermal`` of a body: its thermal constants, all required.
+class Thermal(TypedDict, total=False):
+    """Keys of ``thermal`` of a body: what it conducts.
+
+    A flash temperature needs the first three. A conductance needs the conductivity, or the resistivity if it is electrical.
 
     Attributes
     ----------
@@ -284,11 +346,14 @@ class Thermal(TypedDict):
         Heat capacity, J/(kg K).
     density : float or str
         Density, kg/m³.
+    resistivity : float or str
+        Electrical resistivity, Ω m.
     """
 
     conductivity: Quantity
     heat_capacity: Quantity
     density: Quantity
+    resistivity: Quantity
 
 
 def __dir__() -> list[str]:

@@ -6,10 +6,14 @@ use asperity::units::{Dimension, format, format_number};
 /// The rows of a conductance: name and value.
 pub(crate) fn conductance(row: &ConductanceRecord) -> Vec<(String, String)> {
     let (kind, of_area, resistance) = match row.thermal.is_some() {
-        true => (Dimension::ThermalConductance, Dimension::ThermalConductanceOfArea, Dimension::ThermalResistance),
-        false => {
-            (Dimension::ElectricalConductance, Dimension::ElectricalConductanceOfArea, Dimension::ElectricalResistance)
+        true => {
+            (Dimension::ThermalConductance, Dimension::ThermalConductanceOfArea, Dimension::ThermalResistance)
         }
+        false => (
+            Dimension::ElectricalConductance,
+            Dimension::ElectricalConductanceOfArea,
+            Dimension::ElectricalResistance,
+        ),
     };
     let Some(conductance) = row.conductance() else {
         return vec![("conductance".to_owned(), "no resistance: all cells touch without a film".to_owned())];
@@ -20,7 +24,8 @@ pub(crate) fn conductance(row: &ConductanceRecord) -> Vec<(String, String)> {
     }
     let mut rows = vec![("conductance".to_owned(), value)];
     if let [Some(joint), correlation] = row.joint() {
-        let beside = correlation.map_or(String::new(), |h| format!(", by the correlation {}", format(h, of_area)));
+        let beside =
+            correlation.map_or(String::new(), |h| format!(", by the correlation {}", format(h, of_area)));
         rows.push(("joint conductance".to_owned(), format(joint, of_area) + &beside));
     }
     rows
@@ -40,7 +45,11 @@ pub(crate) fn flow(row: &GapFlowRecord) -> Vec<(String, String)> {
         (name, format(row.leakage, Dimension::VolumeFlow)),
         (
             "constriction".to_owned(),
-            format!("gap {}{place}; permeability within {} %", length(row.critical_gap), format_number((1000.0 * row.estimate).ceil() / 10.0)),
+            format!(
+                "gap {}{place}; permeability within {} %",
+                length(row.critical_gap),
+                format_number((1000.0 * row.estimate).ceil() / 10.0)
+            ),
         ),
     ]
 }

@@ -81,8 +81,18 @@ pub(crate) fn rest<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (case, given) = asked(py, &source, &handed, threads)?;
-    let StaticResult { outcome, increments, updates, fields, closed_form, flow_result, warnings, .. } =
-        work::run(py, threads, progress.as_ref(), |watch| study::rest(&case, given, watch))?;
+    let StaticResult {
+        outcome,
+        increments,
+        updates,
+        fields,
+        closed_form,
+        flow_result,
+        conductance,
+        gap_flow,
+        warnings,
+        ..
+    } = work::run(py, threads, progress.as_ref(), |watch| study::rest(&case, given, watch))?;
     let contact = PyDict::new(py);
     match outcome {
         Outcome::Static(numbers) => contact.set_item("record", record(py, &numbers)?)?,
@@ -92,6 +102,8 @@ pub(crate) fn rest<'py>(
     contact.set_item("case", record(py, &case)?)?;
     contact.set_item("increments", record(py, &increments)?)?;
     contact.set_item("updates", record(py, &updates)?)?;
+    contact.set_item("conductance", record(py, &conductance)?)?;
+    contact.set_item("gap_flow", record(py, &gap_flow)?)?;
     contact.set_item("closed_form", record(py, &closed_form)?)?;
     contact.set_item("warnings", warnings)?;
     contact.set_item("pitch", fields.grid.pitch)?;

@@ -68,6 +68,14 @@ impl CoreResults {
         record(py, &ok(self.results.updates(), py)?)
     }
 
+    fn conductance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        record(py, &ok(self.results.conductance(), py)?)
+    }
+
+    fn gap_flow<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        record(py, &ok(self.results.flow(), py)?)
+    }
+
     fn sweep<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         record(py, &ok(self.results.sweep(), py)?)
     }

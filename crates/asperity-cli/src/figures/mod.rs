@@ -31,12 +31,12 @@ pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, has_new_upper
 pub(crate) use flow::{FlowSection, flow_sections, of_increments as of_flow_increments};
 pub(crate) use friction::stick;
 pub(crate) use loading::curves as of_loading;
+pub(crate) use passage::curves as passage_curves;
 pub(crate) use pressure::histogram;
 pub(crate) use rest::{approach, open_gap, profile as profile_at_rest};
 pub(crate) use rolling::curves as of_rolling;
 pub(crate) use sliding::curves as of_sliding;
 pub(crate) use stored::{Cap, StoredArray, in_frame_of};
-pub(crate) use passage::curves as passage_curves;
 pub(crate) use subsurface::columns as stress_columns;
 pub(crate) use surfaces::{as_measured, changed, curves as of_surfaces};
 pub(crate) use sweep::curves as of_sweep;

@@ -114,7 +114,8 @@ fn of_conductance(rows: &[&ConductanceRecord]) -> Option<Curves> {
     }
     let pressures: Vec<f64> = rows.iter().map(|row| row.mean_pressure).collect();
     let order = Order::of(&pressures);
-    let column = if rows[0].thermal.is_some() { "thermal_joint_conductance" } else { "electrical_joint_conductance" };
+    let column =
+        if rows[0].thermal.is_some() { "thermal_joint_conductance" } else { "electrical_joint_conductance" };
     let curve = |which: usize| {
         order.curve(rows.iter().map(|row| (row.mean_pressure, row.joint()[which].unwrap_or(f64::NAN))))
     };
@@ -123,7 +124,11 @@ fn of_conductance(rows: &[&ConductanceRecord]) -> Option<Curves> {
         Series::new("correlation", curve(1), Mark::Dashed),
     ];
     let vertical = Axis { log: order.log, ..Axis::of("joint conductance", column) };
-    let title = if order.by_pressure { "joint conductance over mean pressure" } else { "joint conductance, contact after contact" };
+    let title = if order.by_pressure {
+        "joint conductance over mean pressure"
+    } else {
+        "joint conductance, contact after contact"
+    };
     Some(Curves::new("joint_conductance", title, Chart::new("", order.axis(), vertical, series)))
 }
 
@@ -139,10 +144,16 @@ fn of_flow(rows: &[&GapFlowRecord]) -> Option<Curves> {
     // A closed contact leaks nothing, which has no logarithm.
     let shown = |leakage: f64| if leakage > 0.0 || !order.log { leakage } else { f64::NAN };
     let both = [("along x", FlowAxis::X, Mark::LineAndPoints), ("along y", FlowAxis::Y, Mark::Dashed)];
-    let series = both.into_iter().filter(|(_, axis, _)| along(*axis).count() > 0).map(|(name, axis, mark)| {
-        Series::new(name, order.curve(along(axis).map(|row| (row.mean_pressure, shown(row.leakage)))), mark)
-    });
+    let series =
+        both.into_iter().filter(|(_, axis, _)| along(*axis).count() > 0).map(|(name, axis, mark)| {
+            Series::new(
+                name,
+                order.curve(along(axis).map(|row| (row.mean_pressure, shown(row.leakage)))),
+                mark,
+            )
+        });
     let vertical = Axis { log: order.log, ..Axis::of("leakage", "leakage") };
-    let title = if order.by_pressure { "leakage over mean pressure" } else { "leakage, contact after contact" };
+    let title =
+        if order.by_pressure { "leakage over mean pressure" } else { "leakage, contact after contact" };
     Some(Curves::new("leakage", title, Chart::new("", order.axis(), vertical, series.collect())))
 }

@@ -19,10 +19,14 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     if found.case.conductance.is_none() && found.case.flow.is_none() {
         return None;
     }
-    let conductance = found.kept(found.results.conductance().map_err(Into::into)).unwrap_or_default();
-    let flow = found.kept(found.results.flow().map_err(Into::into)).unwrap_or_default();
+    let conductance = found.kept(found.results.conductance()).unwrap_or_default();
+    let flow = found.kept(found.results.flow()).unwrap_or_default();
     let mut html = facts(rows(&conductance, GapFlowRecord::last(&flow)));
-    let planes = if found.moves() || !found.is_finished() { Vec::new() } else { planes(found, GapFlowRecord::last(&flow)) };
+    let planes = if found.moves() || !found.is_finished() {
+        Vec::new()
+    } else {
+        planes(found, GapFlowRecord::last(&flow))
+    };
     if !planes.is_empty() {
         html += &plane::html(planes, data);
     }
@@ -37,11 +41,23 @@ fn rows(conductance: &[ConductanceRecord], flow: &[GapFlowRecord]) -> Vec<(Strin
         let means = ConductanceRecord::means(conductance);
         let row = if row.pass.is_some() { means.last().unwrap_or(row) } else { row };
         rows.extend(passage::conductance(row));
-        rows.push(("spots".to_owned(), format!("{}, with {} cells in the median", format_number(row.spots), format_number(row.median_spot_cells))));
+        rows.push((
+            "spots".to_owned(),
+            format!(
+                "{}, with {} cells in the median",
+                format_number(row.spots),
+                format_number(row.median_spot_cells)
+            ),
+        ));
         let share = |share: f64| format!("{} %", format_number((1000.0 * share).round() / 10.0));
         rows.push((
             "shares".to_owned(),
-            format!("spots {}, gas {} of what passes; film {} of the resistance", share(row.spot_share), share(row.gas_share), share(row.film_share)),
+            format!(
+                "spots {}, gas {} of what passes; film {} of the resistance",
+                share(row.spot_share),
+                share(row.gas_share),
+                share(row.film_share)
+            ),
         ));
     }
     for row in flow {
@@ -49,12 +65,20 @@ fn rows(conductance: &[ConductanceRecord], flow: &[GapFlowRecord]) -> Vec<(Strin
         if row.leakage > 0.0 {
             rows.push((
                 "flow factor".to_owned(),
-                format!("{}, an effective medium has {}", format_number(row.flow_factor), format_number(row.effective_medium / row.mean_gap.powi(3))),
+                format!(
+                    "{}, an effective medium has {}",
+                    format_number(row.flow_factor),
+                    format_number(row.effective_medium / row.mean_gap.powi(3))
+                ),
             ));
         }
         rows.push((
             "trapped".to_owned(),
-            format!("{}; {} % of the cells are part of a path", format(row.trapped_volume, Dimension::Volume), format_number((1000.0 * row.flowing_share).round() / 10.0)),
+            format!(
+                "{}; {} % of the cells are part of a path",
+                format(row.trapped_volume, Dimension::Volume),
+                format_number((1000.0 * row.flowing_share).round() / 10.0)
+            ),
         ));
     }
     rows.into_iter().map(|(name, value)| (name, escaped(&value))).collect()
@@ -68,25 +92,28 @@ fn planes(found: &mut PageData, flow: &[GapFlowRecord]) -> Vec<Plane> {
         let (pitch, unit) = ([stored.pitch[0], stored.pitch[1]], stored.unit.clone());
         Some((stored.into_field()?, pitch, unit))
     };
-    let plane = |name: &str, title: String, quantity, (field, pitch, unit): &(Field, [f64; 2], String), mark| Plane {
-        file: name.to_owned(),
-        title,
-        map: QuantisedField::positive(field, *pitch),
-        x: 0.0,
-        down: false,
-        quantity,
-        unit: Unit::Of(match unit.as_str() {
-            "A/m²" => "A/m²",
-            "W/m²" => "W/m²",
-            _ => "m²/s",
-        }),
-        shades: Shades::FromZero,
-        mark,
-    };
+    let plane =
+        |name: &str, title: String, quantity, (field, pitch, unit): &(Field, [f64; 2], String), mark| Plane {
+            file: name.to_owned(),
+            title,
+            map: QuantisedField::positive(field, *pitch),
+            x: 0.0,
+            down: false,
+            quantity,
+            unit: Unit::Of(match unit.as_str() {
+                "A/m²" => "A/m²",
+                "W/m²" => "W/m²",
+                _ => "m²/s",
+            }),
+            shades: Shades::FromZero,
+            mark,
+        };
     let is_there = |(field, ..): &(Field, [f64; 2], String)| field.iter().any(|value| *value > 0.0);
     let flux = read("flux").filter(is_there);
-    let mut planes: Vec<Plane> =
-        flux.iter().map(|flux| plane("flux", "Flux through the contact.".to_owned(), "flux", flux, None)).collect();
+    let mut planes: Vec<Plane> = flux
+        .iter()
+        .map(|flux| plane("flux", "Flux through the contact.".to_owned(), "flux", flux, None))
+        .collect();
     for row in flow {
         let (name, axis) = if row.along == FlowAxis::X { ("flow_x", "x") } else { ("flow_y", "y") };
         if let Some(rate) = read(name).filter(is_there) {

@@ -16,10 +16,17 @@ pub fn text(case: &Case, summary: &Summary) -> String {
     };
     let theory = summary.closed_form.as_ref().map_or(String::new(), theory_lines);
     let flow = summary.plasticity.as_ref().map_or(String::new(), flow_line);
-    let passes = |rows: Vec<(String, String)>| rows.iter().map(|(name, value)| line(name, value)).collect::<String>();
-    let conductance = summary.conductance.last().map_or(String::new(), |row| passes(passage::conductance(row)));
+    let passes =
+        |rows: Vec<(String, String)>| rows.iter().map(|(name, value)| line(name, value)).collect::<String>();
+    let conductance =
+        summary.conductance.last().map_or(String::new(), |row| passes(passage::conductance(row)));
     let leakage: String = summary.flow.iter().map(|row| passes(passage::flow(row))).collect();
-    contact + &theory + &flow + &conductance + &leakage + &summary.subsurface.iter().map(stress_line).collect::<String>()
+    contact
+        + &theory
+        + &flow
+        + &conductance
+        + &leakage
+        + &summary.subsurface.iter().map(stress_line).collect::<String>()
 }
 
 /// Describes the closed form of the contact, and the deviation of the computed contact from it.
