@@ -12,7 +12,7 @@ use super::html::{details, escaped, minus};
 use super::packed::{self, Packed};
 use crate::draw::{Unit, range_of_heights};
 use crate::figures::{self, Stored};
-use crate::numbers::in_column;
+use crate::numbers::{in_column, meaning};
 use crate::report::Outcome;
 
 /// Bodies of more cells have no parameters on the page: those of hills and of the autocorrelation would take minutes.
@@ -205,7 +205,8 @@ fn parameters(before: &[Topography; 2], after: Option<&[Topography; 2]>) -> Stri
             html += &format!("<td>{}</td>", escaped(&minus(&number)));
         }
         html += &format!("<td class=\"words\">{}</td>", escaped(&unit.symbol));
-        html += &format!("<td class=\"words\">{}</td></tr>", escaped(of.meaning));
+        let meaning = meaning(of, columns.iter().map(|(_, values)| values[row].value));
+        html += &format!("<td class=\"words\">{}</td></tr>", escaped(&meaning));
     }
     html + "</tbody></table></div>"
 }
