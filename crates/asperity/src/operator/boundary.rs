@@ -51,7 +51,7 @@ impl Boundary {
     }
 
     /// The axis along which alone it repeats itself.
-    fn single_period(self) -> Option<usize> {
+    pub(crate) fn single_period(self) -> Option<usize> {
         match self.0 {
             [Edge::Periodic, Edge::Free] => Some(0),
             [Edge::Free, Edge::Periodic] => Some(1),
