@@ -57,7 +57,13 @@ class Scrubber {
     this.moves = Boolean(this.contact.groups[0].label) && !this.contact.wraps && Boolean(data.bodies);
     if (this.moves) this.places = new PlacesView(right);
     if (data.bodies) this.section = new SectionView(right, this.contact.wraps);
-    if (lone) { const row = lone.parentNode; right.append(lone); row.remove(); }
+    if (lone) {
+      const row = lone.parentNode;
+      // Under a wide map there is more room than under the section.
+      const [wide, deep] = [0, 1].map((axis) => (data.bodies ? data.bodies[0].before.shape[axis] * data.bodies[0].before.pitch[axis] : 1));
+      (wide > 1.4 * deep ? left : right).append(lone);
+      row.remove();
+    }
     if (most > 0 || this.groups.length > 1) {
       this.map.canvas.tabIndex = 0;
       views.before(element("p", { class: "remark" }, `Keys on the map: ← → ${this.contact.groups[0].label ? "position" : "point"}, ${this.groups.length > 1 ? "↑ ↓ pass, " : ""}Home and End, space plays. A click chooses the section.`));

@@ -10,8 +10,8 @@ use super::curves;
 use super::found::Found;
 use super::html::{details, escaped, minus};
 use super::packed::{self, Packed};
-use crate::draw::{Unit, range_of_heights};
-use crate::figures::{self, Stored};
+use crate::draw::{Charts, Unit, range_of_heights};
+use crate::figures::{self, Curves, Stored};
 use crate::numbers::{in_column, meaning};
 use crate::report::Outcome;
 
@@ -43,10 +43,18 @@ pub(super) fn section(found: &mut Found, data: &mut Value, charts: &mut Vec<Valu
     let before = found.kept(figures::as_measured(&before))?;
     let after = after.as_ref().and_then(|after| found.kept(figures::as_measured(after)));
     // Roughness parameters of a ball or a plane say nothing.
-    let are_forms = [&found.case.lower, &found.case.upper].into_iter().all(|body| is_form(&body.topography));
-    if !are_forms && before.iter().all(|body| body.grid().cells() <= MAX_CELLS) {
-        html += &details("ISO 25178 parameters, material upwards", &parameters(&before, after.as_ref()));
-        html += &curves::html(figures::of_surfaces(&before, after.as_ref()), charts);
+    let forms = [&found.case.lower, &found.case.upper].map(|body| is_form(&body.topography));
+    if forms.contains(&false) && before.iter().all(|body| body.grid().cells() <= MAX_CELLS) {
+        html +=
+            &details("ISO 25178 parameters, material upwards", &parameters(&before, after.as_ref(), forms));
+        let mut curves = figures::of_surfaces(&before, after.as_ref());
+        for Curves { title, charts: Charts { charts, .. }, .. } in &mut curves {
+            charts.retain(|chart| !forms[usize::from(chart.title == "upper body")]);
+            if let [only] = &charts[..] {
+                *title = format!("{title}, {}", only.title);
+            }
+        }
+        html += &curves::html(curves, charts);
     }
     Some(html)
 }
@@ -172,10 +180,13 @@ fn kept(found: &mut Found, body: &str) -> Vec<Value> {
     maps
 }
 
-/// A table of all parameters of both bodies, before and after.
-fn parameters(before: &[Topography; 2], after: Option<&[Topography; 2]>) -> String {
+/// A table of all parameters of both bodies, before and after, without those that are forms.
+fn parameters(before: &[Topography; 2], after: Option<&[Topography; 2]>, forms: [bool; 2]) -> String {
     let mut columns: Vec<(String, Vec<Parameter>)> = Vec::new();
     for (index, (_, title)) in [("", "lower"), ("", "upper")].into_iter().enumerate() {
+        if forms[index] {
+            continue;
+        }
         let mut add = |when: &str, body: &Topography| {
             columns.push((format!("{title}{when}"), Parameters::of(body).rows()));
         };
