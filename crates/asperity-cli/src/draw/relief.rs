@@ -360,7 +360,7 @@ mod tests {
 
     #[test]
     fn a_slope_towards_the_light_is_the_brighter() {
-        let (view, _) = View::new([1.0, 1.0], 300.0);
+        let (view, _) = View::new([1.0, 1.0], RISE, 300.0);
         // The light comes from −x.
         let lit = |rise: f64| {
             let along_x = [[0.0, 0.5, 0.5 - rise], [1.0, 0.5, 0.5 + rise]];
@@ -371,7 +371,7 @@ mod tests {
 
     #[test]
     fn the_near_corner_is_low_on_the_sheet_and_heights_rise() {
-        let (view, height) = View::new([1.0, 1.0], 300.0);
+        let (view, height) = View::new([1.0, 1.0], RISE, 300.0);
         let at = |x, y, z| view.place([x, y, z]);
         assert!(at(0.0, 0.0, 0.0)[1] > at(1.0, 1.0, 0.0)[1] && at(0.5, 0.5, 1.0)[1] < at(0.5, 0.5, 0.0)[1]);
         assert!(at(1.0, 0.0, 0.0)[0] > at(0.0, 1.0, 0.0)[0]);
