@@ -83,7 +83,7 @@ impl Tractions {
 ///   σxx = σyy = −ν p̄/(1 − ν), at all depths.
 /// - Periodic along one axis, free along the other: each cell repeats endlessly along that axis. The cells of 17 periods are
 ///   summed, those beyond as the rest of an endless strip in plane strain. The part that is uniform along the axis is exact
-///   to 1e-10 of the traction, the other part to some 1e-5 of it.
+///   to 1e-10 of the traction, the other part to 3e-5 of it.
 pub struct Subsurface {
     grid: Grid,
     poisson: f64,
@@ -553,7 +553,7 @@ mod tests {
                     influence
                 });
                 let difference = (&some - &many).iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-                assert!(difference < 2e-5, "{traction:?} {component:?} {depth}: {difference:e}");
+                assert!(difference < 3e-5, "{traction:?} {component:?} {depth}: {difference:e}");
             }
         }
     }

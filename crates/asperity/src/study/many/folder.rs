@@ -340,7 +340,7 @@ mod tests {
         let begun = enter(study("1, 2", 2)).unwrap().0;
         // A third seed, then a load between the others.
         let grown = enter(study("1, 2", 3)).unwrap().0;
-        assert!(grown.starts_with(&begun) && grown.ends_with("0005,1,3\n0006,2,3\n"), "{grown}");
+        assert!(grown.starts_with(&begun) && grown.ends_with("0005,1.0,3\n0006,2.0,3\n"), "{grown}");
         let (again, _) = enter(study("1, 1.5, 2", 3)).unwrap();
         assert!(
             again.starts_with(&grown) && again.ends_with("0007,1.5,1\n0008,1.5,2\n0009,1.5,3\n"),
