@@ -218,7 +218,7 @@ def stress(
     body: Literal["lower", "upper"] = "lower",
     poisson: float | None = None,
     material: Material | None = None,
-    boundary: Boundary | None = None,
+    boundary: Boundary | Sequence[Boundary] | None = None,
     shear: Sequence[ArrayLike | None] | None = None,
     pitch: Pair | None = None,
     threads: int | None = None,
@@ -241,8 +241,8 @@ def stress(
         Poisson's ratio of the body, 0 to 0.5. Give it or a `material`.
     material : Material, optional
         Material of the body.
-    boundary : str, optional
-        The surroundings of the grid: ``"free"`` (by default) or ``"periodic"``.
+    boundary : str or pair of str, optional
+        The surroundings of the grid, along x and y if two are given: ``"free"`` (by default) or ``"periodic"``.
     shear : pair of array_like, optional
         Shear tractions along +x and +y on the lower body, Pa, matrices of the same shape; ``None`` for none.
     pitch : float, str or pair of them, optional
@@ -257,7 +257,7 @@ def stress(
     Raises
     ------
     asperity.errors.BadInput
-        If an argument is invalid, the body has a coating, or the boundary is periodic along one axis only.
+        If an argument is invalid, or the body has a coating.
     asperity.errors.Memory
         If the planes need more memory than is available.
     KeyboardInterrupt
@@ -304,12 +304,12 @@ def _of_tractions(pressure: Any, shear: Any, pitch: Any, boundary: Any, poisson:
     if len(parts) != 2:
         raise bad_input("shear", f"'shear' has {len(parts)} entries, expected the traction along x and that along y")
     along = [None if part is None else _traction("shear", part, normal.shape) for part in parts]
-    if boundary is not None and not isinstance(boundary, str) and len(set(boundary)) == 1:
-        boundary = boundary[0]
-    edge = "free" if boundary is None else boundary
-    if edge not in ("free", "periodic"):
-        raise bad_input("boundary", f"'boundary' is {boundary!r}, expected \"free\" or \"periodic\"")
-    return (normal, lengths("pitch", pitch)), along, [edge, edge], poisson, body == "upper"
+    one = "free" if boundary is None else boundary
+    edges = [one, one] if isinstance(one, str) else list(one)
+    if len(edges) != 2 or any(edge not in ("free", "periodic") for edge in edges):
+        expected = 'expected "free" or "periodic", or one of them for each axis'
+        raise bad_input("boundary", f"'boundary' is {boundary!r}, {expected}")
+    return (normal, lengths("pitch", pitch)), along, edges, poisson, body == "upper"
 
 
 def _traction(key: str, values: Any, shape: tuple[int, ...] | None) -> NDArray[np.float64]:

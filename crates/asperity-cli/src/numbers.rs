@@ -1,5 +1,6 @@
 //! Format of numbers in tables, page and figures: four digits, and a common unit for adjacent numbers.
 
+use asperity::surface::Parameter;
 use asperity::units::{Dimension, Multiple};
 
 /// Writes a number with four significant digits, including zeros, for columns; `–` for NaN.
@@ -20,6 +21,19 @@ pub(crate) fn in_column(value: f64) -> String {
 pub(crate) fn change([from, to]: [f64; 2], dimension: Dimension) -> String {
     let Multiple { factor, symbol } = dimension.multiple(from.abs().max(to.abs()));
     format!("{} → {} {symbol}", in_column(from / factor), in_column(to / factor))
+}
+
+/// The meaning of a surface parameter, or the reason why it is not defined where one of `values` is NaN.
+pub(crate) fn meaning(of: &Parameter, values: impl IntoIterator<Item = f64>) -> String {
+    let reason = match of.symbol {
+        "Sal" => "the autocorrelation falls to 0.2 in no direction within half the map",
+        "Str" => "in some direction the autocorrelation does not fall to 0.2 within half the map",
+        _ => return of.meaning.to_owned(),
+    };
+    match values.into_iter().any(f64::is_nan) {
+        true => format!("{} (–: {reason})", of.meaning),
+        false => of.meaning.to_owned(),
+    }
 }
 
 #[cfg(test)]

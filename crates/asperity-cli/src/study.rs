@@ -18,6 +18,7 @@ const MANY: usize = 5000;
 pub(crate) fn study(arguments: &args::Study) -> Outcome {
     let study = Study::load(&arguments.study)?;
     let directory = arguments.out.clone().unwrap_or_else(|| arguments.study.with_extension(""));
+    let study = Folder::number(&directory, study)?;
     let task = arguments.task.unwrap_or(Task::ALL);
     if arguments.list {
         return list(&study, &directory, task);
@@ -32,6 +33,7 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
         return Err(Failure::usage(message, Some("`--yes` computes them, `--list` prints them")));
     }
     let folder = Folder::enter(&directory, &study).map_err(|error| changed(error.into()))?;
+    foresee(&study, &folder)?;
     compute(&Queue::new(&study, &folder, task, arguments.retry)?, arguments.quiet).map_err(changed)?;
     let tally = Tally::of(&folder.states(&study)?);
     if tally.left() == 0 && folder.has_grown(&study)? {
@@ -59,6 +61,25 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
         0 => Ok(()),
         failed => Err(Failure::Cases { failed, all: tally.all() }),
     }
+}
+
+/// Names the open cases that will fail because their load is beyond the plastic limit.
+fn foresee(study: &Study, folder: &Folder) -> Outcome {
+    let mut beyond = Vec::new();
+    for (case, error) in study.beyond_plastic_limit() {
+        if !folder.is_done(case) && folder.failure(case)?.is_none() {
+            beyond.push((case, error));
+        }
+    }
+    if let Some((case, error)) = beyond.first() {
+        let others = match beyond.len() {
+            1 => String::new(),
+            2 => ", and 1 more case".to_owned(),
+            all => format!(", and {} more cases", all - 1),
+        };
+        note(&format!("case {case:04} will fail{others}: {error}: {}", study.text(*case)));
+    }
+    Ok(())
 }
 
 /// Returns the hint for a changed file of the study.

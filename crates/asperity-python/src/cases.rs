@@ -27,7 +27,7 @@ type Collected<'py> =
 impl CoreStudy {
     #[new]
     fn new(py: Python<'_>, file: PathBuf, directory: PathBuf) -> PyResult<Self> {
-        let study = work::run(py, 0, None, |_| Study::load(&file))?;
+        let study = work::run(py, 0, None, |_| Folder::number(&directory, Study::load(&file)?))?;
         Ok(Self { study, directory })
     }
 

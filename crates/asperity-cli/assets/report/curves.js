@@ -6,6 +6,7 @@ const SERIES = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"
 class ChartView {
   constructor(place, chart) {
     this.place = place;
+    this.hidden = new Set();
     this.host = element("div");
     this.legend = element("div", { class: "legend" });
     this.readout = element("output", { "aria-live": "off" });
@@ -18,18 +19,55 @@ class ChartView {
   }
 
   show(chart) {
+    if (this.chart && (this.chart.title !== chart.title || this.chart.colours !== chart.colours)) this.hidden.clear();
     this.chart = chart;
+    this.explain();
+    this.redraw();
+  }
+
+  /** The curve that a series belongs to: its own, or that of its colour. */
+  curve(n) {
+    const { colour } = this.chart.series[n];
+    return colour === undefined ? n : colour;
+  }
+
+  colour(n) { return SERIES[this.curve(n) % SERIES.length] || style("--ink"); }
+
+  /** The legend; where it has several names, each is a button that hides and shows its curve. */
+  explain() {
+    const { series, colours } = this.chart;
+    const named = series.map((_, n) => n).filter((n) => series[n].name);
+    const entry = (n) => {
+      const s = series[n];
+      const words = [element("i", { class: s.mark === "dashed" ? "dashed" : "", style: `color:${this.colour(n)}` }), s.name + (s.right ? " (right axis)" : "")];
+      if (named.length < 2) return element("span", {}, ...words);
+      const shown = () => String(!this.hidden.has(this.curve(n)));
+      const button = element("button", { type: "button", "aria-pressed": shown(), onclick: () => {
+        if (!this.hidden.delete(this.curve(n))) this.hidden.add(this.curve(n));
+        button.setAttribute("aria-pressed", shown());
+        this.redraw();
+      } }, ...words);
+      return button;
+    };
+    this.legend.replaceChildren(...(colours ? [element("span", {}, `${colours}:`)] : []), ...named.map(entry));
+  }
+
+  redraw() {
+    const { chart } = this;
     if (this.plot) this.plot.destroy();
     const [ink, line] = [style("--ink"), style("--line")];
-    const colour = (n) => SERIES[(series[n].colour === undefined ? n : series[n].colour) % SERIES.length] || ink;
     const bounds = (s) => [s.y, s.low || [], s.high || []].map((all) => all.map((y) => plotted(y, axisOf(s))));
-    const series = chart.series;
+    const place = chart.series.map((_, n) => n).filter((n) => !this.hidden.has(this.curve(n)));
+    const series = this.shown = place.map((n) => chart.series[n]);
+    const colour = (k) => this.colour(place[k]);
     const axisOf = (s) => (s.right ? chart.right : chart.y);
     const points = series.map((s) => [s.x.map((x) => plotted(x, chart.x)), s.y.map((y) => plotted(y, axisOf(s)))]);
     const spans = {
       x: span(points.map((p) => p[0]), chart.x, false),
       y: span(series.filter((s) => !s.right).flatMap(bounds), chart.y, series.some((s) => s.mark === "bars")),
     };
+    // Words beside the lowest and the highest point have room.
+    if (chart.words.length) { const room = 0.08 * (spans.y[1] - spans.y[0]); spans.y = [spans.y[0] - room, spans.y[1] + room]; }
     if (chart.right) spans.right = span(points.filter((_, n) => series[n].right).map((p) => p[1]), chart.right, false);
     const scale = (name) => ({
       time: false,
@@ -64,8 +102,6 @@ class ChartView {
     const canvas = this.host.querySelector("canvas");
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", `${chart.title}: ${chart.y.label} over ${chart.x.label}`);
-    this.legend.replaceChildren(...(chart.colours ? [element("span", {}, `${chart.colours}:`)] : []), ...series.flatMap((s, n) => (s.name ? [element("span", {},
-      element("i", { class: s.mark === "dashed" ? "dashed" : "", style: `color:${colour(n)}` }), s.name)] : [])));
   }
 
   width() { return Math.max(200, this.place.clientWidth); }
@@ -93,7 +129,7 @@ class ChartView {
     if (left === undefined || left < 0) { this.readout.textContent = ""; return; }
     let [nearest, best] = [Infinity, null];
     points.forEach(([xs, ys], n) => {
-      const s = this.chart.series[n];
+      const s = this.shown[n];
       for (let k = 0; k < xs.length; k++) {
         const d = Math.hypot(u.valToPos(xs[k], "x") - left, 0.5 * (u.valToPos(ys[k], s.right ? "right" : "y") - top));
         if (d < nearest) [nearest, best] = [d, [s, xs[k], ys[k]]];
@@ -268,7 +304,7 @@ function drawWords(u, chart, ink) {
     const [px, py] = [u.valToPos(plotted(x, chart.x), "x", true), u.valToPos(plotted(y, chart.y), "y", true)];
     const right = px > u.bbox.left + u.bbox.width / 2;
     c.textAlign = right ? "right" : "left";
-    c.fillText(words, px + (right ? -8 : 8) * ratio, py - 8 * ratio);
+    c.fillText(words, px + (right ? -8 : 8) * ratio, py + (right ? -8 : 16) * ratio);
   }
   c.restore();
 }

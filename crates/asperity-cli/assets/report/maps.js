@@ -187,9 +187,9 @@ class MapView extends Drawing {
       c.strokeRect(a + 0.75, Math.min(lower, upper) + 0.75, b - a - 1.5, Math.abs(lower - upper) - 1.5);
     }
     c.setLineDash([]);
-    for (const { from, to, colour } of lines) {
+    for (const { from, to, colour, width } of lines) {
       c.strokeStyle = colour || "#d55e00";
-      c.lineWidth = 1;
+      c.lineWidth = width || 1;
       c.beginPath();
       c.moveTo(px(from[0]), py(from[1]));
       c.lineTo(px(to[0]), py(to[1]));
@@ -241,7 +241,7 @@ class MapView extends Drawing {
     const map = document.createElement("canvas");
     // The lines that choose a section are the page's own.
     const { scene } = this;
-    this.scene = { ...scene, lines: [] };
+    this.scene = { ...scene, lines: (scene.lines || []).filter((line) => line.width) };
     this.paint(map, Math.max(560, this.width), 2, false);
     this.scene = scene;
     const sheet = document.createElement("canvas");

@@ -35,7 +35,7 @@ for (const button of document.querySelectorAll(".copy")) {
 
 /** A map that does not change, such as one below the surface. */
 async function showPlane(place) {
-  const { file, title, map, x, down, length, quantity, unit, kind, range, mark } = data.planes[Number(place.dataset.plane)];
+  const { file, title, map, x, down, length, quantity, unit, kind, range, mark, spans } = data.planes[Number(place.dataset.plane)];
   await unpack(map);
   const extent = map.shape.map((cells, axis) => cells * map.pitch[axis]);
   new MapView(place, title, file).show({
@@ -43,7 +43,8 @@ async function showPlane(place) {
     images: [{ packed: map, kind, range, corner: [x, 0], told: (v) => written(v, unit) }],
     bar: { range, unit, label: quantity, kind },
     marks: mark ? [mark.at] : [],
-    classes: mark ? [["#d02020", mark.what]] : null,
+    lines: spans.map(([from, to]) => ({ from: [from, 0], to: [to, 0], colour: "#d55e00", width: 6 })),
+    classes: [...(spans.length ? [["#d55e00", "contact"]] : []), ...(mark ? [["#d02020", mark.what]] : [])],
   });
 }
 

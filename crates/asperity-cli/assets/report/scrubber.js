@@ -50,10 +50,20 @@ class Scrubber {
     const [left, right] = [element("div"), element("div")];
     const views = element("div", { class: "split" }, left, right);
     place.append(controls, this.text, views);
+    // A chart that would stand alone in its row stands under the section.
+    const beside = place.parentNode.querySelectorAll(".charts > .chart");
+    const lone = beside.length === 1 ? beside[0] : null;
     this.map = new MapView(left, "contact", "contact", (_, y) => { this.row = y; this.show(); });
     this.moves = Boolean(this.contact.groups[0].label) && !this.contact.wraps && Boolean(data.bodies);
     if (this.moves) this.places = new PlacesView(right);
     if (data.bodies) this.section = new SectionView(right, this.contact.wraps);
+    if (lone) {
+      const row = lone.parentNode;
+      // Under a wide map there is more room than under the section.
+      const [wide, deep] = [0, 1].map((axis) => (data.bodies ? data.bodies[0].before.shape[axis] * data.bodies[0].before.pitch[axis] : 1));
+      (wide > 1.4 * deep ? left : right).append(lone);
+      row.remove();
+    }
     if (most > 0 || this.groups.length > 1) {
       this.map.canvas.tabIndex = 0;
       views.before(element("p", { class: "remark" }, `Keys on the map: ← → ${this.contact.groups[0].label ? "position" : "point"}, ${this.groups.length > 1 ? "↑ ↓ pass, " : ""}Home and End, space plays. A click chooses the section.`));
@@ -111,6 +121,7 @@ class Scrubber {
     const rects = this.moves ? [{ from: [frame.offset, 0], size: upper, colour: "#d02020", dashed: true }] : [];
     const classes = layer.kind === "class" ? layer.classes.map((name, k) => [["var(--blank)", "rgb(0,114,178)", "rgb(213,94,0)"][k], name])
       : layer.kind === "positive" ? [["var(--blank)", layer.name === "pressure" ? "no contact" : "zero"]]
+        : layer.name === "displacement" ? []
         : layer.kind === "between" ? [["var(--missing)", "no contact"]]
         : [["var(--blank)", "in contact"], ...(layer.range[0] < 0 ? [["rgb(213,94,0)", "in contact and flattened"]] : [])];
     if (this.moves) classes.push(["#d02020", "edge of the upper body"]);
@@ -225,32 +236,47 @@ class SectionView extends Drawing {
     const px = (i) => left + ((i * pitch - region[0]) / (region[1] - region[0])) * w;
     const py = (z) => top + h - ((z - low) / (high - low)) * h;
     const end = Math.ceil(region[1] / pitch - 1e-6);
-    // Cells next to each other are one area, so that there are no seams.
-    const area = (colour, from, to) => {
-      c.beginPath();
+    // The body on one side of its heights, which are lines between the middles of cells.
+    const body = (from, edge) => {
+      const path = new Path2D();
       for (let i = 0; i < end; i++) {
         const first = i;
         const tops = [];
-        for (; i < end; i++) {
-          const z = from(i);
-          if (!Number.isFinite(z)) break;
-          tops.push(z);
-        }
+        for (; i < end && Number.isFinite(from(i)); i++) tops.push(py(from(i)));
         if (!tops.length) continue;
-        c.moveTo(px(first), to(first));
-        tops.forEach((z, k) => { c.lineTo(px(first + k), py(z)); c.lineTo(px(first + k + 1), py(z)); });
-        for (let k = i - 1; k >= first; k--) { c.lineTo(px(k + 1), to(k)); c.lineTo(px(k), to(k)); }
+        path.moveTo(px(first), edge);
+        path.lineTo(px(first), tops[0]);
+        tops.forEach((at, k) => path.lineTo(px(first + k + 0.5), at));
+        path.lineTo(px(i), tops[tops.length - 1]);
+        path.lineTo(px(i), edge);
+        path.closePath();
       }
-      c.fillStyle = colour;
-      c.fill();
+      return path;
     };
     c.save();
     c.beginPath();
     c.rect(left, top, w, h);
     c.clip();
-    area("rgba(0,114,178,0.75)", (i) => lower[i], () => top + h + 1);
-    area("rgba(192,64,64,0.7)", facing, () => top - 1);
-    area("#e69f00", (i) => (facing(i) < lower[i] ? lower[i] : NaN), (i) => Math.max(py(facing(i)), py(lower[i]) + 1.2));
+    const [below, above] = [body((i) => lower[i], top + h + 1), body(facing, top - 1)];
+    c.fillStyle = "rgba(0,114,178,0.75)";
+    c.fill(below);
+    c.fillStyle = "rgba(192,64,64,0.7)";
+    c.fill(above);
+    c.save();
+    c.clip(below);
+    c.fillStyle = "#e69f00";
+    c.fill(above);
+    c.restore();
+    // However little they overlap, it is seen.
+    c.strokeStyle = "#e69f00";
+    c.lineWidth = 1.4;
+    c.beginPath();
+    for (let i = 0; i < end; i++) {
+      if (!(facing(i) < lower[i])) continue;
+      c.moveTo(px(i + 0.5), py(lower[i]) - 0.7);
+      c.lineTo(px(i + 0.5), py(facing(i)) + 0.7);
+    }
+    c.stroke();
     c.restore();
     drawAxes(c, { frame: [left, top, w, h], region: [region, [low, high]], units: [length, unit], names: ["x", "height"], apart: [60, 43] });
   }

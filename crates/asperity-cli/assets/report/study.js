@@ -15,6 +15,12 @@ function suitsLog(all) {
   return last >= 10 * numbers[0] || (numbers.length > 2 && Math.max(...ratios) < 1.1 * Math.min(...ratios) && last > 3 * numbers[0]);
 }
 
+/** Whether black is read better than white on a colour #rrggbb. */
+function isLight(colour) {
+  const [r, g, b] = [1, 3, 5].map((at) => (parseInt(colour.substr(at, 2), 16) / 255) ** 2.2);
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b > 0.18;
+}
+
 class Explorer {
   constructor(place, study) {
     this.study = study;
@@ -28,14 +34,39 @@ class Explorer {
       return element("label", {}, label, select);
     };
     this.colours = element("select", { onchange: () => this.show() });
+    this.form = element("select", { onchange: () => this.show() }, element("option", { value: "curves" }, "curves"), element("option", { value: "map" }, "table in colours"));
     place.append(element("div", { class: "controls" }, choice("quantity", "y", this.quantities.map((q) => q.label)),
-      choice("over", "x", this.over.map((axis) => axis.label)), element("label", {}, "colour", this.colours)));
+      choice("over", "x", this.over.map((axis) => axis.label)), element("label", {}, "colour", this.colours), element("label", {}, "as", this.form)));
+    this.only = new Map();
+    place.append(this.filters());
     this.figure = element("figure", { class: "chart wide" }, element("figcaption", {}, element("span")));
-    place.append(this.figure);
+    this.heat = element("div", { id: "heat", class: "scroll whole", tabindex: 0, role: "region", "aria-label": "means in colours", hidden: true });
+    place.append(this.figure, this.heat);
     this.note = element("p", { class: "remark" });
     place.append(this.note);
     this.offerColours();
     this.show();
+  }
+
+  /** A choice for each axis: the cases with one of its values, or all. */
+  filters() {
+    const MOST = 200;
+    const axes = this.study.axes.filter((axis) => axis.texts.length > 1 && axis.texts.length <= MOST);
+    const choice = (axis) => {
+      const select = element("select", { onchange: () => {
+        if (select.value === "") this.only.delete(axis);
+        else this.only.set(axis, Number(select.value));
+        this.show();
+        showRows(this);
+      } }, element("option", { value: "" }, "all"), ...axis.texts.map((text, k) => element("option", { value: k }, text)));
+      return element("label", {}, axis.label, select);
+    };
+    return element("div", { class: "controls" }, element("span", { class: "remark" }, "only the cases with"), ...axes.map(choice));
+  }
+
+  /** Whether a case has the values that are chosen. */
+  holds(n) {
+    return [...this.only].every(([axis, index]) => axis.indices[n] === index);
   }
 
   /** The axes that are not drawn over, each with a colour for each of its values. */
@@ -49,10 +80,50 @@ class Explorer {
 
   show() {
     this.offerColours();
+    const isMap = this.form.value === "map";
+    this.figure.hidden = isMap;
+    this.heat.hidden = !isMap;
+    if (isMap) { this.tabulate(); return; }
     const chart = this.chart();
     this.figure.querySelector("figcaption span").textContent = chart.title;
     if (this.view) this.view.show(chart);
     else this.view = new ChartView(this.figure, chart);
+  }
+
+  /** The means as a table: a column for each value drawn over, a row for each value of the other axis. */
+  tabulate() {
+    const { study } = this;
+    const [y, x] = [this.quantities[this.chosen.y], this.over[this.chosen.x]];
+    const by = study.axes.find((axis) => axis.key === this.colours.value);
+    const cells = new Map();
+    study.cases.forEach((_, n) => {
+      const value = y.values[n];
+      if (!this.holds(n) || value === null || !Number.isFinite(value)) return;
+      const key = `${by ? by.indices[n] : 0} ${x.indices[n]}`;
+      if (!cells.has(key)) cells.set(key, []);
+      cells.get(key).push(value);
+    });
+    const mean = (all) => all.reduce((a, b) => a + b) / all.length;
+    const means = [...cells.values()].map(mean);
+    const log = suitsLog(means);
+    const shade = (v) => (log ? Math.log(v) : v);
+    const [low, high] = [Math.min(...means.map(shade)), Math.max(...means.map(shade))];
+    const palette = palettes.pressure.css;
+    const places = (axis) => axis.texts.map((_, k) => k).filter((k) => !this.only.has(axis) || this.only.get(axis) === k);
+    const row = (group) => places(x).map((at) => {
+      const all = cells.get(`${group} ${at}`);
+      if (!all) return element("td", {}, "–");
+      const [value, n] = [mean(all), all.length];
+      const colour = palette[high > low ? Math.round((255 * (shade(value) - low)) / (high - low)) : 128];
+      const title = n > 1 ? `mean of ${n} cases, ${written(Math.min(...all), y.unit)} to ${written(Math.max(...all), y.unit)}` : "one case";
+      return element("td", { style: `background:${colour};color:${isLight(colour) ? "#000000" : "#ffffff"}`, title }, digits(value / y.unit.factor));
+    });
+    const head = element("thead", {}, element("tr", {}, element("th", { scope: "col" }, by ? `${by.label} ↓, ${x.label} →` : x.label),
+      ...places(x).map((at) => element("th", { scope: "col" }, x.texts[at]))));
+    const rows = (by ? places(by) : [0]).map((group) => element("tr", {}, element("th", { scope: "row" }, by ? by.texts[group] : "all"), ...row(group)));
+    const unit = y.unit.symbol ? ` (${y.unit.symbol})` : "";
+    this.heat.replaceChildren(element("h3", {}, sentence(`${y.label}${unit} over ${x.label}${by ? ` and ${by.label}` : ""}`)), element("table", {}, head, element("tbody", {}, ...rows)));
+    this.note.textContent = `Means of the cases at a place${log ? ", colours by the logarithm" : ""}; point at a number for its range.`;
   }
 
   /** A curve of means for each colour, with the range of its cases as a band, and each case as a point. */
@@ -63,6 +134,7 @@ class Explorer {
     const groups = new Map();
     study.cases.forEach((_, n) => {
       const [at, value] = [x.numbers[x.indices[n]], y.values[n]];
+      if (!this.holds(n)) return;
       if (!Number.isFinite(at) || value === null || !Number.isFinite(value)) return;
       const group = by ? by.indices[n] : 0;
       if (!groups.has(group)) groups.set(group, []);
@@ -83,13 +155,24 @@ class Explorer {
     });
     const all = shown.flatMap(([, points]) => points);
     const axis = (of, values) => ({ ...of.unit, label: of.label, log: suitsLog(values), range: null });
-    this.note.textContent = [spread > 1 ? `Lines are means, bands reach from the least to the largest of up to ${spread} cases at a point, and each case is a point.` : "",
+    this.note.textContent = [spread > 1 ? `Lines are means, bands reach from the least to the largest of up to ${spread} cases at a point, and each case is a point.` : "", series.length > 1 ? "A click on a name in the legend hides its curve." : "",
       groups.size > MOST ? `Only the first ${MOST} of ${groups.size} values have a curve.` : "",
       study.cases.length < study.all ? `${study.cases.length} of ${study.all} cases, evenly chosen.` : ""].filter(Boolean).join(" ");
     return {
       name: "study", title: sentence(`${y.label} over ${x.label}${by ? `, by ${by.label}` : ""}`), words: [], right: null, series, colours: by ? by.label : "",
       x: axis(x, all.map(([at]) => at)), y: axis(y, all.map(([, value]) => value)),
     };
+  }
+}
+
+/** The rows of the cases that an explorer shows. */
+function showRows(explorer) {
+  const { cases } = explorer.study;
+  const shown = new Set(cases.map((one, n) => [one.case, n]).filter(([, n]) => explorer.holds(n)).map(([name]) => name));
+  const known = new Set(cases.map((one) => one.case));
+  for (const row of document.querySelectorAll("#cases tbody tr")) {
+    const name = row.cells[0].textContent;
+    row.hidden = known.has(name) && !shown.has(name);
   }
 }
 

@@ -41,9 +41,9 @@ pub(crate) struct Info {
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  asperity surface plot disc.sur --level plane --out disc")]
 pub(crate) struct PlotSurface {
-    /// Folder for the figures
+    /// Folder for the figures, by default the file's name with `-figures`
     #[arg(long, value_name = "DIR")]
-    pub(crate) out: PathBuf,
+    pub(crate) out: Option<PathBuf>,
     /// Replace the figures that are there
     #[arg(long)]
     pub(crate) overwrite: bool,

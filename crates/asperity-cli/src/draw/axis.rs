@@ -26,6 +26,8 @@ pub(crate) enum Unit {
     Time,
     /// Radians per metre.
     Wavenumber,
+    /// One over metres, such as the density of heights.
+    PerLength,
     /// A pure number.
     Number,
     /// A pure number that is whole, such as a pass.
@@ -86,6 +88,8 @@ impl Unit {
                 (&[(1e-3, "mN/m"), (1.0, "N/m"), (1e3, "kN/m"), (1e6, "MN/m"), (1e9, "GN/m")], 1.0)
             }
             Self::Time => (&[(1e-9, "ns"), (1e-6, "µs"), (1e-3, "ms"), (1.0, "s")], 1.0),
+            // Heights of nanometres have a density per nanometre.
+            Self::PerLength => (&[(1.0, "1/m"), (1e3, "1/mm"), (1e6, "1/µm"), (1e9, "1/nm")], 1e-3),
             Self::Wavenumber => (&[(1.0, "rad/m"), (1e3, "rad/mm"), (1e6, "rad/µm"), (1e9, "rad/nm")], 1.0),
             Self::Number | Self::Count | Self::Of(_) => (&[(1.0, "")], 1.0),
         }
@@ -204,6 +208,8 @@ impl Scale {
     pub(super) fn logarithmic(range: [f64; 2], unit: Unit, most: usize) -> Self {
         let (factor, symbol) = match unit {
             Unit::Number | Unit::Count | Unit::Of(_) => (1.0, unit.base().to_owned()),
+            // That of the map of the spectrum beside it.
+            Unit::Wavenumber => unit.shown(range[1]),
             _ => unit.shown((range[0] * range[1]).sqrt()),
         };
         let [low, high] = range.map(|v| (v / factor).log10());

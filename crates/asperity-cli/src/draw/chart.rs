@@ -53,6 +53,8 @@ pub(crate) enum Mark {
     Dashed,
     /// A line with markers.
     LineAndPoints,
+    /// A broken line with markers.
+    DashedAndPoints,
     /// Markers.
     Points,
     /// A line with arrows in the order of its points.
@@ -221,12 +223,15 @@ impl<'a> Drawn<'a> {
             let series = chart.series.iter().filter(move |s| side.is_none_or(|side| s.side == side));
             series.flat_map(move |s| s.points.iter().map(move |p| p[axis]))
         };
-        let of_points = |mark| matches!(mark, Mark::LineAndPoints | Mark::Points | Mark::Arrows);
+        let of_points =
+            |mark| matches!(mark, Mark::LineAndPoints | Mark::DashedAndPoints | Mark::Points | Mark::Arrows);
         let marked = chart.series.iter().any(|s| of_points(s.mark));
         let most = [(outer[0] - 60.0) / 40.0, (outer[1] - BELOW) / 24.0].map(|n| n.clamp(2.0, 10.0) as usize);
         let x = scale(&chart.x, all(None, 0), if marked { 0.025 } else { 0.0 }, false, most[0]);
         let y = Axis { range: range.or(chart.y.range), ..chart.y.clone() };
-        let y = scale(&y, all(Some(Side::Left), 1), 0.06, true, most[1]);
+        // Words beside the lowest and the highest point have room within the frame.
+        let room = if chart.words.is_empty() { 0.06 } else { 0.14 };
+        let y = scale(&y, all(Some(Side::Left), 1), room, true, most[1]);
         let right =
             chart.right.as_ref().map(|axis| scale(axis, all(Some(Side::Right), 1), 0.06, true, most[1]));
         let margins = [8.0 + beside(&y), right.as_ref().map_or(12.0, |right| 8.0 + beside(right))];
@@ -249,9 +254,12 @@ impl<'a> Drawn<'a> {
         for (point, words) in &chart.words {
             let Some([x, y]) = left.place(*point).filter(|place| left.holds(*place)) else { continue };
             // Towards the middle, and above or below a curve that rises.
+            let within = |y: f64| {
+                y.clamp(at.y + 0.5 * SMALL + 2.0, (at.bottom() - 0.5 * SMALL - 2.0).max(at.y + SMALL))
+            };
             match x > at.middle()[0] {
-                true => scene.text(words, [x - 5.0, y - 7.0], SMALL, Anchor::End),
-                false => scene.text(words, [x + 5.0, y + 8.0], SMALL, Anchor::Start),
+                true => scene.text(words, [x - 5.0, within(y - 7.0)], SMALL, Anchor::End),
+                false => scene.text(words, [x + 5.0, within(y + 8.0)], SMALL, Anchor::Start),
             }
         }
         if nothing {
@@ -297,21 +305,28 @@ struct Style {
 }
 
 impl Style {
-    /// The look of a series, by the place of its name; "a body, undeformed" has the colour of "a body".
+    /// The look of a series, by the place of its name; "a body, undeformed" has the colour of "a body", and so have "a
+    /// method, one way" and "a method, another way".
     fn of(series: &Series, names: &[&str]) -> Self {
-        let place = |wanted: &str| names.iter().position(|name| *name == wanted);
-        let of_another = series.name.split_once(", ").and_then(|(base, _)| place(base));
-        let index = of_another.or(place(&series.name)).unwrap_or_default();
+        let base =
+            |name: &str| name.split_once(", ").map_or_else(|| name.to_owned(), |(base, _)| base.to_owned());
+        let mut bases: Vec<String> = Vec::new();
+        for name in names {
+            if !bases.contains(&base(name)) {
+                bases.push(base(name));
+            }
+        }
+        let index = bases.iter().position(|other| *other == base(&series.name)).unwrap_or_default();
         let mark = series.mark;
-        let stroke =
-            Stroke { dashed: mark == Mark::Dashed, ..Stroke::new(PALETTE[index % PALETTE.len()], 1.2) };
+        let dashed = matches!(mark, Mark::Dashed | Mark::DashedAndPoints);
+        let stroke = Stroke { dashed, ..Stroke::new(PALETTE[index % PALETTE.len()], 1.2) };
         Self { stroke, mark, shape: index }
     }
 
     fn key(&self) -> Key {
         match self.mark {
             Mark::Bars => Key::Box(self.stroke.colour),
-            Mark::LineAndPoints => Key::Line(self.stroke, Some(self.shape)),
+            Mark::LineAndPoints | Mark::DashedAndPoints => Key::Line(self.stroke, Some(self.shape)),
             Mark::Points => Key::Marker(self.stroke.colour, self.shape),
             _ => Key::Line(self.stroke, None),
         }
@@ -333,7 +348,7 @@ impl Style {
             });
         }
         let seen = places.iter().flatten().filter(|place| frame.holds(**place));
-        if matches!(self.mark, Mark::LineAndPoints | Mark::Points) {
+        if matches!(self.mark, Mark::LineAndPoints | Mark::DashedAndPoints | Mark::Points) {
             seen.clone().for_each(|place| marker(scene, *place, self.shape, self.stroke.colour));
         }
         seen.count() > 0

@@ -44,6 +44,8 @@ pub(crate) struct Map<'a> {
     arrows: Option<([&'a Field; 2], &'static str)>,
     mark: Option<([f64; 2], &'static str)>,
     block: Option<(f64, String)>,
+    /// Parts of the upper edge, from and to along x, SI.
+    spans: (Vec<[f64; 2]>, &'static str),
 }
 
 impl<'a> Map<'a> {
@@ -151,6 +153,7 @@ impl<'a> Map<'a> {
             arrows: None,
             mark: None,
             block: None,
+            spans: (Vec::new(), ""),
         }
     }
 
@@ -204,6 +207,11 @@ impl<'a> Map<'a> {
         Self { block: Some((size as f64, name.into())), ..self }
     }
 
+    /// The same section with a thick line along the surface over each of the `spans`, from and to along x, SI.
+    pub(crate) fn with_spans(self, spans: Vec<[f64; 2]>, name: &'static str) -> Self {
+        Self { spans: (spans, name), ..self }
+    }
+
     /// Width over height of the map as drawn.
     pub(super) fn aspect(&self) -> f64 {
         let [x, y] = self.lengths();
@@ -246,6 +254,9 @@ impl<'a> Map<'a> {
         if let Some((_, name)) = self.mark {
             legend.add(Key::Cross, name);
         }
+        if !self.spans.0.is_empty() {
+            legend.add(Key::Line(SPAN, None), self.spans.1);
+        }
         if let Some((_, name)) = &self.block {
             legend.add(Key::Line(BLOCK, None), name.clone());
         }
@@ -267,6 +278,12 @@ impl<'a> Map<'a> {
         }
         if let Some((vector, _)) = self.arrows {
             scene.clipped(at, |scene| arrows(scene, vector, &frame, self.ends));
+        }
+        for [from, to] in &self.spans.0 {
+            let surface = [*from, *to].map(|x| frame.place([x, self.ends[1][0]]));
+            if let [Some([from, y]), Some([to, _])] = surface {
+                scene.line(&[[from, y - 1.5], [to, y - 1.5]], SPAN);
+            }
         }
         if let Some((size, _)) = &self.block {
             let corners = [[-0.5, -0.5], [size - 0.5, -0.5], [size - 0.5, size - 0.5], [-0.5, size - 0.5]];
@@ -311,6 +328,7 @@ impl<'a> Map<'a> {
 
 const OUTLINE: Stroke = Stroke { colour: [230, 60, 40], width: 0.5, dashed: false };
 const CONTOUR: Stroke = Stroke { colour: PAPER, width: 0.5, dashed: false };
+const SPAN: Stroke = Stroke { colour: [213, 94, 0], width: 2.4, dashed: false };
 const BLOCK: Stroke = Stroke { colour: [213, 94, 0], width: 1.2, dashed: false };
 
 /// Places along an axis, from its beginning in steps of cells.

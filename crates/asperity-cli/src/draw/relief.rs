@@ -42,6 +42,10 @@ pub(crate) struct Relief<'a> {
     pub(crate) unit: Unit,
     /// What the field holds.
     pub(crate) quantity: Quantity,
+    /// Values at the lower and the upper end of the upright axis; by default those of the field.
+    pub(crate) range: Option<[f64; 2]>,
+    /// Height of the relief over the longer side of its base.
+    pub(crate) rise: f64,
 }
 
 impl<'a> Relief<'a> {
@@ -53,6 +57,8 @@ impl<'a> Relief<'a> {
             names: ["x", "y"],
             unit: Unit::Length,
             quantity: Quantity::new("height", Unit::Length),
+            range: None,
+            rise: RISE,
         }
     }
 
@@ -79,9 +85,10 @@ impl<'a> Relief<'a> {
 impl Figure for Relief<'_> {
     fn scene(&self, paper: &Paper) -> Scene {
         let width = paper.width(WIDTH);
-        let range = widened(paper.range.unwrap_or_else(|| extremes(self.field.iter().copied())));
+        let range =
+            widened(paper.range.or(self.range).unwrap_or_else(|| extremes(self.field.iter().copied())));
         let lengths = self.ends.map(|[begin, end]| (end - begin).abs());
-        let (view, height) = View::new(lengths, width);
+        let (view, height) = View::new(lengths, self.rise, width);
         let mut scene = Scene::new([width, height]);
         self.back(&mut scene, &view, range);
         let at = Rect { x: 0.0, y: 0.0, width: scene.size[0], height: scene.size[1] };
@@ -89,9 +96,9 @@ impl Figure for Relief<'_> {
         scene.image(self.image(&view, range, size, scene.size), at);
         self.axes(&mut scene, &view, range);
         if self.unit == self.quantity.unit {
-            let magnified = RISE * lengths[0].max(lengths[1]) / (range[1] - range[0]);
+            let magnified = self.rise * lengths[0].max(lengths[1]) / (range[1] - range[0]);
             let digits = 10f64.powf(1.0 - magnified.log10().floor());
-            let words = format!("heights × {}", (magnified * digits).round() / digits);
+            let words = format!("{}s × {}", self.quantity.name, (magnified * digits).round() / digits);
             scene.words(&words, [width - 8.0, height - 8.0], SMALL, Anchor::End, FAINT);
         }
         scene
@@ -116,7 +123,12 @@ impl Relief<'_> {
     }
 
     fn scale_of_z(&self, range: [f64; 2]) -> Scale {
-        Scale::linear(range, range[0].abs().max(range[1].abs()), self.quantity.unit, 4)
+        Scale::linear(
+            range,
+            range[0].abs().max(range[1].abs()),
+            self.quantity.unit,
+            (4.0 * self.rise / RISE).round() as usize,
+        )
     }
 
     /// The axes in front: x along the near edge on the left, y along that on the right, z at the left corner.
@@ -204,14 +216,14 @@ struct View {
 
 impl View {
     /// The view that fills a sheet of a width, and the height of that.
-    fn new(lengths: [f64; 2], width: f64) -> (Self, f64) {
+    fn new(lengths: [f64; 2], rise: f64, width: f64) -> (Self, f64) {
         let longest = lengths[0].max(lengths[1]);
         // A side of a tenth of the other is still seen.
         let base = lengths.map(|length| (length / longest).max(0.15));
         let turn = AZIMUTH.to_radians().sin_cos();
         let tilt = ELEVATION.to_radians().sin_cos();
         let mut view = Self {
-            box_size: [base[0], base[1], RISE],
+            box_size: [base[0], base[1], rise],
             turn: [turn.0, turn.1],
             tilt: [tilt.0, tilt.1],
             scale: 1.0,
@@ -232,11 +244,14 @@ impl View {
         view.scale = (room[0] / (high[0] - low[0])).min(room[1] / (high[1] - low[1]));
         let height = view.scale * (high[1] - low[1]);
         let room = [room[0], height];
+        // The name of the upright axis stands above its corner, which is mostly lower than the one behind.
+        let lower = view.projected([0.0, 1.0, 1.0])[1] - low[1];
+        let top = (MARGINS[1][0] - view.scale * lower).max(8.0);
         view.shift = [0, 1].map(|axis| {
-            let middle = MARGINS[axis][0] + room[axis] / 2.0;
+            let middle = [MARGINS[0][0], top][axis] + room[axis] / 2.0;
             middle - view.scale * 0.5 * (low[axis] + high[axis])
         });
-        (view, height + MARGINS[1][0] + MARGINS[1][1])
+        (view, height + top + MARGINS[1][1])
     }
 
     /// To the right, up and towards the eye.
@@ -345,7 +360,7 @@ mod tests {
 
     #[test]
     fn a_slope_towards_the_light_is_the_brighter() {
-        let (view, _) = View::new([1.0, 1.0], 300.0);
+        let (view, _) = View::new([1.0, 1.0], RISE, 300.0);
         // The light comes from −x.
         let lit = |rise: f64| {
             let along_x = [[0.0, 0.5, 0.5 - rise], [1.0, 0.5, 0.5 + rise]];
@@ -356,7 +371,7 @@ mod tests {
 
     #[test]
     fn the_near_corner_is_low_on_the_sheet_and_heights_rise() {
-        let (view, height) = View::new([1.0, 1.0], 300.0);
+        let (view, height) = View::new([1.0, 1.0], RISE, 300.0);
         let at = |x, y, z| view.place([x, y, z]);
         assert!(at(0.0, 0.0, 0.0)[1] > at(1.0, 1.0, 0.0)[1] && at(0.5, 0.5, 1.0)[1] < at(0.5, 0.5, 0.0)[1]);
         assert!(at(1.0, 0.0, 0.0)[0] > at(0.0, 1.0, 0.0)[0]);

@@ -37,7 +37,7 @@ pub(crate) use rest::{approach, open_gap, profile as profile_at_rest};
 pub(crate) use rolling::curves as of_rolling;
 pub(crate) use sliding::curves as of_sliding;
 pub(crate) use stored::{Cap, StoredArray, in_frame_of};
-pub(crate) use subsurface::columns as stress_columns;
+pub(crate) use subsurface::{columns as stress_columns, contact as contact_of_section};
 pub(crate) use surfaces::{as_measured, changed, curves as of_surfaces};
 pub(crate) use sweep::curves as of_sweep;
 

@@ -25,6 +25,19 @@ const PARAMETERS: usize = 24;
 /// Share of the largest change of a height, up to which what is left of differences of heights is their rounding.
 const ROUNDING: f64 = 1e-9;
 
+/// Where the colours of pressures end: at the largest, or where a few cells stand out, at a percentile, which is then said.
+fn most_of(pressures: impl Iterator<Item = f64>) -> (f64, Option<&'static str>) {
+    const SHARE: f64 = 0.98;
+    let mut all: Vec<f64> = pressures.filter(|pressure| *pressure > 0.0).collect();
+    all.sort_unstable_by(f64::total_cmp);
+    let Some(largest) = all.last().copied() else { return (f64::MIN_POSITIVE, None) };
+    let most = all[((all.len() - 1) as f64 * SHARE) as usize];
+    match largest > 1.5 * most {
+        true => (most, Some("colours end at the percentile 98 % of the cells in contact")),
+        false => (largest, None),
+    }
+}
+
 /// Draws them, and says of what load and pass the last are.
 pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) -> Outcome<String> {
     let steps = results.steps()?;
@@ -61,9 +74,10 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
     let mean =
         [StoredArray::read(&last, "mean_pressure_lower")?, StoredArray::read(&last, "mean_pressure_upper")?];
     sheet.add("mean_pressure", "mean pressure over the pass", &of, || {
-        let largest = mean.iter().flat_map(|m| m.field.iter()).copied().fold(f64::MIN_POSITIVE, f64::max);
+        let (largest, remark) = most_of(mean.iter().flat_map(|mean| mean.field.iter().copied()));
         let maps = [(&mean[0], "on the lower body"), (&mean[1], "on the upper body")];
-        Ok(Maps::new(maps.map(|(mean, title)| mean.pressure(title).range([0.0, largest])).into()))
+        let maps = Maps::new(maps.map(|(mean, title)| mean.pressure(title).range([0.0, largest])).into());
+        Ok(remark.into_iter().fold(maps, Maps::remark))
     })?;
     let [worn, film] = ["wear", "film"].map(|state| of_bodies(&last, state, &before));
     let (worn, film) = (worn?, film?);

@@ -38,6 +38,7 @@ pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Outcome {
         _ => String::new(),
     };
     let of = format!("{of}{step}, section at y = {}", format(y, Dimension::Length));
+    let spans = contact(fields, ends[0][0], dx)?;
     sheet.add("subsurface", &title, &of, || {
         let map = Map::section(
             "",
@@ -46,12 +47,35 @@ pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Outcome {
             Quantity::new("von Mises stress", Unit::Pressure),
             Colours::Pressure,
         );
-        let map = map.with_contours(&field);
+        let map = map.with_contours(&field).with_spans(spans, "contact");
         let on_it = at[1] == y;
         let map = if on_it { map.marked([at[0], at[2]], "most stressed point") } else { map };
         Ok(Maps::new(vec![map]))
     })?;
     columns(fields)?.into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))
+}
+
+/// Where the surface of the section bears: from and to along x, m. `begin` is its left end, `dx` the size of a cell.
+pub(crate) fn contact(fields: &Fields, begin: f64, dx: f64) -> Outcome<Vec<[f64; 2]>> {
+    /// Share of the largest pressure below which there is rounding alone.
+    const ROUNDING: f64 = 1e-9;
+    let layers = fields.read("section_zz")?.into_field();
+    let Some(pressure) = layers.map(|layers| layers.column(0).mapv(|stress| -stress)) else {
+        return Ok(Vec::new());
+    };
+    let least = ROUNDING * pressure.iter().copied().fold(0.0, f64::max);
+    let mut spans: Vec<[f64; 2]> = Vec::new();
+    let mut open = false;
+    for (i, p) in pressure.iter().enumerate() {
+        let [from, to] = [i, i + 1].map(|edge| begin + edge as f64 * dx);
+        match (*p > least, open) {
+            (true, true) => spans.iter_mut().next_back().into_iter().for_each(|span| span[1] = to),
+            (true, false) => spans.push([from, to]),
+            (false, _) => {}
+        }
+        open = *p > least;
+    }
+    Ok(spans)
 }
 
 /// The six stresses down each column that was kept; none where there is none.

@@ -35,13 +35,17 @@ pub(crate) fn curves(before: &[Topography; 2], after: Option<&[Topography; 2]>) 
         Charts { charts, columns: 2, aspect: 0.8 }
     };
     let [ratio, densities] = NAMES;
-    let curves = [
+    let mut curves = [
         Curves::new(ratio, "material ratio (Abbott–Firestone) curves", charts(&material_ratio)),
         Curves::new(densities, "power spectral densities, over all directions", charts(&spectrum)),
     ];
     // A plane has no spectrum.
     let has_points = |chart: &Chart| chart.series.iter().any(|series| series.points.len() > 1);
-    curves.into_iter().filter(|curves| curves.charts.charts.iter().any(has_points)).collect()
+    for Curves { charts, .. } in &mut curves {
+        charts.charts.retain(has_points);
+        charts.columns = charts.charts.len();
+    }
+    curves.into_iter().filter(|curves| !curves.charts.charts.is_empty()).collect()
 }
 
 /// A body as it is afterwards; none where it is as it was before.

@@ -72,6 +72,7 @@ fn stress(fields: &Fields) -> Outcome<CaptionedPlane> {
         ),
         ("section at y".to_owned(), escaped(&format(number("section"), Dimension::Length))),
     ];
+    let spans = figures::contact_of_section(fields, x, pitch[0])?;
     let on_it = at[1] == number("section");
     let map = Plane {
         file: "subsurface".to_owned(),
@@ -85,6 +86,7 @@ fn stress(fields: &Fields) -> Outcome<CaptionedPlane> {
         quantity: "von Mises stress",
         unit: Unit::Pressure,
         shades: Shades::FromZero,
+        spans,
         mark: on_it.then_some(([at[0], at[2]], "most stressed point")),
     };
     Ok((map, rows))

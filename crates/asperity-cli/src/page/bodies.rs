@@ -10,9 +10,9 @@ use super::curves;
 use super::found::PageData;
 use super::html::{details, escaped, minus};
 use super::packed::{self, QuantisedField};
-use crate::draw::{Unit, range_of_heights};
-use crate::figures::{self, StoredArray};
-use crate::numbers::in_column;
+use crate::draw::{Charts, Unit, range_of_heights};
+use crate::figures::{self, Curves, StoredArray};
+use crate::numbers::{in_column, meaning};
 use crate::report::Outcome;
 
 /// Bodies of more cells have no parameters on the page: those of hills and of the autocorrelation would take minutes.
@@ -43,10 +43,18 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     let before = found.kept(figures::as_measured(&before))?;
     let after = after.as_ref().and_then(|after| found.kept(figures::as_measured(after)));
     // Roughness parameters of a ball or a plane say nothing.
-    let are_forms = [&found.case.lower, &found.case.upper].into_iter().all(|body| is_form(&body.topography));
-    if !are_forms && before.iter().all(|body| body.grid().cells() <= MAX_CELLS) {
-        html += &details("ISO 25178 parameters, material upwards", &parameters(&before, after.as_ref()));
-        html += &curves::html(figures::of_surfaces(&before, after.as_ref()), charts);
+    let forms = [&found.case.lower, &found.case.upper].map(|body| is_form(&body.topography));
+    if forms.contains(&false) && before.iter().all(|body| body.grid().cells() <= MAX_CELLS) {
+        html +=
+            &details("ISO 25178 parameters, material upwards", &parameters(&before, after.as_ref(), forms));
+        let mut curves = figures::of_surfaces(&before, after.as_ref());
+        for Curves { title, charts: Charts { charts, .. }, .. } in &mut curves {
+            charts.retain(|chart| !forms[usize::from(chart.title == "upper body")]);
+            if let [only] = &charts[..] {
+                *title = format!("{title}, {}", only.title);
+            }
+        }
+        html += &curves::html(curves, charts);
     }
     Some(html)
 }
@@ -174,10 +182,13 @@ fn kept(found: &mut PageData, body: &str) -> Vec<Value> {
     maps
 }
 
-/// A table of all parameters of both bodies, before and after.
-fn parameters(before: &[Topography; 2], after: Option<&[Topography; 2]>) -> String {
+/// A table of all parameters of both bodies, before and after, without those that are forms.
+fn parameters(before: &[Topography; 2], after: Option<&[Topography; 2]>, forms: [bool; 2]) -> String {
     let mut columns: Vec<(String, Vec<Parameter>)> = Vec::new();
     for (index, (_, title)) in [("", "lower"), ("", "upper")].into_iter().enumerate() {
+        if forms[index] {
+            continue;
+        }
         let mut add = |when: &str, body: &Topography| {
             columns.push((format!("{title}{when}"), Parameters::of(body).rows()));
         };
@@ -207,7 +218,8 @@ fn parameters(before: &[Topography; 2], after: Option<&[Topography; 2]>) -> Stri
             html += &format!("<td>{}</td>", escaped(&minus(&number)));
         }
         html += &format!("<td class=\"words\">{}</td>", escaped(&unit.symbol));
-        html += &format!("<td class=\"words\">{}</td></tr>", escaped(of.meaning));
+        let meaning = meaning(of, columns.iter().map(|(_, values)| values[row].value));
+        html += &format!("<td class=\"words\">{}</td></tr>", escaped(&meaning));
     }
     html + "</tbody></table></div>"
 }

@@ -64,11 +64,18 @@ fn of_passes(found: &PageData, first: &PassRecord, last: &PassRecord) -> Vec<Car
     let length = |value| format(value, Dimension::Length);
     let of_overlap =
         share_of_overlap(last).map_or(String::new(), |share| format!(", {share} % of the overlap"));
+    let inside = match differ(last.mean_contact_area, last.mean_contact_area_interior) {
+        true => format!(
+            " {} of it in the interior, without the rim.",
+            format(last.mean_contact_area_interior, Dimension::Area)
+        ),
+        false => String::new(),
+    };
     let mut cards = vec![
         Card::new(
             "real area of contact",
             format(last.mean_contact_area, Dimension::Area),
-            format!("Mean over the last pass{of_overlap}."),
+            format!("Mean over the last pass{of_overlap}.{inside}"),
         ),
         Card::new(
             "largest pressure",

@@ -44,7 +44,7 @@ enum Kind {
 }
 
 /// All maps that a position may have, in the order of the page.
-const LAYERS: [Layer; 8] = [
+const LAYERS: [Layer; 9] = [
     Layer { name: "pressure", title: "pressure", unit: Unit::Pressure, kind: Kind::Positive },
     Layer { name: "contact", title: "contact", unit: Unit::Number, kind: Kind::Classes(Colours::CONTACT) },
     Layer { name: "temperature", title: "temperature", unit: Unit::Of("°C"), kind: Kind::Between },
@@ -52,6 +52,12 @@ const LAYERS: [Layer; 8] = [
     Layer { name: "stick", title: "stick and slip", unit: Unit::Number, kind: Kind::Classes(Colours::STICK) },
     Layer { name: "slip", title: "slip", unit: Unit::Length, kind: Kind::Positive },
     Layer { name: "gap", title: "gap", unit: Unit::Length, kind: Kind::Signed },
+    Layer {
+        name: "displacement",
+        title: "displacement of both bodies",
+        unit: Unit::Length,
+        kind: Kind::Between,
+    },
     Layer { name: "plastic", title: "plastic interference", unit: Unit::Length, kind: Kind::Positive },
 ];
 
@@ -358,6 +364,9 @@ fn at_rest(fields: &Fields) -> Outcome<Vec<(&'static str, StoredArray)>> {
         let plastic = if has("plastic") { read("plastic")? } else { none() };
         maps.push(("gap", figures::open_gap(gap, &plastic.field, &pressure)));
         maps.push(("plastic", plastic));
+    }
+    if has("displacement") {
+        maps.push(("displacement", read("displacement")?));
     }
     if has("temperature") {
         maps.extend(temperature(read("temperature")?));

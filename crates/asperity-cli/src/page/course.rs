@@ -11,7 +11,8 @@ use crate::figures;
 /// The section; none of a contact in one step.
 pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
     let mut html = String::from(
-        "<p class=\"remark\">Drag across a plot to zoom along x, double-click to see all of it.</p>",
+        "<p class=\"remark\">Drag across a plot to zoom along x, double-click to see all of it. A click on a name in a \
+         legend hides its curve and shows it again.</p>",
     );
     let without_curves = html.len();
     if !found.passes.is_empty() {
@@ -45,12 +46,15 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
         ("updates.csv", "updates", None),
     ] {
         if let Some(table) = found.table(file) {
-            html += &details(&format!("Table: {title}"), &table.html(title, key));
+            html += &details(&format!("Table: {title}"), &table.html(title, file, key));
         }
     }
     if let Some(steps) = found.table("steps.csv") {
         let title = format!("positions of pass {}", found.done[last]);
-        html += &details(&format!("Table: {title}"), &steps.only("pass", last as f64).html(&title, None));
+        html += &details(
+            &format!("Table: {title}"),
+            &steps.only("pass", last as f64).html(&title, "steps.csv", None),
+        );
     }
     Some(html).filter(|html| html.len() > without_curves)
 }

@@ -54,6 +54,7 @@ fn of_body(flow_sections: FlowSection, data: &mut Value) -> String {
         quantity,
         unit,
         shades,
+        spans: Vec::new(),
         mark: None,
     };
     let title = format!("Accumulated plastic strain in the section y = {at}.");

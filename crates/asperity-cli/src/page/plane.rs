@@ -19,6 +19,8 @@ pub(super) struct Plane {
     pub(super) quantity: &'static str,
     pub(super) unit: Unit,
     pub(super) shades: Shades,
+    /// Where the upper edge is in contact, from and to, m.
+    pub(super) spans: Vec<[f64; 2]>,
     /// A point that is marked, and what it is.
     pub(super) mark: Option<([f64; 2], &'static str)>,
 }
@@ -64,6 +66,7 @@ impl Plane {
             "kind": if self.shades == Shades::FromZero { "positive" } else { "diverging" },
             "range": [low, high],
             "mark": self.mark.map(|(at, what)| json!({ "at": at, "what": what })),
+            "spans": self.spans,
             "map": self.map,
         })
     }

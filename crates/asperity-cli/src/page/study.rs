@@ -13,6 +13,7 @@ use super::explorer::{self, Quantity};
 use super::html::{escaped, facts, minus, with_code};
 use super::table::Measure;
 use super::{Section, framed, words};
+use crate::draw::{Colours, palette};
 
 /// Cases that have a row on the page, at most.
 const MAX_ROWS: usize = 20_000;
@@ -63,7 +64,9 @@ fn page(study: &Study, table: &Table, directory: &Path) -> String {
         ("curves", "Chart", has_chart.then(|| "<div id=\"explorer\"></div>".to_owned())),
         ("cases", "Cases", Some(rows(table, &quantities, directory))),
     ];
-    let data = json!({ "colours": {}, "charts": [], "study": explorer::data(table, &quantities, directory) });
+    let colours = json!({ "pressure": palette(Colours::Pressure) });
+    let data =
+        json!({ "colours": colours, "charts": [], "study": explorer::data(table, &quantities, directory) });
     framed(study.title(), &head(study, table), &sections, &data)
 }
 

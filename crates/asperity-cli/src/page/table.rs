@@ -58,26 +58,34 @@ impl Table {
         self.rows.len()
     }
 
-    /// HTML under a caption. With a `key` each number has its value and says where it stands in `summary.json`. Of many
-    /// rows some, evenly chosen.
-    pub(super) fn html(&self, caption: &str, key: Option<&str>) -> String {
+    /// HTML for the table of that name in a `file`. With a `key` each number has its value and says where it stands in
+    /// `summary.json`. Of many rows some, evenly chosen. Columns of zeros are not seen.
+    pub(super) fn html(&self, name: &str, file: &str, key: Option<&str>) -> String {
         let shown = evenly(self.rows.len(), MAX_ROWS);
         let all = 0..self.columns.len();
         let measures: Vec<Measure> =
             all.map(|column| Measure::of(&self.columns[column], self.largest(column))).collect();
-        let some = match shown.len() < self.rows.len() {
-            true => format!("; {} of {} rows, evenly chosen", shown.len(), self.rows.len()),
-            false => String::new(),
+        let is_hidden: Vec<bool> = (0..self.columns.len()).map(|column| self.says_nothing(column)).collect();
+        let mut left_out = Vec::new();
+        if shown.len() < self.rows.len() {
+            left_out.push(format!("{} of {} rows, evenly chosen", shown.len(), self.rows.len()));
+        }
+        if is_hidden.contains(&true) {
+            left_out.push("without the columns of zeros".to_owned());
+        }
+        let mut html = match left_out.is_empty() {
+            true => String::new(),
+            false => format!("<p class=\"remark\">Shown: {}. {file} has all.</p>", left_out.join(", ")),
         };
-        let mut html = format!(
-            "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table><caption>{0}{some}\
-             </caption><thead><tr>",
-            escaped(caption)
+        let _ = write!(
+            html,
+            "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table><thead><tr>",
+            escaped(name)
         );
         let rounding: Vec<f64> =
             (0..self.columns.len()).map(|column| ROUNDING * self.largest(column)).collect();
-        for (name, measure) in self.columns.iter().zip(&measures) {
-            html += &measure.head(name);
+        for ((name, measure), is_hidden) in self.columns.iter().zip(&measures).zip(&is_hidden) {
+            html += &measure.head(name, *is_hidden);
         }
         html += "</tr></thead><tbody>";
         for index in shown {
@@ -85,19 +93,26 @@ impl Table {
             for (column, (value, name)) in self.rows[index].iter().zip(&self.columns).enumerate() {
                 let is_rounding = value.abs() < rounding[column];
                 let text = measures[column].text(if is_rounding { 0.0 } else { *value });
+                let hidden = if is_hidden[column] { " hidden" } else { "" };
                 let _ = match key {
                     Some(key) if value.is_finite() => write!(
                         html,
-                        "<td><data data-key=\"{}.{index}.{}\" value=\"{value:?}\">{text}</data></td>",
+                        "<td{hidden}><data data-key=\"{}.{index}.{}\" value=\"{value:?}\">{text}</data></td>",
                         escaped(key),
                         escaped(name)
                     ),
-                    _ => write!(html, "<td>{text}</td>"),
+                    _ => write!(html, "<td{hidden}>{text}</td>"),
                 };
             }
             html += "</tr>";
         }
         html + "</tbody></table></div>"
+    }
+
+    /// Whether a column of several rows has no number but zero.
+    fn says_nothing(&self, column: usize) -> bool {
+        let mut numbers = self.rows.iter().filter_map(|row| row.get(column));
+        self.rows.len() > 1 && numbers.all(|value| *value == 0.0 || !value.is_finite())
     }
 
     /// The largest number of a column; of a component that of its vector.
@@ -146,8 +161,9 @@ impl Measure {
     }
 
     /// The head of the column of a table of results: its name, its unit.
-    pub(super) fn head(&self, name: &str) -> String {
-        self.headed(&escaped(&name.replace('_', " ")), column(name).map(|column| column.text))
+    fn head(&self, name: &str, is_hidden: bool) -> String {
+        let head = self.headed(&escaped(&name.replace('_', " ")), column(name).map(|column| column.text));
+        if is_hidden { head.replacen("<th", "<th hidden", 1) } else { head }
     }
 
     /// The head of a column: its words, which are HTML, its unit, and what it is about for who points at it.
@@ -226,12 +242,23 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.csv");
         std::fs::write(&path, "tangential_force_x,tangential_force_y\n0.18,-3e-20\n0.09,1e-3\n").unwrap();
-        let html = Table::read(&path).unwrap().html("rows", None);
+        let html = Table::read(&path).unwrap().html("rows", "t.csv", None);
         assert!(html.contains(">tangential force y<br>mN</th>"), "{html}");
         assert!(
             html.contains("<td>180.0</td><td>0</td>") && html.contains("<td>90.00</td><td>1.000</td>"),
             "{html}"
         );
+    }
+
+    #[test]
+    fn columns_of_zeros_are_hidden_but_keep_their_numbers() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        std::fs::write(&path, "pass,wear,load\n1,0,0\n2,0,1e-3\n").unwrap();
+        let html = Table::read(&path).unwrap().html("rows", "t.csv", Some("passes"));
+        assert!(html.contains("<td hidden><data data-key=\"passes.1.wear\" value=\"0.0\">"), "{html}");
+        assert!(html.contains("<td><data data-key=\"passes.0.load\" value=\"0.0\">"), "{html}");
+        assert!(html.contains("without the columns of zeros. t.csv has all."), "{html}");
     }
 
     #[test]
@@ -241,7 +268,7 @@ mod tests {
         std::fs::write(&path, "pass,load,stiffness\n1,0.5,\n2,0.25,1e6\n3,0.1").unwrap();
         let table = Table::read(&path).unwrap();
         assert_eq!(table.len(), 2);
-        let html = table.html("rows", Some("passes"));
+        let html = table.html("rows", "t.csv", Some("passes"));
         assert!(html.contains(">load<br>mN</th>"), "{html}");
         assert!(html.contains("<data data-key=\"passes.1.load\" value=\"0.25\">250.0</data>"), "{html}");
         assert!(html.contains("<td>–</td>"), "{html}");

@@ -179,7 +179,7 @@ fn a_page_shows_what_there_is_and_leaves_out_what_there_is_not() {
     let page = rest.page();
     assert!(section(&page, "contact") && section(&page, "below") && !section(&page, "curves"));
     let data = rest.data();
-    assert_eq!(names(&data, "/contact/layers", "name"), ["pressure", "contact", "gap"]);
+    assert_eq!(names(&data, "/contact/layers", "name"), ["pressure", "contact", "gap", "displacement"]);
     assert_eq!(data["contact"]["layers"][1]["classes"], serde_json::json!(["no contact", "elastic"]));
     for (chart, is_there) in [("profile", true), ("stress_columns", true), ("material_ratio", false)] {
         assert_eq!(names(&data, "/charts", "name").iter().any(|name| name == chart), is_there, "{chart}");

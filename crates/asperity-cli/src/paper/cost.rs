@@ -192,7 +192,9 @@ impl Costs {
         let series = |work: Work, strategy: usize, name: &str| {
             let costs = self.0.iter().filter(|cost| cost.work == work);
             let points = costs.map(|cost| [cost.side as f64, cost.time(strategy)]).collect();
-            Series::new(format!("{}, {name}", work.name()), points, Mark::LineAndPoints)
+            // The colour tells the method, the line the strategy.
+            let mark = if strategy == 0 { Mark::LineAndPoints } else { Mark::DashedAndPoints };
+            Series::new(format!("{}, {name}", work.name()), points, mark)
         };
         let all = |work| [series(work, 1, "shift"), series(work, 0, "sub-matrices")];
         let x = Axis::log("cells along a side", Unit::Number);

@@ -13,10 +13,12 @@ use asperity::surface::LowPass;
 use asperity::units::{Dimension, Pascal, format};
 use asperity::{Field, Result};
 use indicatif::ProgressBar;
+use ndarray::s;
 
 use super::{CUTOFF, PITCH, SQ, pair};
 use crate::draw::{self, Caption, Colours, Figure, Map, Maps, Paper as Sheet, Quantity, Relief, Unit};
 use crate::figures::in_frame_of;
+use crate::numbers::in_column;
 use crate::report::Outcome;
 
 /// Cells of the surfaces along each side.
@@ -25,6 +27,10 @@ const SIDE: usize = 100;
 const MATRIX_SIDE: usize = 20;
 /// Number of coefficients of the filter on each side of the middle: two cut-off wavelengths.
 const REACH: usize = 24;
+/// Height of a single peak over the side of its base.
+const PEAK: f64 = 0.45;
+/// Points along a cell of figure 9, odd, so that one is its middle.
+const FINER: usize = 5;
 /// Pressure on the central cell of figure 9.
 const PRESSURE: Pascal = 1e9;
 /// Mean load of a pass, N.
@@ -67,6 +73,8 @@ fn filter_coefficients(save: &Save) -> Outcome {
         names: ["k", "l"],
         unit: Unit::Count,
         quantity: Quantity::new("h(k, l)", Unit::Number),
+        range: Some([coefficients.iter().copied().fold(0.0, f64::min), 0.025]),
+        rise: PEAK,
     };
     let of = format!("cut-off wavelength {} cells: h(0, 0) = π/{0}²", CUTOFF / PITCH);
     save("figure-1", "Figure 1. Coefficients of the circular low-pass filter", of, &relief)
@@ -86,26 +94,44 @@ fn generated_surface(pair: &Pair, save: &Save) -> Outcome {
 /// Draws the influence matrix; the matrix of an overlap is its leading block.
 fn matrix(pair: &Pair, save: &Save) -> Outcome {
     let matrix = influence_matrix([MATRIX_SIDE; 2], pair.pitch(), pair.modulus());
-    let quantity = Quantity::new("influence", Unit::Of("m/Pa"));
-    let map = Map::matrix("", &matrix, ["displaced cell", "loaded cell"], quantity);
-    let block = format!("one column overlaps: the first {MATRIX_SIDE} × {MATRIX_SIDE}");
+    let quantity = || Quantity::new("influence", Unit::Of("m/Pa"));
+    let axes = ["displaced cell", "loaded cell"];
+    let first = matrix.slice(s![..MATRIX_SIDE, ..MATRIX_SIDE]).to_owned();
+    let range = [&matrix, &first].map(|matrix| matrix.iter().copied());
+    let [low, high] =
+        range.into_iter().flatten().fold([f64::INFINITY, 0.0], |[low, high], v| [v.min(low), v.max(high)]);
+    let block = format!("one column overlaps: the first {MATRIX_SIDE} × {MATRIX_SIDE}, on the right");
+    let maps = vec![
+        Map::matrix("all columns overlap", &matrix, axes, quantity())
+            .with_block(MATRIX_SIDE, block)
+            .range([low, high]),
+        Map::matrix("one column overlaps", &first, axes, quantity()).range([low, high]),
+    ];
     let cells = MATRIX_SIDE * MATRIX_SIDE;
     let of = format!(
         "{MATRIX_SIDE} × {MATRIX_SIDE} cells of 1 µm: {cells} × {cells} coefficients, cells numbered column by column"
     );
-    save("figure-8", "Figure 8. Influence matrix", of, &Maps::new(vec![map.with_block(MATRIX_SIDE, block)]))
+    save("figure-8", "Figure 8. Influence matrix", of, &Maps::new(maps))
 }
 
 /// Draws the displacement under a load on the central cell. A central cell requires an odd number of cells.
 fn displacement(pair: &Pair, save: &Save) -> Outcome {
-    let (middle, side) = (MATRIX_SIDE / 2, MATRIX_SIDE + 1);
-    let influence = influence_table([middle + 1; 2], pair.pitch(), pair.modulus());
-    let field = Field::from_shape_fn([side; 2], |(i, j)| {
-        PRESSURE * influence[[i.abs_diff(middle), j.abs_diff(middle)]]
+    let side = MATRIX_SIDE + 1;
+    let points = side * FINER;
+    let middle = points / 2;
+    let fine = PITCH / FINER as f64;
+    let half = FINER / 2;
+    let influence = influence_table([middle + half + 1; 2], [fine; 2], pair.modulus());
+    // The cell is a square of finer ones under the same pressure.
+    let loaded =
+        || (middle - half..=middle + half).flat_map(|a| (middle - half..=middle + half).map(move |b| (a, b)));
+    let field = Field::from_shape_fn([points; 2], |(i, j)| {
+        loaded().map(|(a, b)| PRESSURE * influence[[i.abs_diff(a), j.abs_diff(b)]]).sum()
     });
-    let grid = Grid::new([side; 2], [PITCH; 2])?;
+    let grid = Grid::new([points; 2], [fine; 2])?;
+    let quantity = Quantity::new("displacement", Unit::Length);
     let relief =
-        Relief { quantity: Quantity::new("displacement", Unit::Length), ..Relief::of_heights(&field, &grid) };
+        Relief { quantity, range: Some([0.0, 10e-9]), rise: PEAK, ..Relief::of_heights(&field, &grid) };
     let of = format!(
         "{side} × {side} cells of 1 µm, {} on the central one; displacement into the body, drawn upwards",
         format(PRESSURE, Dimension::Pressure)
@@ -175,14 +201,15 @@ fn pressures(pair: &Pair, pass: &Pass, save: &Save) -> Outcome {
         .zip(&fields)
         .map(|((letter, contact), field)| {
             let stage = match contact.position.offset {
-                0.0 => "fully overlapping",
+                0.0 => "full overlap",
                 offset if offset < 0.0 => "entering",
                 _ => "leaving",
             };
-            let title = format!("({letter}) {stage}, {}", format(contact.load, Dimension::Force));
+            let title = format!("({letter}) {stage}, {} mN", in_column(contact.load / 1e-3));
             map(&title, field, &grid, "pressure", Unit::Pressure, Colours::Pressure)
                 .range([0.0, largest])
                 .missing("outside the overlap")
+                .blank("no contact")
         })
         .collect();
     let of = format!("one approach for all positions; mean load {}", format(LOAD, Dimension::Force));

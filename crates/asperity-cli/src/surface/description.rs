@@ -7,15 +7,15 @@ use asperity::surface::{
 use asperity::units::Metre;
 use serde::Serialize;
 
-use super::ReadSurface;
+use super::{ReadSurface, line_of};
 use crate::report::Outcome;
 
 /// Numbers of `asperity surface info` beyond those of the file itself, SI.
 #[derive(Serialize)]
 pub(super) struct Description {
-    /// Areal parameters of ISO 25178-2.
-    pub(super) parameters: Parameters,
-    /// None without a pitch.
+    /// Areal parameters of ISO 25178-2; none of a single line.
+    pub(super) parameters: Option<Parameters>,
+    /// None without a pitch, and of a single line.
     #[serde(flatten)]
     pub(super) statistics: Option<Statistics>,
     /// None without a cut-off.
@@ -58,29 +58,36 @@ pub(super) struct Asperities {
     pub(super) by_moments: GreenwoodWilliamson,
 }
 
-/// Parameters of ISO 21920-2 of the roughness, means over all lines.
+/// Parameters of ISO 21920-2 of the roughness, means over all lines; of a single line those along it.
 #[derive(Serialize)]
 pub(super) struct Profiles {
     pub(super) cutoff: Metre,
-    pub(super) x: ProfileParameters,
-    pub(super) y: ProfileParameters,
+    pub(super) x: Option<ProfileParameters>,
+    pub(super) y: Option<ProfileParameters>,
 }
 
 impl Description {
     pub(super) fn of(file: &ReadSurface, cutoff: Option<Metre>) -> Outcome<Self> {
         let topography = &file.topography;
-        let mut parameters = topography.parameters();
-        if file.pitch.is_none() {
-            // These quantities need lengths along the surface.
-            parameters.spatial = SpatialParameters::undefined();
-            parameters.hybrid = HybridParameters::undefined();
-            parameters.feature = FeatureParameters::undefined();
-        }
+        let line = line_of(topography);
+        let parameters = line.is_none().then(|| {
+            let mut parameters = topography.parameters();
+            if file.pitch.is_none() {
+                // These quantities need lengths along the surface.
+                parameters.spatial = SpatialParameters::undefined();
+                parameters.hybrid = HybridParameters::undefined();
+                parameters.feature = FeatureParameters::undefined();
+            }
+            parameters
+        });
         let profiles = cutoff.map(|cutoff| {
-            let along = |axis| topography.profile_parameters(axis, cutoff);
+            let along = |axis| {
+                let exists = line.is_none_or(|line| line == axis);
+                exists.then(|| topography.profile_parameters(axis, cutoff)).transpose()
+            };
             Ok::<_, asperity::Error>(Profiles { cutoff, x: along(Axis::X)?, y: along(Axis::Y)? })
         });
-        let statistics = file.pitch.map(|_| Statistics::of(file));
+        let statistics = file.pitch.filter(|_| line.is_none()).map(|_| Statistics::of(file));
         Ok(Self { parameters, statistics, profiles: profiles.transpose()? })
     }
 }

@@ -1,7 +1,7 @@
 //! `asperity surface info`.
 
 use asperity::study::exact_pitch;
-use asperity::surface::{Axis, GreenwoodWilliamson, LengthUnit, Parameter, Unit};
+use asperity::surface::{GreenwoodWilliamson, LengthUnit, Parameter, Parameters, Unit};
 use asperity::units::{self, Metre, Multiple};
 use serde_json::{Value, json};
 
@@ -9,6 +9,7 @@ use super::description::{Description, Law, Profiles, Statistics};
 use super::table::Table;
 use super::{ReadSurface, line_of, read_prepared, suggest_level, without_pitch};
 use crate::args::Info;
+use crate::numbers::meaning;
 use crate::report::{Outcome, print};
 
 pub(super) fn info(arguments: &Info) -> Outcome {
@@ -50,22 +51,22 @@ fn json(file: &ReadSurface, description: &Description) -> Value {
 fn text(file: &ReadSurface, description: &Description) -> String {
     let mut table = Table::default();
     about_file(&mut table, file);
-    let is_line = line_of(&file.topography).is_some();
-    // A line has no areal parameters.
-    let parameters = if is_line { Vec::new() } else { description.parameters.rows() };
+    let parameters = description.parameters.as_ref().map_or_else(Vec::new, Parameters::rows);
     for family in parameters.chunk_by(|a, b| a.family == b.family) {
         table.title(format!("{} parameters, ISO 25178-2", family[0].family));
         for row in family {
             let alike = parameters.iter().filter(|other| is_of_one_column(row, other));
             let multiple = row.unit.multiple(alike.map(|other| other.value));
-            table.numbers(row.symbol, [row.value], &multiple, row.meaning);
+            // Without a pitch no length along the surface is known, which `pitch` says.
+            let why = file.pitch.map(|_| row.value);
+            table.numbers(row.symbol, [row.value], &multiple, meaning(row, why));
         }
     }
-    if let Some(statistics) = description.statistics.as_ref().filter(|_| !is_line) {
+    if let Some(statistics) = &description.statistics {
         about_statistics(&mut table, statistics);
     }
     if let Some(profiles) = &description.profiles {
-        about_profiles(&mut table, profiles, line_of(&file.topography));
+        about_profiles(&mut table, profiles);
     }
     table.text()
 }
@@ -153,25 +154,20 @@ fn about_statistics(table: &mut Table, statistics: &Statistics) {
     }
 }
 
-/// Returns the parameters along both axes, or along the only axis of a line.
-fn about_profiles(table: &mut Table, profiles: &Profiles, line: Option<Axis>) {
+/// The parameters along both axes, or along the only one of a line.
+fn about_profiles(table: &mut Table, profiles: &Profiles) {
     let cutoff = Unit::Length.format(profiles.cutoff);
-    let along_which = match line {
-        Some(axis) => format!("along {}", ["x", "y"][axis as usize]),
-        None => "along x | along y".to_owned(),
-    };
-    table.title(format!("profile parameters, ISO 21920-2, cut-off {cutoff}: {along_which}"));
-    let rows: Vec<_> = profiles.x.rows().into_iter().zip(profiles.y.rows()).collect();
-    // These are lengths along the surface; the others are heights.
+    let axes = [("along x", &profiles.x), ("along y", &profiles.y)];
+    let shown = axes.iter().filter_map(|(name, parameters)| Some((*name, parameters.as_ref()?.rows())));
+    let (names, columns): (Vec<_>, Vec<_>) = shown.unzip();
+    table.title(format!("profile parameters, ISO 21920-2, cut-off {cutoff}: {}", names.join(" | ")));
+    // These lengths lie along the surface, the others are heights.
     let along = |row: &Parameter| ["Rsm", "Rdl"].contains(&row.symbol);
-    for (x, y) in &rows {
-        let alike = rows.iter().filter(|(other, _)| x.unit == other.unit && along(x) == along(other));
-        let shown = |x: &Parameter, y: &Parameter| match line {
-            Some(axis) => vec![[x.value, y.value][axis as usize]],
-            None => vec![x.value, y.value],
-        };
-        let multiple = x.unit.multiple(alike.flat_map(|(x, y)| shown(x, y)));
-        table.numbers(x.symbol, shown(x, y), &multiple, x.meaning);
+    for (n, row) in columns.first().into_iter().flatten().enumerate() {
+        let alike = columns.iter().flatten();
+        let alike = alike.filter(|other| row.unit == other.unit && along(row) == along(other));
+        let multiple = row.unit.multiple(alike.map(|other| other.value));
+        table.numbers(row.symbol, columns.iter().map(|column| column[n].value), &multiple, row.meaning);
     }
 }
 

@@ -1,7 +1,7 @@
 //! `asperity surface plot`: figures of a topography, and their curves as numbers.
 
 use std::f64::consts::TAU;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use asperity::Field;
 use asperity::io;
@@ -27,7 +27,7 @@ const POINTS: usize = 501;
 const DECADES: i32 = 8;
 
 pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
-    let out = &arguments.out;
+    let out = &arguments.out.clone().unwrap_or_else(|| beside(&arguments.input.file));
     if out.exists() && !arguments.overwrite {
         let message = format!("`{}` exists", out.display());
         return Err(Failure::usage(message, Some("--overwrite replaces the figures in it")));
@@ -64,6 +64,13 @@ pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
     io::replace(&out.join("curves.json"), format!("{curves:#}\n").as_bytes())?;
     note(&format!("figures and curves.json in {}", out.display()));
     Ok(())
+}
+
+/// The folder for the figures of a file where none is named: `scans/disc.x3p` → `scans/disc-figures`.
+fn beside(file: &Path) -> PathBuf {
+    let mut name = file.file_stem().unwrap_or_default().to_owned();
+    name.push("-figures");
+    file.with_file_name(name)
 }
 
 /// Directory and content of the figures.
@@ -169,7 +176,7 @@ impl Sheet<'_> {
                 Series::new("Gaussian", gaussian(&heights, self.topography.sq()), Mark::Dashed),
             ];
             let x = Axis::linear("height above the mean", Unit::Length);
-            self.density("height-distribution", "distribution of the heights", x, Unit::Of("1/m"), series)?;
+            self.density("height-distribution", "distribution of the heights", x, Unit::PerLength, series)?;
             json["heights"] = json!(points);
         }
         let mut series = Vec::new();

@@ -246,6 +246,18 @@ def nothing_is_empty(tab):
     assert empty == 0 and not any(word in text for word in ("NaN", "undefined", "Infinity", "−0 ", "-0 ")), empty
 
 
+def legends_hide(tab):
+    """A click on a name in a legend hides its curve and nothing else; a second one shows it again. The CSV has all."""
+    view = "charts.find((view) => view.legend.querySelectorAll('button').length > 1)"
+    if not tab.evaluate(f"Boolean({view})"):
+        return
+    shown, csv_text = (f"{view}.{what}" for what in ("shown.length", "csv()"))
+    before = tab.evaluate(shown), tab.evaluate(csv_text)
+    for expected in (before[0] - 1, before[0]):
+        tab.evaluate(f"{view}.legend.querySelector('button').click()")
+        assert (tab.evaluate(shown), tab.evaluate(csv_text)) == (expected, before[1])
+
+
 def is_accessible(tab, axe):
     if not axe:
         return
@@ -288,6 +300,7 @@ def look_at(browser, path, results, folder, axe):
         keys_change_the_picture(tab, page.json)
     curves_are_the_tables(tab, page.json, results)
     nothing_is_empty(tab)
+    legends_hide(tab)
     downloads(tab, folder)
     is_accessible(tab, axe)
     for width in (1280, 400):
@@ -370,6 +383,31 @@ def curves_are_means_of_the_table(tab, table):
     assert said == [["1", "10", "100"], ["10⁻⁴", "10⁻³", "10⁻²", "10⁻¹", "10⁰", "10¹"], ["10⁻⁷", "2·10⁻⁷"]], said
 
 
+def means_are_coloured_and_filtered(tab, table):
+    """The table in colours has the mean of the cases at each place; a choice leaves the cases that have its value."""
+    done = [row for row in table if row["state"] == "done"]
+    load, sq, seed = "contact.load (N)", "lower.topography.sq (m)", "lower.topography.seed"
+    selects = tab.locator("#explorer select")
+    for place, option in ((0, "0"), (1, "0"), (2, "lower.topography.sq"), (3, "map")):
+        selects.nth(place).select_option(option)
+    factor = tab.evaluate("explorer.quantities[0].unit.factor")
+    name = tab.evaluate("explorer.quantities[0].name")
+    seeds = sorted({row[seed] for row in table}, key=float)
+    for chosen in ("", "0"):
+        selects.nth(6).select_option(chosen)
+        of_choice = [row for row in done if chosen == "" or row[seed] == seeds[0]]
+        cells = [[cell.inner_text() for cell in row.locator("td").all()] for row in tab.locator("#heat tbody tr").all()]
+        for cell_row, b in zip(cells, sorted({float(row[sq]) for row in table}), strict=True):
+            for cell, a in zip(cell_row, sorted({float(row[load]) for row in table}), strict=True):
+                numbers = [float(row[name]) for row in of_choice if (float(row[load]), float(row[sq])) == (a, b)]
+                assert (cell == "–") == (not numbers), (cell, numbers)
+                assert not numbers or np.isclose(float(cell), np.mean(numbers) / factor, rtol=6e-4), (cell, numbers)
+        rows = tab.locator("#cases tbody tr:visible").count()
+        assert rows == sum(chosen == "" or row[seed] == seeds[0] for row in table)
+    selects.nth(6).select_option("")
+    selects.nth(3).select_option("curves")
+
+
 def keys_reach_the_cases(tab):
     """Tab comes to each button and link in its turn and shows where it is; the table scrolls by keys; a link leads on by Enter."""
     seen = []
@@ -434,6 +472,7 @@ def look_at_study(browser, directory, folder, axe):
     keys_reach_the_cases(tab)
     rows_are_the_table(tab, table)
     curves_are_means_of_the_table(tab, table)
+    means_are_coloured_and_filtered(tab, table)
     clicks_sort_and_open(tab, table)
     nothing_is_empty(tab)
     downloads(tab, folder)

@@ -295,6 +295,19 @@ fn a_topography_is_described_by_its_families_of_parameters() {
     assert_eq!(bare["parameters"]["Sq"], described["parameters"]["Sq"]);
     assert!(bare["parameters"]["Sdq"].is_null() && bare["parameters"]["Sal"].is_null());
     assert!(bare.get("moments").is_none() && bare["profiles"].is_null());
+    // Nothing is said of the autocorrelation where the pitch alone is missing.
+    assert!(!ok(&at("surface info z.npy")).contains("–: "));
+    // A plane keeps its correlation over the whole map.
+    fs::write(folder.path().join("tilted.txt"), "0 1 2 3\n0 1 2 3\n0 1 2 3\n0 1 2 3\n").unwrap();
+    let tilted = ok(&at("surface info tilted.txt --pitch 1um --unit 1nm"));
+    let isotropy = tilted.lines().find(|line| line.starts_with("Str ")).unwrap();
+    assert!(isotropy.contains("(–: in some direction the autocorrelation does not fall"), "{isotropy}");
+    // A line has no area.
+    fs::write(folder.path().join("line.txt"), "0 1 0 2 0 1 0 3 0 2 0 1 0 2 0 1\n").unwrap();
+    let line = json("surface info line.txt --pitch 1um --unit 1nm --json");
+    assert!(line["parameters"].is_null() && line.get("moments").is_none(), "{line}");
+    let ra = ["x", "y"].map(|axis| line["profiles"][axis]["Ra"].as_f64());
+    assert!(ra.iter().flatten().count() == 1 && ra.iter().flatten().all(|ra| *ra > 0.0), "{line}");
     let error = refused(&at("surface info z.npy --cutoff 20um"));
     assert!(error.contains("--pitch 0.5um"), "{error}");
     let error = refused(&at("surface info z.x3p --cutoff 1um"));
@@ -329,6 +342,9 @@ fn a_topography_is_drawn_with_its_curves() {
     assert_eq!(curves["autocorrelation"]["x"][0], serde_json::json!([0.0, 1.0]));
     assert!(curves["spectrum"]["radial"][0]["density"].as_f64().unwrap() > 0.0);
     assert!(refused(&at("surface plot z.x3p --out figures")).contains("--overwrite"));
+    // Without a name the folder has that of the file.
+    ok(&at("surface plot z.x3p --dpi 30"));
+    assert!(folder.path().join("z-figures/curves.json").is_file());
     // A plane has no roughness to draw, and is drawn all the same.
     ok(&at("surface generate flat --shape 16x16 --pitch 1um --out flat.x3p"));
     ok(&at("surface plot flat.x3p --out figures --overwrite"));

@@ -371,6 +371,58 @@ fn a_motion_whose_bodies_never_touch_is_a_row_too() {
 }
 
 #[test]
+fn a_study_grows_on_any_axis_and_computes_only_what_is_new() {
+    let study = |loads: &str, seeds: usize| {
+        format!(
+            "base = \"case.toml\"\n[axes]\n\"contact.load\" = [{loads}]\n\"lower.topography.seed\" = {{ seeds = {seeds} }}\n"
+        )
+    };
+    let folder = folder_with(&study("\"1 mN\", \"2 mN\"", 2));
+    let write = |text: &str| fs::write(folder.path().join("load.toml"), text).unwrap();
+    ok(&asperity(&folder, "study load.toml"));
+    let summary_of = |case: &str| folder.path().join(format!("load/cases/{case}/summary.json"));
+    let kept = ["0001", "0002", "0003", "0004"]
+        .map(|case| fs::metadata(summary_of(case)).unwrap().modified().unwrap());
+    write(&study("\"1 mN\", \"1.5 mN\", \"2 mN\"", 3));
+    ok(&asperity(&folder, "study load.toml"));
+    let rows = table(&folder.path().join("load/table.csv"));
+    assert_eq!(rows.len(), 9);
+    let values = |row: &BTreeMap<String, String>| {
+        (row["contact.load (N)"].clone(), row["lower.topography.seed"].clone())
+    };
+    assert_eq!(values(&rows[3]), ("0.002".to_owned(), "2".to_owned()));
+    assert_eq!(values(&rows[4]), ("0.001".to_owned(), "3".to_owned()));
+    let now = ["0001", "0002", "0003", "0004"]
+        .map(|case| fs::metadata(summary_of(case)).unwrap().modified().unwrap());
+    assert_eq!(now, kept);
+    // The numbers are those of a study that had all cases from the beginning.
+    ok(&asperity(&folder, "study load.toml --out whole"));
+    let whole = table(&folder.path().join("whole/table.csv"));
+    for row in &rows {
+        let same = whole.iter().find(|other| values(other) == values(row)).unwrap();
+        for key in ["approach", "contact_area", "max_pressure"] {
+            assert_eq!(row[key], same[key], "{key}");
+        }
+    }
+}
+
+#[test]
+fn loads_beyond_the_plastic_limit_are_named_before_anything_is_computed() {
+    // 16 × 16 cells of 1 µm² at 4 GPa bear 1.024 N.
+    let folder =
+        folder_with("base = \"case.toml\"\n[axes]\n\"contact.load\" = [\"1 mN\", \"1.2 N\", \"2 N\"]\n");
+    let output = asperity(&folder, "study load.toml --quiet");
+    let told = stderr(&output);
+    let first = told.lines().next().unwrap_or_default();
+    assert!(
+        first.contains("case 0002 will fail, and 1 more case: load 1.2 N exceeds the plastic limit 1.024 N"),
+        "{told}"
+    );
+    // What has failed is not foreseen again.
+    assert!(!stderr(&asperity(&folder, "study load.toml --quiet")).contains("will fail"));
+}
+
+#[test]
 fn a_study_grows_at_its_end_and_is_not_mixed_with_another() {
     let study = |values: &str| format!("base = \"case.toml\"\n[axes]\n\"contact.load\" = [{values}]\n");
     let folder = folder_with(&study("\"1 mN\", \"2 mN\""));
@@ -380,7 +432,7 @@ fn a_study_grows_at_its_end_and_is_not_mixed_with_another() {
     ok(&asperity(&folder, "study load.toml"));
     assert_eq!(table(&folder.path().join("load/table.csv")).len(), 3);
     for (text, told) in [
-        (study("\"2 mN\", \"1 mN\""), "cases of its plan have other values"),
+        (study("\"2 mN\", \"4 mN\""), "cases of its plan have other values"),
         (
             study("\"1 mN\"").replace("contact.load", "contact.mean_pressure"),
             "both 'load' and 'mean_pressure'",

@@ -73,6 +73,69 @@ pub fn cell_stress(
     }))
 }
 
+/// Passes the `component` of [`cell_stress`] to `take`, line after line along `axis`: the number of a line, which counts the
+/// pitches across it from 0, and its values at the offsets from 0 along it. `lines` and `along` are their numbers.
+///
+/// The values are those of [`stress_table`], of which only two lines are held.
+#[expect(clippy::too_many_arguments, reason = "all of a cell, and of the lines")]
+pub(crate) fn stress_lines(
+    [lines, along]: [usize; 2],
+    axis: usize,
+    depth: Metre,
+    pitch: [Metre; 2],
+    poisson: f64,
+    component: Component,
+    traction: Traction,
+    mut take: impl FnMut(usize, &[f64]),
+) {
+    let (size, depth) = ([1.0, pitch[1] / pitch[0]], depth / pitch[0]);
+    let [s, t] = [size[1 - axis], size[axis]];
+    let odd = traction.odd(component).map(|odd| if odd { 1.0 } else { -1.0 });
+    let [across, odd_along] = [odd[1 - axis], odd[axis]];
+    let mut before = vec![0.0; along];
+    let mut values = vec![0.0; along];
+    for i in 0..lines {
+        let mut last = 0.0;
+        for j in 0..along {
+            let place = [(i as f64 + 0.5) * s, (j as f64 + 0.5) * t];
+            let [x, y] = if axis == 1 { place } else { [place[1], place[0]] };
+            let at = corner(component, traction, x, y, depth, poisson);
+            let difference = at - if j == 0 { odd_along * at } else { last };
+            last = at;
+            values[j] = difference - if i == 0 { across * difference } else { before[j] };
+            before[j] = difference;
+        }
+        take(i, &values);
+    }
+}
+
+/// The `component` under a strip of cells without end along `axis`, at the distances `i Δ` across it, per unit traction.
+///
+/// Its error is some 1e-10 of the traction: the strip is a cell that is 10¹⁰ times as long as the distances are large, and the
+/// stress along a cell misses that of a strip by the ratio of width and length.
+pub(crate) fn strip_stress(
+    count: usize,
+    axis: usize,
+    depth: Metre,
+    pitch: [Metre; 2],
+    poisson: f64,
+    component: Component,
+    traction: Traction,
+) -> Vec<f64> {
+    const LONG: f64 = 1e10;
+    let across = pitch[1 - axis];
+    let at = |i: usize| {
+        let distance = i as f64 * across;
+        let mut long = pitch;
+        long[axis] = LONG * distance.max(depth).max(across);
+        let place = if axis == 1 { [distance, 0.0] } else { [0.0, distance] };
+        let stress = cell_stress(place, depth, long, poisson, traction).components();
+        let index = Component::ALL.iter().position(|other| *other == component);
+        stress[index.expect("one of all")]
+    };
+    (0..count).map(at).collect()
+}
+
 /// Computes the `component` of [`cell_stress`] at the offsets `(i Δx, j Δy)`.
 ///
 /// Each corner is evaluated once for the four cells that meet there.

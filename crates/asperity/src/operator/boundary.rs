@@ -51,7 +51,7 @@ impl Boundary {
     }
 
     /// Returns the only periodic axis, if there is exactly one.
-    fn single_period(self) -> Option<usize> {
+    pub(crate) fn single_period(self) -> Option<usize> {
         match self.0 {
             [Edge::Periodic, Edge::Free] => Some(0),
             [Edge::Free, Edge::Periodic] => Some(1),

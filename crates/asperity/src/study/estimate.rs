@@ -7,7 +7,7 @@ mod plausible;
 pub(super) use contact::{CELLS_ACROSS, cut_off, spot, too_few_cells};
 pub use demand::{Demand, demand};
 
-use super::case::{Body, Case, Layer, LoadingPath, Source, TopographySpec};
+use super::case::{Body, Case, Hardness, Layer, LoadingPath, Source, TopographySpec};
 use super::closed_form::ClosedForm;
 use super::prepare::{Bodies, MountedSurface};
 use crate::error::{Error, Result};
@@ -98,12 +98,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     if let (None, Some(LoadingPath::Stages(stages))) = (case.motion(apparent_area), &loading_path) {
         bears(law, stages, mean_hardness(&positions[0]), apparent_area)?;
     }
-    let cap = |hardness| match (case.motion(apparent_area), &loading_path) {
-        (Some(Motion { friction: Some(friction), .. }), _) => friction.sliding_cap(hardness),
-        (None, None) => law.map_or(hardness, |friction| friction.sliding_cap(hardness)),
-        (None, Some(LoadingPath::Stages(stages))) => stage_cap(law, &stages[0], hardness),
-        _ => hardness,
-    };
+    let cap = |hardness| cap(case, apparent_area, loading_path.as_ref(), hardness);
     let bearable: Vec<Newton> = positions
         .iter()
         .map(|position| match facing_hardness(position) {
@@ -157,6 +152,54 @@ fn share_of_lower(lower: &CellValues, upper: &CellValues) -> Option<f64> {
         (_, true, _) => Some(1.0),
         (_, _, true) => Some(0.0),
         _ => None,
+    }
+}
+
+/// Checks the plastic limit of a case from its grids alone, without its surfaces. A case with a hardness map passes.
+///
+/// # Errors
+/// [`Error::BeyondPlasticLimit`] if no pressure within the hardness can carry the load.
+pub(super) fn check_plastic_limit(case: &Case, grids: [Grid; 2]) -> Result<()> {
+    let (Hardness::Uniform(lower), Hardness::Uniform(upper)) = (&case.lower.hardness, &case.upper.hardness)
+    else {
+        return Ok(());
+    };
+    let hardness = lower.min(*upper);
+    let [grid, other] = grids;
+    let column = grid.shape[1] as f64 * grid.cell_area();
+    let apparent_area = grid.shape[0].min(other.shape[0]) as f64 * column;
+    let motion = case.motion(apparent_area);
+    let loading_path = case.loading_path(apparent_area);
+    if let (None, Some(LoadingPath::Stages(stages))) = (&motion, &loading_path) {
+        bears(case.friction.as_ref().map(|friction| &friction.law), stages, hardness, apparent_area)?;
+    }
+    let cap = cap(case, apparent_area, loading_path.as_ref(), hardness);
+    let positions = positions(case, grids);
+    let bearable: Vec<Newton> =
+        positions.iter().map(|position| cap * position.columns as f64 * column).collect();
+    let control = case.contact.prescribed.control(apparent_area);
+    match control {
+        Control::Load(_) => {
+            let load_control = motion.map_or(LoadControl::Step, |motion| motion.load_control);
+            check_limit(control, load_control.plastic_limit(&bearable))
+        }
+        Control::Approach(_) => Ok(()),
+    }
+}
+
+/// Largest pressure on cells of a hardness, reduced by the shear of sliding bodies.
+fn cap(
+    case: &Case,
+    apparent_area: SquareMetre,
+    loading_path: Option<&LoadingPath>,
+    hardness: Pascal,
+) -> Pascal {
+    let law = case.friction.as_ref().map(|friction| &friction.law);
+    match (case.motion(apparent_area), loading_path) {
+        (Some(Motion { friction: Some(friction), .. }), _) => friction.sliding_cap(hardness),
+        (None, None) => law.map_or(hardness, |friction| friction.sliding_cap(hardness)),
+        (None, Some(LoadingPath::Stages(stages))) => stage_cap(law, &stages[0], hardness),
+        _ => hardness,
     }
 }
 

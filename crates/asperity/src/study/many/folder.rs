@@ -1,5 +1,6 @@
 //! The directory of a study: its plan and the states of its cases.
 
+use std::collections::{HashMap, VecDeque};
 use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -88,9 +89,25 @@ pub(super) struct FailedCase {
 }
 
 impl Folder {
+    /// Numbers the cases of a study like the plan stored in the directory `path`: its cases first, all others after them. A
+    /// study may so have further values on any axis, and finished cases keep their numbers. Without a stored plan, or with
+    /// one of other axes, the study stays as it is.
+    ///
+    /// # Errors
+    /// [`Error::File`] if the stored plan cannot be read.
+    pub fn number(path: &Path, study: Study) -> Result<Study> {
+        let there = Self { path: path.to_owned() }.plan()?;
+        let order =
+            [study.csv(), study.unguarded_csv()].iter().find_map(|ours| order(&there, ours, study.len()));
+        Ok(match order {
+            Some(order) => study.in_order(&order),
+            None => study,
+        })
+    }
+
     /// Opens the directory of a study with its plan; creates it if missing.
     ///
-    /// The study may have more cases than when it was begun, after all others.
+    /// The study may have more cases than when it was begun, after all others: [`Folder::number`] numbers them so.
     ///
     /// # Errors
     /// [`Error::NotThisStudy`] if the directory contains another study, or other files; [`Error::SurfaceChanged`] if
@@ -250,6 +267,38 @@ impl Folder {
     }
 }
 
+/// Returns the cases of a plan, from 0, in the order of a stored one: its cases first, then all others. `None` if they have
+/// that order already, or if the plans have other axes.
+fn order(stored: &str, ours: &str, cases: usize) -> Option<Vec<usize>> {
+    if stored.is_empty() || ours.starts_with(stored) || stored.starts_with(ours) {
+        return None;
+    }
+    let (mut stored, mut ours) = (stored.lines(), ours.lines());
+    if stored.next() != ours.next() {
+        return None;
+    }
+    let mut places: HashMap<&str, VecDeque<usize>> = HashMap::new();
+    let mut rows = 0;
+    for (n, row) in ours.enumerate() {
+        places.entry(values(row)).or_default().push_back(n);
+        rows += 1;
+    }
+    // A text with line breaks is no row.
+    if rows != cases {
+        return None;
+    }
+    let mut order: Vec<usize> = stored.filter_map(|row| places.get_mut(values(row))?.pop_front()).collect();
+    let mut others: Vec<usize> = places.into_values().flatten().collect();
+    others.sort_unstable();
+    order.extend(others);
+    Some(order)
+}
+
+/// The values of a row of a plan, without the number of the case.
+fn values(row: &str) -> &str {
+    row.split_once(',').map_or("", |(_, values)| values)
+}
+
 /// Whether an error means that the file does not exist.
 pub(super) fn is_missing(error: &io::Error) -> bool {
     matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory)
@@ -270,6 +319,39 @@ mod tests {
     use std::thread;
 
     use super::*;
+
+    #[test]
+    fn a_plan_that_grew_on_any_axis_keeps_the_numbers_of_its_cases() {
+        let study = |loads: &str, seeds: usize| {
+            let text = format!(
+                "[base]\nlower = {{ young = 1e9, poisson = 0, topography = {{ generate = \"low-pass\", sq = 1e-8, cutoff = 4e-6, seed = 1, shape = [8, 8], pitch = 1e-6 }} }}\n\
+                 upper = {{ young = inf, poisson = 0, topography = {{ form = \"flat\" }} }}\ncontact = {{ load = 1 }}\n\
+                 [axes]\n\"contact.load\" = [{loads}]\n\"lower.topography.seed\" = {{ seeds = {seeds} }}\n"
+            );
+            Study::parse(&text, Path::new("study.toml")).unwrap()
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("study");
+        let enter = |study: Study| -> Result<(String, bool)> {
+            let study = Folder::number(&path, study)?;
+            let folder = Folder::enter(&path, &study)?;
+            Ok((study.csv(), folder.has_grown(&study)?))
+        };
+        let begun = enter(study("1, 2", 2)).unwrap().0;
+        // A third seed, then a load between the others.
+        let grown = enter(study("1, 2", 3)).unwrap().0;
+        assert!(grown.starts_with(&begun) && grown.ends_with("0005,1.0,3\n0006,2.0,3\n"), "{grown}");
+        let (again, _) = enter(study("1, 1.5, 2", 3)).unwrap();
+        assert!(
+            again.starts_with(&grown) && again.ends_with("0007,1.5,1\n0008,1.5,2\n0009,1.5,3\n"),
+            "{again}"
+        );
+        // Older files are still files of this study; one with other values is not.
+        assert_eq!(enter(study("1, 2", 2)).unwrap(), (begun, true));
+        assert_eq!(enter(study("2, 1", 3)).unwrap(), (grown, true));
+        assert!(matches!(enter(study("1, 3", 2)), Err(Error::NotThisStudy { .. })));
+        assert_eq!(enter(study("1, 1.5, 2", 3)).unwrap(), (again, false));
+    }
 
     #[test]
     fn many_processes_may_begin_a_study_at_the_same_time() {

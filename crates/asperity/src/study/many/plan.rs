@@ -13,6 +13,9 @@ use super::named::NamedFile;
 use crate::error::{CaseError, Error, Result};
 use crate::io::sha256;
 use crate::study::case::Case;
+use crate::study::estimate::check_plastic_limit;
+use crate::study::given::SurfaceInput;
+use crate::study::prepare::grids;
 
 /// Largest number of cases of a study, before exclusions.
 pub const MAX_CASES: usize = 10_000_000;
@@ -101,6 +104,28 @@ impl Study {
             .map_err(|(axis, message)| self.error_at(case, axis, &message, None))
     }
 
+    /// Returns the cases whose load is known to exceed the plastic limit before anything is computed, and the error of each.
+    /// Of a study with more than 1000 cases, only the first case with each value of each axis is looked at. Hardness maps
+    /// are not read.
+    pub fn beyond_plastic_limit(&self) -> Vec<(usize, Error)> {
+        const ALL: usize = 1000;
+        let looked_at = if self.len() <= ALL { (1..=self.len()).collect() } else { self.tried() };
+        let beyond = |number: usize| {
+            let case = self.case(number).ok()?;
+            // A file that is missing is reported when the case runs.
+            let grids = grids(&case, &SurfaceInput::default()).ok()?;
+            let error = check_plastic_limit(&case, grids).err()?;
+            matches!(error, Error::BeyondPlasticLimit { .. }).then_some((number, error))
+        };
+        looked_at.into_par_iter().filter_map(beyond).collect()
+    }
+
+    /// Numbers the cases in another order, from 0.
+    pub(super) fn in_order(self, order: &[usize]) -> Self {
+        let indices = order.iter().flat_map(|case| self.indices(case + 1)).copied().collect();
+        Self { indices, ..self }
+    }
+
     /// Writes the plan as CSV: for each case a row with its number and the values of its axes. A text that a spreadsheet
     /// would read as a formula begins with an apostrophe.
     pub fn csv(&self) -> String {
@@ -167,6 +192,19 @@ impl Study {
 
     /// Reads, for each value of each axis, the first case that has it.
     fn check(&self) -> Result<()> {
+        let tried = self.tried();
+        let wrong = tried.par_iter().find_map_first(|case| Some((*case, self.case(*case).err()?)));
+        match wrong {
+            None => Ok(()),
+            Some((case, Error::Case(error))) if error.file == Path::new("case.toml") => {
+                Err(self.located(case, &error))
+            }
+            Some((_, error)) => Err(error),
+        }
+    }
+
+    /// Returns the first case with each value of each axis.
+    fn tried(&self) -> Vec<usize> {
         let mut seen: Vec<Vec<bool>> = self.axes().iter().map(|axis| vec![false; axis.len()]).collect();
         let mut tried = BTreeSet::new();
         for case in 1..=self.len() {
@@ -176,15 +214,7 @@ impl Study {
                 }
             }
         }
-        let tried: Vec<usize> = tried.into_iter().collect();
-        let wrong = tried.par_iter().find_map_first(|case| Some((*case, self.case(*case).err()?)));
-        match wrong {
-            None => Ok(()),
-            Some((case, Error::Case(error))) if error.file == Path::new("case.toml") => {
-                Err(self.located(case, &error))
-            }
-            Some((_, error)) => Err(error),
-        }
+        tried.into_iter().collect()
     }
 
     /// Locates a mistake of a case in the study: at the value of an axis, or in the base.

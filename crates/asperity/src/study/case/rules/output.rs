@@ -15,15 +15,6 @@ pub(super) const RULES: &[Rule] = &[
         broken: |tables| tables.at("subsurface.step").filter(|_| tables.case.motion.is_none()),
     },
     Rule {
-        this: "[subsurface]",
-        with: "a boundary periodic along one axis only",
-        message: "[subsurface] does not support a boundary that is periodic along one axis only",
-        hint: "leave [subsurface] out, or use \"free\" or \"periodic\"",
-        at: "contact.boundary",
-        example: &[LINE, r#"subsurface = { to = "20 um" }"#],
-        broken: |tables| tables.at("subsurface").and(tables.line()),
-    },
-    Rule {
         this: "a coating",
         with: "[friction] of a static contact",
         message: "coated bodies do not support shear yet",
