@@ -106,6 +106,7 @@ fn planes(found: &mut PageData, flow: &[GapFlowRecord]) -> Vec<Plane> {
                 _ => "m²/s",
             }),
             shades: Shades::FromZero,
+            spans: Vec::new(),
             mark,
         };
     let is_there = |(field, ..): &(Field, [f64; 2], String)| field.iter().any(|value| *value > 0.0);

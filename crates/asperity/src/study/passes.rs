@@ -83,6 +83,9 @@ impl Passes {
         writer.begin()?;
         let output = writer.passes(case.output.pressure_every, subsurface)?;
         let passes = writer.results().passes()?;
+        // They compare with the bodies before the first pass.
+        let done = Some(passes.len()).filter(|done| *done > 0);
+        let observers = Observers::new(case, simulation.pair(), (Some(&writer), done))?;
         let represented = passes.iter().map(PassRecord::represents).sum();
         let simulation = match passes.len() {
             0 => {
@@ -109,8 +112,6 @@ impl Passes {
             }
         };
         let (case, done) = (case.clone(), passes.len());
-        let observers =
-            Observers::new(&case, simulation.pair(), (Some(&writer), (done > 0).then_some(done)))?;
         let positions = simulation.positions().to_vec();
         let simulation = simulation.keeping_gaps(|index| observers.want(index, &positions[index]));
         Ok(Self {

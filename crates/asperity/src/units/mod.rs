@@ -43,6 +43,10 @@ pub type PascalSecond = f64;
 pub type Watt = f64;
 /// Voltage in volts.
 pub type Volt = f64;
+/// Thermal conductivity in watts per metre and kelvin.
+pub type WattPerMetreKelvin = f64;
+/// Electrical conductivity in siemens per metre.
+pub type SiemensPerMetre = f64;
 /// Thermal conductance in watts per kelvin.
 pub type WattPerKelvin = f64;
 /// Electrical conductance in siemens.

@@ -68,8 +68,12 @@ fn courses() -> Vec<(&'static str, Case, usize)> {
             ),
             2,
         ),
-        ("overlap", case(wear, free, "[motion]\nstride = 7\npasses = 2"), 2 * 7),
-        ("to and fro", case("", free, "[motion]\nstride = 12\npasses = 2\npath = \"reciprocating\""), 0),
+        ("overlap", case(wear, free, "[motion]\nspeed = \"1 m/s\"\nstride = 7\npasses = 2"), 2 * 7),
+        (
+            "to and fro",
+            case("", free, "[motion]\nspeed = \"1 m/s\"\nstride = 12\npasses = 2\npath = \"reciprocating\""),
+            0,
+        ),
         (
             "shift",
             case(

@@ -163,6 +163,8 @@ macro_rules! columns {
     (@unit [Watt]) => { "W" };
     (@unit [WattPerKelvin]) => { "W/K" };
     (@unit [Siemens]) => { "S" };
+    (@unit [WattPerMetreKelvin]) => { "W/(m K)" };
+    (@unit [SiemensPerMetre]) => { "S/m" };
     (@unit [WattPerSquareMetreKelvin]) => { "W/(m² K)" };
     (@unit [SiemensPerSquareMetre]) => { "S/m²" };
     (@unit [KelvinPerWatt]) => { "K/W" };

@@ -103,6 +103,7 @@ impl Observer for ConductanceObserver {
         let touching = contact.touching.iter().filter(|touches| **touches).count();
         let mean_pressure = contact.load / contact.grid.area();
         let quantities = Quantities {
+            conductivity: self.composite,
             conductance: found.conductance,
             joint: found.joint_conductance(),
             resistance: found.resistance(),

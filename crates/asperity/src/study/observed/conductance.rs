@@ -7,8 +7,8 @@ use crate::error::Error;
 use crate::motion::{Column, columns};
 use crate::study::tables::Record;
 use crate::units::{
-    KelvinPerWatt, Newton, Ohm, Pascal, Siemens, SiemensPerSquareMetre, SquareMetre, Watt, WattPerKelvin,
-    WattPerSquareMetreKelvin,
+    KelvinPerWatt, Newton, Ohm, Pascal, Siemens, SiemensPerMetre, SiemensPerSquareMetre, SquareMetre, Watt,
+    WattPerKelvin, WattPerMetreKelvin, WattPerSquareMetreKelvin,
 };
 
 columns! {
@@ -59,6 +59,8 @@ columns! {
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct ThermalRecord {
+        /// Composite thermal conductivity of the bodies, without their coatings.
+        pub thermal_conductivity: WattPerMetreKelvin,
         /// Thermal conductance of the contact; unknown where it adds no resistance.
         pub thermal_conductance: Option<WattPerKelvin>,
         /// Thermal joint conductance h, the conductance over the apparent area.
@@ -80,6 +82,8 @@ columns! {
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct ElectricalRecord {
+        /// Composite electrical conductivity of the bodies, without their coatings.
+        pub electrical_conductivity: SiemensPerMetre,
         /// Electrical conductance of the contact; unknown where it adds no resistance.
         pub electrical_conductance: Option<Siemens>,
         /// Electrical joint conductance, the conductance over the apparent area.
@@ -140,7 +144,12 @@ impl ConductanceRecord {
         };
         let conductance = known(&Self::conductance);
         let [joint, correlation] = [0, 1].map(|which| known(&|row: &Self| row.joint()[which]));
+        let conductivity = match (&rows[0].thermal, &rows[0].electrical) {
+            (Some(thermal), _) => thermal.thermal_conductivity,
+            (None, electrical) => electrical.as_ref().map_or(0.0, |of| of.electrical_conductivity),
+        };
         let quantities = Quantities {
+            conductivity,
             conductance,
             joint,
             resistance: conductance.filter(|conductance| *conductance > 0.0).map(f64::recip),
@@ -172,6 +181,7 @@ impl ConductanceRecord {
 
 /// The quantities of either kind.
 pub(in crate::study) struct Quantities {
+    pub(in crate::study) conductivity: f64,
     pub(in crate::study) conductance: Option<f64>,
     pub(in crate::study) joint: Option<f64>,
     pub(in crate::study) resistance: Option<f64>,
@@ -183,10 +193,11 @@ pub(in crate::study) struct Quantities {
 impl Quantities {
     /// Returns the record of a kind.
     pub(in crate::study) fn of_kind(self, kind: Kind) -> (Option<ThermalRecord>, Option<ElectricalRecord>) {
-        let Self { conductance, joint, resistance, full, holm_greenwood, correlation } = self;
+        let Self { conductivity, conductance, joint, resistance, full, holm_greenwood, correlation } = self;
         match kind {
             Kind::Thermal => {
                 let record = ThermalRecord {
+                    thermal_conductivity: conductivity,
                     thermal_conductance: conductance,
                     thermal_joint_conductance: joint,
                     thermal_resistance: resistance,
@@ -198,6 +209,7 @@ impl Quantities {
             }
             Kind::Electrical => {
                 let record = ElectricalRecord {
+                    electrical_conductivity: conductivity,
                     electrical_conductance: conductance,
                     electrical_joint_conductance: joint,
                     electrical_resistance: resistance,
