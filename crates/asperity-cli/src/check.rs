@@ -10,9 +10,8 @@ use asperity::study::{Bodies, Case, Demand, Estimate, MountedSurface, Plan, Surf
 use asperity::units::{self, Dimension, bytes};
 
 use crate::args::Check;
-use crate::closed_form;
 use crate::report::{Outcome, clipped, note, print};
-use crate::{machine, place};
+use crate::{closed_form, machine, passage, place};
 
 pub(crate) fn check(arguments: &Check) -> Outcome {
     let case = place::case(&arguments.case, "check")?;
@@ -45,10 +44,11 @@ fn text(case: &Case, bodies: &Bodies, estimate: &Estimate, demand: &Demand) -> S
     };
     let theory = estimate.closed_form.as_ref().map(|form| ("theory", closed_form::expected(form)));
     let stress = estimate.subsurface.as_ref().map(|plan| ("stress", stress(case, plan)));
+    let passage = passage::asked(case);
     let mut page = format!("{}\n\n", case.title);
     let laws = laws(case, demand);
     for (name, value) in
-        rows.into_iter().chain(theory).chain(friction).chain(history).chain(laws).chain(stress)
+        rows.into_iter().chain(theory).chain(friction).chain(history).chain(laws).chain(stress).chain(passage)
     {
         let _ = writeln!(page, "{name:<8} {value}");
     }

@@ -1,7 +1,51 @@
 //! What a contact lets through, in words for the terminal and the page.
 
-use asperity::study::{ConductanceRecord, FlowAxis, GapFlowRecord};
+use asperity::Choice;
+use asperity::conductance::Kind;
+use asperity::study::{Case, ConductanceRecord, FlowAxis, GapFlowRecord};
 use asperity::units::{Dimension, format, format_number};
+
+/// What is asked of the contacts of a case, as `asperity check` prints it: name and value.
+pub(crate) fn asked(case: &Case) -> Vec<(&'static str, String)> {
+    let mut rows = Vec::new();
+    if let Some(spec) = case.conductance {
+        let film = spec.film.map_or(String::new(), |film| {
+            let dimension = match spec.kind {
+                Kind::Thermal => Dimension::ThermalInsulance,
+                Kind::Electrical => Dimension::ElectricalInsulance,
+            };
+            format!(", film {}", format(film, dimension))
+        });
+        let gas = spec.gas.map_or(String::new(), |gas| {
+            let jump = format(spec.jump, Dimension::Length);
+            format!(", gas {} with a jump distance of {jump}", format(gas, Dimension::Conductivity))
+        });
+        rows.push(("conducts", format!("{}{film}{gas}; {}", spec.kind.word(), often(case, spec.every))));
+    }
+    if let Some(spec) = case.flow {
+        let (viscosity, pressure) =
+            (format(spec.viscosity, Dimension::Viscosity), format(spec.pressure, Dimension::Pressure));
+        let kind = if spec.gas { "a gas" } else { "a liquid" };
+        let ends = spec.ends.word();
+        rows.push((
+            "leaks",
+            format!("{kind} of {viscosity} under {pressure}, ends {ends}; {}", often(case, spec.every)),
+        ));
+    }
+    rows
+}
+
+/// Which contacts are looked at.
+fn often(case: &Case, every: usize) -> String {
+    match (case.motion.is_some(), every) {
+        (true, 0) => "once a pass".to_owned(),
+        (true, 1) => "at each position".to_owned(),
+        (true, every) => format!("at every {every}th position"),
+        (false, 0) => "of the last contact".to_owned(),
+        (false, 1) => "of each contact".to_owned(),
+        (false, every) => format!("of every {every}th contact"),
+    }
+}
 
 /// The rows of a conductance: name and value.
 pub(crate) fn conductance(row: &ConductanceRecord) -> Vec<(String, String)> {

@@ -86,7 +86,6 @@ fn body(checks: &Result<Vec<Check>>) -> String {
 }
 
 /// Returns quantity, errors, order if one is expected, expectation and verdict.
-
 fn row(check: &Check) -> String {
     let errors: String = check.errors.iter().map(|error| format!("{error:>9.1e}")).collect();
     let order = match &check.expected {

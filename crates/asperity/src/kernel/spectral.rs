@@ -14,7 +14,6 @@ pub fn harmonic_displacement(qx: f64, qy: f64, modulus: Pascal) -> f64 {
 /// Returns the displacements per unit traction of the harmonic exp(i(q_x x + q_y y)), m/Pa, and zeros at q = 0, where
 /// the displacement of a periodic half-space is free. zx and zy are the imaginary parts of purely imaginary
 /// coefficients.
-
 ///
 /// ```text
 /// xx = 2/(E*q) + 2q_y²/(N*q³)     yy = 2/(E*q) + 2q_x²/(N*q³)     xy = −2q_x q_y/(N*q³)

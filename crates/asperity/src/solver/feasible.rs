@@ -212,7 +212,6 @@ impl Merged for Range {
 /// and the number of values strictly between their bounds.
 ///
 /// The sum is piecewise linear in c, so a bracketed Newton iteration is exact to round-off in a few passes.
-
 pub(super) fn offset_for_sum(
     range: Range,
     wanted: f64,

@@ -32,7 +32,6 @@ impl Watch for InnerWatch<'_> {
 }
 
 /// Returns [`Error::Interrupted`] if the watch requests a stop.
-
 pub(super) fn check_stop(watch: &dyn Watch) -> Result<()> {
     if watch.stop() { Err(Error::Interrupted) } else { Ok(()) }
 }

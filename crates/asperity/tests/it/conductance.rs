@@ -105,7 +105,7 @@ fn rough_joints_conduct_as_those_of_an_independent_program_and_nearly_as_by_the_
         let mut operator = PeriodicFft::new(unit(128), 1.0);
         let sigma = (heights.iter().map(|z| z * z).sum::<f64>() / heights.len() as f64).sqrt();
         for row in data["joints"].as_array().unwrap() {
-            if row["seed"].to_string() != seed {
+            if row["seed"].as_u64() != seed.parse().ok() {
                 continue;
             }
             let capped = row["law"] == "capped";

@@ -35,7 +35,6 @@ pub(super) fn start_within(pressure: &Field, bounds: &Bounds, next: &Bounds) -> 
 
 /// Computes the largest shear of each cell under its pressure. With junction growth (`grows_junctions`) it is at most
 /// the shear limit of a cell of this `hardness` without pressure.
-
 pub(super) fn shear_limits(
     friction: &Friction,
     hardness: &CellValues,

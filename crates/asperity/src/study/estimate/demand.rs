@@ -210,7 +210,8 @@ impl Sizes<'_> {
             let kept = if case.friction.is_some() { 2.0 * kept } else { kept };
             2.0 * (cells[0] + cells[1]) + 2.0 * kept
         });
-        Memory { solver, together, results: NUMBER * results + volumes, volumes }
+        let results = NUMBER * results + volumes + self.passage_memory();
+        Memory { solver, together, results, volumes }
     }
 
     /// Number of overlap columns at the solved positions.
@@ -367,6 +368,7 @@ impl Sizes<'_> {
             let planes = spec.layers + spec.planes.len();
             effort += passes * STRESS * planes as f64 * work(nx) / together(planes);
         }
+        effort += self.passage(boundary, digits);
         // A new counterbody is made for each pass.
         let times = match case.motion {
             Some(MotionSpec { counter: CounterBody::Fresh, passes, .. }) => [1.0, passes as f64],
@@ -376,6 +378,56 @@ impl Sizes<'_> {
         let making =
             MAKING * made.map(|([cells, _], times)| times * cells * cells.max(2.0).log2()).sum::<f64>();
         (convolutions, effort + self.flow(threads) + making)
+    }
+
+    /// Number of contacts that are solved: increments, updates, points, or positions of all computed passes.
+    fn contacts(&self) -> f64 {
+        let case = self.case;
+        let [nx, ny] = self.facing();
+        match (case.motion, case.sliding) {
+            (Some(motion), _) => self.computed_passes(motion.passes) * self.overlaps.len() as f64,
+            (None, Some(sliding)) => 1.0 + sliding.updates as f64,
+            (None, None) => match case.loading_path(nx * ny * self.lower.cell_area()) {
+                Some(LoadingPath::Stages(stages)) => {
+                    stages.iter().map(|stage| stage.increments).sum::<usize>() as f64
+                }
+                Some(LoadingPath::Sweep(points)) => points.len() as f64,
+                Some(LoadingPath::Rolling(_)) | None => 1.0,
+            },
+        }
+    }
+
+    /// Number of contacts that an observer with this interval looks at.
+    fn observed(&self, every: usize) -> f64 {
+        let passes = self.case.motion.map_or(1.0, |motion| self.computed_passes(motion.passes));
+        if every == 0 { passes } else { (self.contacts() / every as f64).max(passes) }
+    }
+
+    /// Work of the conductance and of the flow through the gap.
+    fn passage(&self, boundary: f64, digits: f64) -> f64 {
+        let (case, [nx, ny]) = (self.case, self.facing());
+        let work = nx * ny * (nx * ny).max(2.0).log2();
+        let conductance = case.conductance.map_or(0.0, |spec| {
+            let gas = if spec.gas.is_some() { CONDUCTING_GAS } else { 1.0 };
+            CONDUCTANCE * gas * boundary * digits * self.observed(spec.every)
+        });
+        let flow = case.flow.map_or(0.0, |spec| FLOW * self.observed(spec.every));
+        (conductance + flow) * work
+    }
+
+    /// Memory of the conductance and of the flow through the gap, bytes: their solvers, and the gaps of a pass.
+    fn passage_memory(&self) -> f64 {
+        let (case, [nx, ny]) = (self.case, self.facing());
+        let every = [case.conductance.map(|spec| spec.every), case.flow.map(|spec| spec.every)];
+        let gaps = every.into_iter().flatten().map(|every| match (case.motion, every) {
+            (None, _) => 1,
+            (Some(_), 0) => 1,
+            (Some(_), every) => self.overlaps.len().div_ceil(every),
+        });
+        let gaps = NUMBER * gaps.max().unwrap_or(0) as f64 * nx * ny;
+        let conductance = if case.conductance.is_some() { NUMBER * 12.0 * nx * ny } else { 0.0 };
+        let flow = if case.flow.is_some() { crate::flow::memory([nx as usize, ny as usize]) } else { 0.0 };
+        gaps + conductance.max(flow)
     }
 
     /// Work of films and flash temperatures in a computed pass.
@@ -485,6 +537,11 @@ const GROWTH: f64 = 0.09;
 const POSITION: f64 = 3.7e5;
 /// Work of the stiffness of a contact, in the unit of effort for each cell and log₂ N.
 const STIFFNESS: f64 = 12.0;
+/// Work of the conductance of a contact, as [`STIFFNESS`], and how many times that with gas.
+const CONDUCTANCE: f64 = 1.1 * STIFFNESS;
+const CONDUCTING_GAS: f64 = 1.5;
+/// Work of the flow through a gap along both axes: 0.2 to 0.4 µs for each cell and log₂ N.
+const FLOW: f64 = 250.0;
 /// Work of the stress on a plane, in the same unit.
 const STRESS: f64 = 120.0;
 /// Work of a surface: read or generated, prepared, with its figures for the estimate, in the same unit.

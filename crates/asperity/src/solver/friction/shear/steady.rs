@@ -459,7 +459,6 @@ fn extrapolation(last: &[Vector], present: &[Vector]) -> f64 {
 }
 
 /// Returns the sum of vectors.
-
 fn sum(vectors: &[Vector]) -> Vector {
     vectors.iter().fold([0.0; 2], |sum, v| add(sum, *v))
 }
