@@ -39,6 +39,9 @@ class Common(TypedDict, total=False):
         "The coefficient, or a table with `coefficient`, `coupling`, `shear_strength` and `junction_growth`. In a motion and in "
         "wear in place the upper body slides. A static contact also takes `force`, `displacement` or `sliding`, and `increments`; "
         "steady rolling takes `creepage`, `creepages` or `rolling_force`, and `spin`."]
+    conductance: Annotated[keys.Conductance | None, "",
+        "Conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`. Bodies need a `conductivity` or `resistivity`."]
+    flow: Annotated[keys.GapFlow | None, "", "Flow of a fluid through the gap: `viscosity`, `pressure` and others."]
 
 
 class Rest(TypedDict, total=False):
@@ -57,9 +60,6 @@ class Rest(TypedDict, total=False):
     subsurface: Annotated[keys.Subsurface | None, "",
         "The stress below the surface, written to `out`: `to`, `layers`, `planes` and others."
         " Without `out`, :func:`asperity.stress` computes stresses."]
-    conductance: Annotated[keys.Conductance | None, "",
-        "Conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`. Bodies need a `conductivity` or `resistivity`."]
-    flow: Annotated[keys.GapFlow | None, "", "Flow of a fluid through the gap: `viscosity`, `pressure` and others."]
     pressure_every: Annotated[int | None, "output",
         "In a sweep, the fields of every n-th point are stored; 0 stores none, 8 by default."]
 
@@ -121,9 +121,6 @@ class Motion(TypedDict, total=False):
         "`tolerance`, `keep`."]
     subsurface: Annotated[keys.Subsurface | None, "",
         "The stress below the surface: `to`, `layers` and others."]
-    conductance: Annotated[keys.Conductance | None, "",
-        "Conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`. Bodies need a `conductivity` or `resistivity`."]
-    flow: Annotated[keys.GapFlow | None, "", "Flow of a fluid through the gap: `viscosity`, `pressure` and others."]
     pressure_every: Annotated[int | None, "output", "The pressures of every n-th position are stored; 0 stores none, 8 by default."]
     rim: Annotated[float | None, "output",
         "Part of a body's length at free ends that the columns of its interior leave out; 0.1 by default."]

@@ -109,7 +109,30 @@ class RandomCase:
             output["paraview"] = True
         if output:
             tables["output"] = output
+        if rng.random() < 0.3:
+            self._passage(tables, bodies)
         return tables
+
+    def _passage(self, tables: Table, bodies: list[Table]) -> None:
+        """What the contacts let through: heat or current, and a fluid."""
+        rng = self.rng
+        if not self.coated:
+            kind = rng.choice(["thermal", "electrical"])
+            table: Table = {"kind": kind, "every": rng.choice([1, 1, 2, 0])}
+            if rng.random() < 0.5:
+                table["film"] = 10 ** (rng.uniform(-10, -6) if kind == "thermal" else rng.uniform(-14, -10))
+            if kind == "thermal" and rng.random() < 0.5:
+                table["gas"] = 10 ** rng.uniform(-2, 0)
+                table["jump"] = PITCH * rng.choice([0.0, 0.3])
+            for body in bodies:
+                if kind == "electrical":
+                    body["resistivity"] = 10 ** rng.uniform(-8, -5)
+                else:
+                    body.setdefault("conductivity", 10 ** rng.uniform(0, 2))
+            tables["conductance"] = table
+        tables["flow"] = {"viscosity": 10 ** rng.uniform(-3, 0), "pressure": 10 ** rng.uniform(2, 6), "every": rng.choice([1, 1, 2, 0])}
+        if rng.random() < 0.2:
+            tables["flow"] |= {"gas": True, "outlet": 1e5}
 
     def _body(self, index: int, young: float) -> Table:
         rng = self.rng

@@ -34,6 +34,9 @@ NO_ANSWER = re.compile(
 )
 # Cells of these columns may be empty.
 OPTIONAL = {
+    "power", "permeability_across", "critical_x", "critical_y", "step",
+    *(f"{kind}_{what}" for kind in ("thermal", "electrical") for what in (
+        "conductance", "joint_conductance", "resistance", "resistance_full", "resistance_holm_greenwood", "joint_correlation")),
     "approach", "friction_coefficient", "max_flash_temperature", "stiffness", "time", "friction_power", "max_temperature",
 }  # fmt: skip
 
@@ -55,6 +58,7 @@ def test_a_random_case_holds_the_laws_of_every_result(seed: int, tmp_path: pathl
     results.hold_numbers()
     hold_pictures(out)
     hold_passes(case, results) if case.moves else hold_rest(case, results)
+    hold_passage(results)
     if case.course in ("rolling", "traction"):
         hold_rolling(case, results)
     if case.flows:
@@ -92,6 +96,9 @@ class Results:
         for name, rows in self.tables.items():
             for row in rows:
                 for column, cell in row.items():
+                    if column == "along":
+                        assert cell in ("x", "y")
+                        continue
                     assert cell or column in OPTIONAL, f"{name}: {column} is empty"
                     assert not cell or math.isfinite(float(cell)), f"{name}: {column} is {cell}"
                     assert cell not in ("-0", "-0.0"), f"{name}: {column} is {cell}"
@@ -142,6 +149,31 @@ def hold_rest(case: RandomCase, results: Results) -> None:
     if not (case.coated or case.mixed or coupled or case.flows):
         independent = _displacement(pressure / case.modulus, case.pitch, case.boundary[0] == "periodic")
         assert np.abs(independent - displacement).max() <= 1e-5 * np.abs(independent).max() + small
+
+
+def hold_passage(results: Results) -> None:
+    """Shares add up, more than nothing conducts where bodies touch, and what leaks has a path."""
+    for row in results.tables.get("conductance.csv", []):
+        conductance = row.get("thermal_conductance", row.get("electrical_conductance"))
+        shares = [float(row[name]) for name in ("spot_share", "gas_share", "film_share")]
+        assert all(0 <= share <= 1 for share in shares)
+        if conductance:
+            assert sum(shares[:2]) == pytest.approx(1 if float(conductance) > 0 else 0, abs=1e-9)
+            assert float(conductance) > 0 or float(row["spots"]) == 0
+    for row in results.tables.get("flow.csv", []):
+        permeability, critical, gap = (float(row[name]) for name in ("permeability", "critical_gap", "mean_gap"))
+        assert (permeability > 0) == (critical > 0) and permeability >= 0
+        assert 0 <= float(row["flowing_share"]) <= 1 and float(row["residual"]) < 1e-10
+        if permeability > 0:
+            assert float(row["effective_medium"]) >= 0 and gap > 0
+    if "static" in results.summary:
+        fields, _ = results.fields["fields.h5"]
+        touching, area = fields["pressure"] > 0, float(results.summary["static"]["contact_area"])
+        if "flux" in fields and results.summary["conductance"][0]["gas_share"] == 0:
+            assert (fields["flux"][~touching] == 0).all()
+        for axis in "xy":
+            if f"flow_{axis}" in fields and area > 0:
+                assert (fields[f"flow_{axis}"] >= 0).all()
 
 
 def _hardness(fields: dict[str, np.ndarray], attributes: dict[str, Any], body: str) -> Any:
@@ -275,7 +307,7 @@ def hold_python(case: RandomCase, folder: pathlib.Path, results: Results) -> Non
     repr(opened), opened._repr_html_(), opened.to_xarray()
     tables = case.tables
     lower, upper = _body(tables["lower"], folder), _body(tables["upper"], folder)
-    shared = {key: tables.get(key) for key in ("friction", "temperature") if key in tables}
+    shared = {key: tables.get(key) for key in ("friction", "temperature", "conductance", "flow") if key in tables}
     output = tables.get("output", {})
     output = {key: value for key, value in output.items() if key != "paraview"}
     if case.moves:
@@ -311,7 +343,7 @@ def _body(table: dict[str, Any], folder: pathlib.Path) -> asp.Body:
         hardness = np.load(folder / hardness["file"])
     young = math.inf if table["young"] == "inf" else table["young"]
     material = asp.Material(young, table["poisson"], hardness, coating, plasticity)
-    thermal = {key: table[key] for key in ("conductivity", "heat_capacity", "density") if key in table}
+    thermal = {key: table[key] for key in ("conductivity", "heat_capacity", "density", "resistivity") if key in table}
     surface = _surface(table["topography"], folder)
     return asp.Body(surface, material, table.get("mount"), wear=table.get("wear"), film=table.get("film"), thermal=thermal or None)
 
