@@ -1,6 +1,6 @@
 //! Conductance of a contact.
 
-use asperity::conductance::{self, Gas, Joint, Kind, composite_conductivity};
+use asperity::conductance::{Gas, Joint, Kind, composite_conductivity, full_resistance, solve};
 use asperity::operator::{Boundary, Edge, Operators};
 use asperity::solver::Params;
 use asperity::{Choice, Field, Grid};
@@ -42,8 +42,8 @@ pub(crate) fn conductance<'py>(
     let params = Params::default().with_tolerance(tolerance);
     let (found, full) = work::run(py, threads, None, |_| {
         let mut operator = Operators::new(grid, composite, boundary).on(grid.shape);
-        let found = conductance::solve(operator.as_mut(), &touching, gap.as_ref(), &joint, None, &params)?;
-        Ok((found, conductance::full_resistance(operator.as_mut(), &params)?))
+        let found = solve(operator.as_mut(), &touching, gap.as_ref(), &joint, None, &params)?;
+        Ok((found, full_resistance(operator.as_mut(), &params)?))
     })?;
     let answer = PyDict::new(py);
     answer.set_item("conductance", found.conductance)?;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use asperity::motion::FlowResult;
 use asperity::study::case::Case;
-use asperity::study::{self, SurfaceInput, NamedField, Outcome, StaticResult};
+use asperity::study::{self, NamedField, Outcome, StaticResult, SurfaceInput};
 use numpy::ndarray::{Array4, ArrayD};
 use numpy::{IntoPyArray, PyReadonlyArray2};
 use pyo3::prelude::*;

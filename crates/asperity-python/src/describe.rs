@@ -1,11 +1,11 @@
 //! Description of surfaces: parameters, profiles, curves, spectra, hills.
 
+use asperity::motion::Watch;
 use asperity::surface::{
     Axis, BearingCurve, Bins, Classes, Correlation, Distribution, FeatureParameters, GreenwoodWilliamson,
     Motif, Parameter, Parameters, Profile, Segmentation, SelfAffinity, Slope, SpectralMoments, SpectralPoint,
     Spectrum, Stop, Summits, Topography, Window,
 };
-use asperity::motion::Watch;
 use asperity::{Choice, Result};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, ToPyArray};
 use pyo3::prelude::*;

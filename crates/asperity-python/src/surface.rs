@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use asperity::Grid;
 use asperity::motion::Watch;
-use asperity::study::{self, SurfaceInput, PreparedTopography};
+use asperity::study::{self, PreparedTopography, SurfaceInput};
 use asperity::surface::{ReadOptions, Round, Topography};
 use asperity::units::{self, Dimension};
 use numpy::PyReadonlyArray2;
@@ -42,10 +42,9 @@ pub(crate) fn surface<'py>(
     if let Some(heights) = &given {
         handed.topographies.insert("heights".to_owned(), topography(py, heights)?);
     }
-    let PreparedTopography { topography, origin, findings, .. } =
-        work::run(py, 0, None, |looking| {
-            study::topography_until(&text, Path::new(""), handed, &|| looking.stop())
-        })?;
+    let PreparedTopography { topography, origin, findings, .. } = work::run(py, 0, None, |looking| {
+        study::topography_until(&text, Path::new(""), handed, &|| looking.stop())
+    })?;
     let made = PyDict::new(py);
     made.set_item("pitch", topography.grid().pitch)?;
     made.set_item("underside", origin.is_some_and(|origin| origin.is_underside))?;
