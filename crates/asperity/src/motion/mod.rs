@@ -56,6 +56,8 @@ pub use plastic_volume::PlasticVolume;
 pub(crate) use record::columns::{Part, columns};
 #[cfg(feature = "study")]
 pub(crate) use record::lost_volumes::{ENDINGS, is_volume_of_law};
+#[cfg(feature = "study")]
+pub(crate) use record::number::known_or_none;
 pub use record::{
     Column, FlowRecord, FlowStepRecord, HeatRecord, IncrementRecord, LostVolume, PassFlowRecord, PassRecord,
     Presence, Regime, ResidualRecord, RunningRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord,

@@ -76,7 +76,7 @@ impl Part {
 /// The record has the constants `OWN_COLUMNS` and `COLUMNS`. `COLUMNS` includes the columns of its groups, in the order
 /// in which they are written. Attributes of `serde` mark values that may be missing, see [`Presence`]:
 ///
-/// - `deserialize_with = "number_or_none"`, or an `Option` without attributes: the value may be unknown,
+/// - `deserialize_with = "number_or_none"` or `"known_or_none"`, or an `Option` without attributes: the value may be unknown,
 /// - any other attribute of an `Option`: the column may be left out,
 /// - `flatten, skip_serializing_if = …`: a group of columns that may be missing.
 macro_rules! columns {
@@ -133,6 +133,7 @@ macro_rules! columns {
         }
     };
     (@presence [deserialize_with = "number_or_none"] $type:tt) => { $crate::motion::Presence::Unknown };
+    (@presence [deserialize_with = "known_or_none"] [Option $of:tt]) => { $crate::motion::Presence::Unknown };
     (@presence [] [Option $of:tt]) => { $crate::motion::Presence::Unknown };
     (@presence $serde:tt [Option $of:tt]) => { $crate::motion::Presence::Optional };
     (@presence $serde:tt $type:tt) => { $crate::motion::Presence::Always };

@@ -7,7 +7,7 @@ pub(crate) mod columns;
 mod flow;
 mod increment;
 pub(crate) mod lost_volumes;
-mod number;
+pub(crate) mod number;
 mod pass;
 mod rest;
 mod running;

@@ -10,6 +10,11 @@ pub(super) fn number_or_none<'de, D: Deserializer<'de>>(deserializer: D) -> Resu
     Ok(OptionalNumber::deserialize(deserializer)?.0.unwrap_or(f64::NAN))
 }
 
+/// Reads a number that may be unknown.
+pub(crate) fn known_or_none<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    Ok(OptionalNumber::deserialize(deserializer)?.0)
+}
+
 /// A number of a table or of JSON; none for an empty cell or `null`.
 pub(super) struct OptionalNumber(pub(super) Option<f64>);
 

@@ -34,9 +34,10 @@ fn of_conductance(rows: &[ConductanceRecord]) -> Vec<String> {
     let touching = || rows.iter().filter(|row| row.spots > 0.0);
     let fewest = touching().map(|row| row.median_spot_cells).fold(f64::INFINITY, f64::min);
     if fewest < FEW_CELLS {
+        let cells =
+            if fewest == 1.0 { "one cell".to_owned() } else { format!("{} cells", format_number(fewest)) };
         warnings.push(format!(
-            "the median spot of contact has {} cells: the conductance of so small spots is off by some percent, a finer grid resolves them",
-            format_number(fewest),
+            "the median spot of contact has {cells}: the conductance of such small spots is off by some percent, a finer grid resolves them"
         ));
     }
     let film = touching().map(|row| row.film_share).fold(0.0, f64::max);

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::conductance::Kind;
 use crate::error::Error;
-use crate::motion::{Column, columns};
+use crate::motion::{Column, columns, known_or_none};
 use crate::study::tables::Record;
 use crate::units::{
     KelvinPerWatt, Newton, Ohm, Pascal, Siemens, SiemensPerMetre, SiemensPerSquareMetre, SquareMetre, Watt,
@@ -40,6 +40,7 @@ columns! {
         pub film_share: f64,
         /// Heat that passes under the temperature difference `drop`; of a current, the heat that it makes. Unknown where the joint has
         /// no resistance.
+        #[serde(deserialize_with = "known_or_none")]
         pub power: Option<Watt>,
         /// Convolutions for the conductance.
         pub convolutions: f64,
@@ -62,17 +63,23 @@ columns! {
         /// Composite thermal conductivity of the bodies, without their coatings.
         pub thermal_conductivity: WattPerMetreKelvin,
         /// Thermal conductance of the contact; unknown where it adds no resistance.
+        #[serde(deserialize_with = "known_or_none")]
         pub thermal_conductance: Option<WattPerKelvin>,
         /// Thermal joint conductance h, the conductance over the apparent area.
+        #[serde(deserialize_with = "known_or_none")]
         pub thermal_joint_conductance: Option<WattPerSquareMetreKelvin>,
         /// Thermal resistance; unknown where nothing conducts, and where the contact adds no resistance.
+        #[serde(deserialize_with = "known_or_none")]
         pub thermal_resistance: Option<KelvinPerWatt>,
         /// Thermal resistance with all cells in contact, which the bodies beyond the grid have; unknown under a periodic boundary, and
         /// at a position of a motion.
+        #[serde(deserialize_with = "known_or_none")]
         pub thermal_resistance_full: Option<KelvinPerWatt>,
         /// Estimate of Holm and Greenwood of the thermal resistance of the spots, under a free boundary.
+        #[serde(deserialize_with = "known_or_none")]
         pub thermal_resistance_holm_greenwood: Option<KelvinPerWatt>,
         /// Thermal joint conductance by the correlation of Cooper, Mikic and Yovanovich, or of Mikic for elastic bodies.
+        #[serde(deserialize_with = "known_or_none")]
         pub thermal_joint_correlation: Option<WattPerSquareMetreKelvin>,
     }
 }
@@ -85,17 +92,23 @@ columns! {
         /// Composite electrical conductivity of the bodies, without their coatings.
         pub electrical_conductivity: SiemensPerMetre,
         /// Electrical conductance of the contact; unknown where it adds no resistance.
+        #[serde(deserialize_with = "known_or_none")]
         pub electrical_conductance: Option<Siemens>,
         /// Electrical joint conductance, the conductance over the apparent area.
+        #[serde(deserialize_with = "known_or_none")]
         pub electrical_joint_conductance: Option<SiemensPerSquareMetre>,
         /// Electrical resistance; unknown where nothing conducts, and where the contact adds no resistance.
+        #[serde(deserialize_with = "known_or_none")]
         pub electrical_resistance: Option<Ohm>,
         /// Electrical resistance with all cells in contact, which the bodies beyond the grid have; unknown under a periodic boundary,
         /// and at a position of a motion.
+        #[serde(deserialize_with = "known_or_none")]
         pub electrical_resistance_full: Option<Ohm>,
         /// Estimate of Holm and Greenwood of the electrical resistance of the spots, under a free boundary.
+        #[serde(deserialize_with = "known_or_none")]
         pub electrical_resistance_holm_greenwood: Option<Ohm>,
         /// Electrical joint conductance by the correlation of Cooper, Mikic and Yovanovich, or of Mikic for elastic bodies.
+        #[serde(deserialize_with = "known_or_none")]
         pub electrical_joint_correlation: Option<SiemensPerSquareMetre>,
     }
 }
