@@ -63,7 +63,8 @@ MAKERS: dict[str, tuple[Any, Any]] = {
         PRESSURE,
         lambda a: asp.stress(PRESSURE, pitch=1e-6, poisson=0.3, depths=[1e-6], shear=(a, a)),
     ),
-    "conductance": (PRESSURE > 0.0, lambda a: asp.conductance(a, pitch=1e-6, conductivity=46.0)),
+    "conductance": (1.0 * (PRESSURE > 0.0), lambda a: asp.conductance(a > 0.0, pitch=1e-6, conductivity=46.0)),
+    "flow": (np.ones(PRESSURE.shape), lambda a: asp.flow(a, pitch=1e-6)),
     "conductance, gap": (
         np.ones(PRESSURE.shape),
         lambda a: asp.conductance(PRESSURE > 0.0, pitch=1e-6, conductivity=46.0, gas=0.026, gap=a),
@@ -145,7 +146,7 @@ def test_a_law_that_uses_one_array_again_takes_off_what_it_gave(steel: asp.Mater
 
 def test_every_public_name_that_takes_arrays_is_among_these() -> None:
     """A new constructor that takes an array is to be added above."""
-    known = {"Surface", "Material", "Plasticity", "Stress", "BearingCurve", "Profile", "stress", "conductance"}
+    known = {"Surface", "Material", "Plasticity", "Stress", "BearingCurve", "Profile", "stress", "conductance", "flow"}
     # Answers, which only the package makes, and a container that says that it does not copy.
     made_here = {"Field", "Fields", "Flow", "Contact", "Contacts", "Pass", "SubsurfaceStress", "Segmentation", "Summits"}
     for name in asp.__all__:

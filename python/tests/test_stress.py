@@ -108,7 +108,6 @@ def coated():
         ({"pitch": -1.0}, "'pitch' is -1.0"),
         ({"body": "middle"}, "'body' is 'middle', expected \"lower\" or \"upper\""),
         ({"boundary": "open"}, "'boundary' is 'open', expected \"free\" or \"periodic\""),
-        ({"boundary": ("free", "periodic")}, "'boundary' is ('free', 'periodic')"),
         ({"shear": (PRESSURE[:-1], None)}, "'shear' has the shape (64, 65), expected that of the pressure, (65, 65)"),
         ({"shear": (PRESSURE,)}, "'shear' has 1 entries"),
         ({"depths": [2e-6, 1e-6]}, "expected lengths of at least 0 that ascend"),

@@ -1,11 +1,11 @@
-//! What a contact lets through, in words for the terminal and the page.
+//! Heat, current and fluid through a contact, in words for the terminal and the page.
 
 use asperity::Choice;
 use asperity::conductance::Kind;
 use asperity::study::{Case, ConductanceRecord, FlowAxis, GapFlowRecord};
 use asperity::units::{Dimension, format, format_number};
 
-/// What is asked of the contacts of a case, as `asperity check` prints it: name and value.
+/// Returns the requested conductance and flow of a case, as `asperity check` prints them: name and value.
 pub(crate) fn asked(case: &Case) -> Vec<(&'static str, String)> {
     let mut rows = Vec::new();
     if let Some(spec) = case.conductance {
@@ -35,7 +35,7 @@ pub(crate) fn asked(case: &Case) -> Vec<(&'static str, String)> {
     rows
 }
 
-/// Which contacts are looked at.
+/// Describes the observed contacts.
 fn often(case: &Case, every: usize) -> String {
     match (case.motion.is_some(), every) {
         (true, 0) => "once a pass".to_owned(),

@@ -113,7 +113,7 @@ struct CoatedConductor {
 impl CoatedConductor {
     fn new(base: f64, coating: ConductingCoating) -> Self {
         let ConductingCoating { thickness, conductivity: layer } = coating;
-        // Of a base without resistance the ratio is 0.
+        // The ratio is 0 for a base without resistance.
         let ratio = layer / base;
         let contrast = [(ratio - 1.0) / (ratio + 1.0), 2.0 * ratio / (1.0 + ratio), 2.0 / (1.0 + ratio)];
         let layering = Layering { short: 0.5 / layer, long: 0.5 / base, depth: 2.0 * thickness };

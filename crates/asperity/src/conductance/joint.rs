@@ -170,16 +170,19 @@ fn cells(touching: &Array2<bool>, gap: Option<&Field>, joint: &Joint) -> Result<
 
 /// Shares of a flux.
 fn shares(flux: &Field, touching: &Array2<bool>, film: f64) -> Shares {
-    let total = flux.sum();
-    let mut sums = [0.0; 2];
+    let [mut spots, mut gas, mut lost] = [0.0; 3];
     Zip::from(flux).and(touching).for_each(|q, touches| {
         if *touches {
-            sums[0] += q;
-            sums[1] += film * q * q;
+            spots += q;
+            lost += film * q * q;
+        } else {
+            gas += q;
         }
     });
+    let total = spots + gas;
     // Rounding must not take them out of 0 … 1.
-    let [spots, film] = sums.map(|sum| if total > 0.0 { (sum / total).clamp(0.0, 1.0) } else { 0.0 });
+    let [spots, film] =
+        [spots, lost].map(|sum| if total > 0.0 { (sum / total).clamp(0.0, 1.0) } else { 0.0 });
     Shares { spots, gas: if total > 0.0 { 1.0 - spots } else { 0.0 }, film }
 }
 

@@ -1,10 +1,10 @@
-//! What conducts between the bodies.
+//! Spots, film and gas between the bodies.
 
 use crate::choice::choice;
 use crate::error::{Error, Result, check_in};
 use crate::units::{Dimension, Metre};
 
-/// What passes through a joint.
+/// Heat or current through a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Kind {
     /// Heat: conductivities in W/(m K), drops in K, conductances in W/K.
@@ -43,7 +43,7 @@ pub struct Gas {
     pub jump: Metre,
 }
 
-/// What conducts between the bodies: spots, a film on them, and gas around them.
+/// The joint between the bodies: spots, a film on them, and gas around them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Joint {

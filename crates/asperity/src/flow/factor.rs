@@ -23,7 +23,7 @@ pub(super) struct Factor {
     pivots: Vec<f64>,
 }
 
-/// What is left of a front: conductances between the cells of its border, and to the reservoirs in the last column.
+/// A front after elimination: conductances between the cells of its border, and to the reservoirs in the last column.
 struct Remainder {
     front: usize,
     conductance: Vec<f64>,

@@ -49,7 +49,7 @@ use crate::grid::{Field, Grid, check_finite};
 use crate::math::parallel;
 use crate::units::{CubicMetre, Dimension, Metre, Pascal, PascalSecond};
 
-/// What lies beyond the ends of the grid along the pressure gradient.
+/// Continuation of the gap beyond the ends of the grid, along the pressure gradient.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Ends {
     /// The gap itself, over and over, under a constant mean gradient.
@@ -61,7 +61,7 @@ pub enum Ends {
 
 choice!(Ends: "periodic" => Periodic, "reservoirs" => Reservoirs);
 
-/// What lies beyond the sides of the grid, along the other axis.
+/// Continuation of the gap beyond the sides of the grid, along the other axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Sides {
     /// The gap itself, over and over.

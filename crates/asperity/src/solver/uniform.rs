@@ -85,7 +85,7 @@ pub fn displace_uniformly(
         if residual <= params.tolerance {
             break;
         }
-        // What steps do not take away is rounding.
+        // The rest that steps cannot remove is rounding.
         if residual > 0.5 * renewed {
             let Stats { iterations, .. } = gradients.stats;
             return Err(Error::NotConverged { iterations, residual, tolerance: params.tolerance });
@@ -211,7 +211,7 @@ struct Level {
 }
 
 impl Level {
-    /// That of cells without a compliance of their own.
+    /// Preconditioner of cells without a compliance of their own.
     fn alike(operator: &dyn Operator, cells: &Array2<bool>) -> Self {
         let sets = sets(cells.dim().into(), cells.iter().copied().collect());
         let mut bodies = Preconditioner::new(operator);
@@ -219,7 +219,7 @@ impl Level {
         Self { sets, bodies: Some(bodies), alone: Vec::new() }
     }
 
-    /// That of cells of this compliance, which is 0 off the cells.
+    /// Preconditioner of cells of this compliance, which is 0 outside the cells.
     fn new(operator: &mut dyn Operator, cells: &Array2<bool>, own: &Field) -> Self {
         let influence = self_influence(operator);
         let is_alone = |own: f64| own > ALONE * influence;

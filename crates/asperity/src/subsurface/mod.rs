@@ -243,7 +243,7 @@ impl Repeated<'_> {
                     sum += along * value;
                 }
             }
-            // What is odd along a strip is zero.
+            // Components that are odd along a strip vanish.
             if along > 0.0 {
                 line += (strip[i] - sum) / n as f64;
             }

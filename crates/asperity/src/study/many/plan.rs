@@ -105,7 +105,7 @@ impl Study {
     }
 
     /// Returns the cases whose load is known to exceed the plastic limit before anything is computed, and the error of each.
-    /// Of a study with more than 1000 cases, only the first case with each value of each axis is looked at. Hardness maps
+    /// In a study of more than 1000 cases, only the first case with each value of each axis is checked. Hardness maps
     /// are not read.
     pub fn beyond_plastic_limit(&self) -> Vec<(usize, Error)> {
         const ALL: usize = 1000;

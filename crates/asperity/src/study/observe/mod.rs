@@ -240,7 +240,7 @@ pub(super) struct Observers {
     flow: Option<Observed<FlowObserver>>,
 }
 
-/// What the observers of a case have found.
+/// Results of the observers of a case.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Observations {
     pub(super) conductance: Vec<ConductanceRecord>,

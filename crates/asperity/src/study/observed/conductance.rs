@@ -56,7 +56,7 @@ columns! {
 }
 
 columns! {
-    /// What conducts heat.
+    /// The conductance of heat.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct ThermalRecord {
@@ -85,7 +85,7 @@ columns! {
 }
 
 columns! {
-    /// What conducts a current.
+    /// The conductance of a current.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct ElectricalRecord {
