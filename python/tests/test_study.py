@@ -212,7 +212,7 @@ def test_mistakes_are_told_with_their_place(folder: pathlib.Path) -> None:
         asp.Study("nowhere.toml")
     write(STUDY)
     study = asp.study("load.toml", progress=False)
-    write(STUDY.replace('"1 mN", 0.002', '"3 mN", 0.004'))
+    write(STUDY.replace('"1 mN", 0.002', '"3 mN", 0.002'))
     with pytest.raises(errors.NotThisStudy, match="cases of its plan have other values") as other:
         asp.study("load.toml", progress=False)
     assert other.value.hint == "out= names another directory"

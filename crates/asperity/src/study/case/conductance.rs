@@ -23,11 +23,16 @@ pub struct ConductanceSpec {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gas: Option<f64>,
     /// Temperature jump distance of the gas, ≥ 0.
+    #[serde(skip_serializing_if = "is_zero")]
     pub jump: Metre,
     /// Difference between the bodies, > 0, K or V.
     pub drop: f64,
     /// Interval of the contacts whose conductance is computed; 0 for one contact of each pass, or the last contact.
     pub every: usize,
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 /// Reads the table.

@@ -188,6 +188,8 @@ impl<O: Observer> Observed<O> {
 
     fn add(&mut self, rows: Vec<O::Record>) -> Result<()> {
         match &mut self.files {
+            // A table begins with its first row.
+            _ if rows.is_empty() => Ok(()),
             Some(files) => files.table.add(&rows),
             None => {
                 tables::checked(&rows)?;
