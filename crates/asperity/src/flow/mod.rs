@@ -16,7 +16,7 @@
 //! let flow = solve(&gap, &grid, &Settings::default())?;
 //!
 //! let along_x = flow.along[0].as_ref().expect("both directions are solved by default");
-//! assert!(along_x.flow_factor < 1.0 && along_x.critical_gap == 1e-6);
+//! assert!(along_x.hydraulic_gap < 1e-6 && along_x.critical_gap == 1e-6);
 //! // Water at a pressure drop of 1 bar, m³/s.
 //! let leakage = along_x.leakage(1e5, 1e-3)?;
 //! assert!((leakage - along_x.permeability * 1e5 / 12e-3).abs() < 1e-12 * leakage);

@@ -538,7 +538,6 @@ mod tests {
             ("method = \"direct\"", "contact.method"),
             ("[friction]\ncoefficient = inf", "friction"),
             ("[subsurface]\nto = \"5 um\"", "subsurface"),
-            ("[conductance]", "conductance"),
             ("[flow]\nviscosity = \"1 mPa s\"", "flow"),
             ("[output]\nparaview = true", "output.paraview"),
             ("[motion]\npasses = 1", "motion"),
