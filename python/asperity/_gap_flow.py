@@ -177,7 +177,7 @@ def flow(
     >>> gap[:8, :8] = 0.0
     >>> f = asp.flow(gap, pitch="2 um", viscosity="80 mPa s", pressure="1 bar")
     >>> f"{f.flow_factor[0]:.3f}", f"{f.leakage[0]:.2e} m³/s"
-    ('1.054', '9.16e-14 m³/s')
+    ('1.054', '9.05e-14 m³/s')
     """
     if isinstance(source, Contact):
         if pitch is not None:
