@@ -41,8 +41,10 @@ pub enum Step<'a> {
     Flow {
         /// The record of the increment.
         record: &'a IncrementRecord,
-        /// The contact at its end; `None` once the bodies are apart.
+        /// The contact at its end; `None` while the bodies are unloaded at the end of their path.
         contact: Option<&'a Equilibrium>,
+        /// Whether no loading follows, but unloading may.
+        is_last_load: bool,
         /// Total number of increments, unloading included.
         of: usize,
     },

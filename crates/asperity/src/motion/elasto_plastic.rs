@@ -187,7 +187,10 @@ impl Course for ElastoPlasticLoading<'_> {
     }
 
     fn report<'a>(&'a self, record: &'a IncrementRecord) -> Step<'a> {
-        Step::Flow { record, contact: self.contact.equilibrium(), of: self.path.increments() }
+        let loading = Stage::increments(&self.path.stages);
+        let contact = self.contact.equilibrium().filter(|_| record.increment <= loading);
+        let is_last_load = record.increment == loading;
+        Step::Flow { record, contact, is_last_load, of: self.path.increments() }
     }
 
     fn take(&mut self, record: IncrementRecord) {

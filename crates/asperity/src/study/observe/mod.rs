@@ -141,7 +141,11 @@ impl<O: Observer> Observed<O> {
                     let position = &report.contacts[contact.index].position;
                     wants_position(self.observer.every(), contact.index, position)
                 }
-                None => wants_step(self.observer.every(), number) || step.is_last(),
+                None => {
+                    wants_step(self.observer.every(), number)
+                        || step.is_last()
+                        || matches!(step, Step::Flow { is_last_load: true, .. })
+                }
             };
             if !is_wanted {
                 continue;
