@@ -7,7 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use asperity::Field;
-use asperity::study::{Case, Existing, SurfaceInput, Outcome, Results, demand_on_ranks, run};
+use asperity::study::{Case, Existing, Outcome, Results, SurfaceInput, demand_on_ranks, run};
 use tempfile::TempDir;
 
 /// Two rough bodies of 256 × 256 cells.

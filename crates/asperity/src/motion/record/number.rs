@@ -11,6 +11,7 @@ pub(super) fn number_or_none<'de, D: Deserializer<'de>>(deserializer: D) -> Resu
 }
 
 /// Reads a number that may be unknown.
+#[cfg(feature = "study")]
 pub(crate) fn known_or_none<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
     Ok(OptionalNumber::deserialize(deserializer)?.0)
 }
