@@ -206,6 +206,18 @@ pub enum Error {
         /// The mean undeformed gap, the limit of the approach.
         mean_gap: Metre,
     },
+    /// A load that pulls the bodies apart.
+    #[error(
+        "the load {} pulls the bodies apart: adhesion holds at most {}",
+        forces(*load, *least)[0],
+        forces(*load, *least)[1]
+    )]
+    PullOff {
+        /// The requested load.
+        load: Newton,
+        /// The least load found on the way apart, the pull-off force.
+        least: Newton,
+    },
     /// No approach was found that gives the requested pass-mean load.
     #[error(
         "no approach found for the pass-mean load {} in {trials} trials (last approach {})",

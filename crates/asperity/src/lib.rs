@@ -100,6 +100,7 @@ mod math;
 pub mod flow;
 pub mod stress;
 pub mod material;
+pub mod adhesion;
 pub mod reference;
 pub mod surface;
 pub mod kernel;

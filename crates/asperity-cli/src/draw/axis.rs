@@ -162,6 +162,7 @@ impl From<Dimension> for Unit {
             Dimension::ElectricalConductanceOfArea => Self::Of("S/m²"),
             Dimension::Viscosity => Self::Of("Pa s"),
             Dimension::VolumeFlow => Self::Of("m³/s"),
+            Dimension::SurfaceEnergy => Self::Of("J/m²"),
         }
     }
 }

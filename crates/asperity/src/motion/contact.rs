@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use crate::error::Result;
 use crate::grid::{Field, Placement};
+use crate::motion::adhesive::press_from;
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
-use crate::motion::record::{StaticRecord, StepRecord};
+use crate::motion::record::{AdhesionRecord, StaticRecord, StepRecord};
 use crate::motion::rim::Interior;
 use crate::motion::spot::largest_spot;
 use crate::motion::watch::{OneOfMany, StaticWatch, Watch};
@@ -250,8 +251,8 @@ pub fn press(
     let mut operator = operators.on(pair.lower_grid().shape);
     let bounds = pair.bounds(&position, None);
     let watch = StaticWatch::new(watch, 0, 1, control);
-    let solution = solve_normal_watched(operator.as_mut(), &gap, &bounds, control, None, params, &watch)?;
-    Ok(StaticContact { record: StaticRecord::new(&solution), solution })
+    let solution = press_from(pair, operator.as_mut(), &gap, &bounds, control, None, params, &watch)?;
+    Ok(StaticContact { record: StaticRecord::new(&solution).attracted(pair, &solution), solution })
 }
 
 /// Presses a pair like [`press`], with the rows of one `slab` on each rank. All ranks call it together. The record
@@ -269,6 +270,7 @@ pub fn press_slab(
     control: Control,
     params: &Params,
 ) -> Result<StaticContact> {
+    pair.check_no_adhesion()?;
     pair.check_line(&slab.whole_grid(), boundary)?;
     let position = pair.at_rest();
     let (gap, bounds) = (pair.initial_gap(&position), pair.bounds(&position, None));
@@ -300,8 +302,15 @@ impl StaticRecord {
             convolutions: solution.stats.convolutions,
             residual: solution.residual,
             shear: None,
+            adhesion: None,
             flow: None,
         }
+    }
+
+    /// Adds the attraction of a pair from afar, if it has any.
+    pub(super) fn attracted(self, pair: &Pair, solution: &Solution) -> Self {
+        let adhesion = pair.adhesion().map(|adhesion| AdhesionRecord::of(adhesion, solution));
+        Self { adhesion, ..self }
     }
 
     /// Returns the record of a contact without friction whose solution is distributed over the slabs of the ranks.

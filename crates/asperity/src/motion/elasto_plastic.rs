@@ -107,6 +107,7 @@ pub fn press_elasto_plastic(
     watch: &dyn Watch,
     outputs: &mut [&mut dyn Output],
 ) -> Result<ElastoPlasticContact> {
+    pair.check_no_adhesion()?;
     let (operators, initial_gap) = facing(pair, boundary)?;
     let shape = pair.lower_grid().shape;
     let interface = match friction {

@@ -2,16 +2,17 @@
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
+use crate::motion::adhesive::press_from;
 use crate::motion::contact::facing;
 use crate::motion::course::{self, Course, Output, Step};
 use crate::motion::pair::Pair;
-use crate::motion::record::{IncrementRecord, ShearRecord, StaticRecord};
+use crate::motion::record::{AdhesionRecord, IncrementRecord, ShearRecord, StaticRecord};
 use crate::motion::state::{Flattening, LoadedContact, LoadingState, Origin};
 use crate::motion::watch::{StaticWatch, Watch};
 use crate::operator::{Boundary, CoupledOperator, Operator};
 use crate::solver::{
     self, Bounds, Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Rolling,
-    RollingSolution, Tangential, solve_frictional_watched, solve_normal_watched, solve_rolling_watched,
+    RollingSolution, Tangential, solve_frictional_watched, solve_rolling_watched,
 };
 use crate::units::{Joule, Metre, SquareMetre};
 
@@ -137,6 +138,7 @@ pub fn roll(
     watch: &dyn Watch,
 ) -> Result<LoadedContact> {
     let (operators, gap) = facing(pair, boundary)?;
+    pair.check_no_adhesion()?;
     pair.check_shear()?;
     let mut operator = operators.coupled_on(pair.lower_grid().shape);
     let watch = StaticWatch::new(watch, 0, 1, control);
@@ -154,9 +156,9 @@ impl LoadedContact {
         watch: &dyn solver::Watch,
     ) -> Result<Self> {
         let bounds = pair.bounds(&pair.at_rest(), None);
-        let solution = solve_normal_watched(operator, gap, &bounds, control, None, params, watch)?;
+        let solution = press_from(pair, operator, gap, &bounds, control, None, params, watch)?;
         let plastic = solution.plastic_interference();
-        let record = StaticRecord::new(&solution);
+        let record = StaticRecord::new(&solution).attracted(pair, &solution);
         let solution = Equilibrium::Frictionless(Box::new(solution));
         Ok(Self { record, increments: Vec::new(), solution, plastic, slip: None, dissipation_error: 0.0 })
     }
@@ -195,6 +197,7 @@ impl LoadedContact {
 
 /// Two bodies under a loading, and the solver of an increment.
 struct Bodies<'a> {
+    pair: &'a Pair,
     /// Initial gap of the undeformed bodies.
     gap: Field,
     solver: Solver<'a>,
@@ -204,7 +207,7 @@ struct Bodies<'a> {
 }
 
 enum Solver<'a> {
-    Frictionless(Box<dyn Operator>),
+    Frictionless(&'a Pair, Box<dyn Operator>),
     Frictional(Box<dyn CoupledOperator>, &'a Friction),
 }
 
@@ -213,7 +216,7 @@ const MAX_DECREASE: f64 = 4.0;
 
 impl<'a> Bodies<'a> {
     fn new(
-        pair: &Pair,
+        pair: &'a Pair,
         boundary: Boundary,
         friction: Option<&'a Friction>,
         params: &'a Params,
@@ -221,14 +224,15 @@ impl<'a> Bodies<'a> {
         let (operators, gap) = facing(pair, boundary)?;
         let shape = pair.lower_grid().shape;
         let solver = match friction {
-            None => Solver::Frictionless(operators.on(shape)),
+            None => Solver::Frictionless(pair, operators.on(shape)),
             Some(friction) => {
+                pair.check_no_adhesion()?;
                 pair.check_shear()?;
                 Solver::Frictional(operators.coupled_on(shape), friction)
             }
         };
         let bounds = pair.bounds(&pair.at_rest(), None);
-        Ok(Self { gap, solver, bounds, area: pair.cell_area(), params })
+        Ok(Self { pair, gap, solver, bounds, area: pair.cell_area(), params })
     }
 
     /// Returns the state after an increment that starts from the state `before`.
@@ -279,11 +283,17 @@ impl<'a> Bodies<'a> {
             (_, solution) => solution.map(|solution| solution.slip.clone()),
         };
         let [dissipation, more_error] = of_friction.unwrap_or_default();
+        let adhesion = self.pair.adhesion().map(|adhesion| {
+            let record = AdhesionRecord::of(adhesion, contact.normal());
+            let last = last.as_ref().map(Equilibrium::normal);
+            last.map_or(record, |last| record.since(adhesion, contact.normal(), last))
+        });
         increments.push(IncrementRecord {
             increment: increments.len() + 1,
             stage,
             plastic_volume: self.area * flattening.whole(plastic).sum(),
             dissipation,
+            adhesion,
             iterations: stats.iterations,
             convolutions: stats.convolutions,
             ..IncrementRecord::of(&contact)
@@ -299,6 +309,9 @@ impl<'a> Bodies<'a> {
         let plastic = flattening.whole(now);
         let sum = |value: fn(&IncrementRecord) -> f64| increments.iter().map(value).sum::<f64>();
         let shear = solution.frictional().map(|solution| shear_record(solution, sum(|i| i.dissipation)));
+        let adhesion = increments.last().and_then(|last| last.adhesion);
+        let adhesion = adhesion
+            .map(|last| last.after(increments.iter().filter_map(|increment| increment.adhesion.as_ref())));
         let normal = solution.normal();
         let gap = &self.gap + &normal.displacement - normal.approach;
         let record = StaticRecord {
@@ -306,6 +319,7 @@ impl<'a> Bodies<'a> {
             iterations: increments.iter().map(|increment| increment.iterations).sum(),
             convolutions: sum(|increment| increment.convolutions),
             shear,
+            adhesion,
             ..static_record(&solution, &plastic)
         };
         LoadedContact { record, increments, solution, plastic, slip, dissipation_error }
@@ -324,9 +338,10 @@ impl Solver<'_> {
         watch: &dyn solver::Watch,
     ) -> Result<Equilibrium> {
         match self {
-            Self::Frictionless(operator) => {
-                let start = last.map(|last| &last.normal().pressure);
-                solve_normal_watched(operator.as_mut(), gap, bounds, loading.normal, start, params, watch)
+            Self::Frictionless(pair, operator) => {
+                let last = last.map(Equilibrium::normal);
+                let operator = operator.as_mut();
+                press_from(pair, operator, gap, bounds, loading.normal, last, params, watch)
                     .map(|solution| Equilibrium::Frictionless(Box::new(solution)))
             }
             Self::Frictional(operator, friction) => {

@@ -1,5 +1,6 @@
 //! Two bodies in relative motion: positions, passes, the geometry of the pair and its plastic change.
 
+mod adhesive;
 mod approach;
 mod body;
 mod contact;
@@ -59,9 +60,9 @@ pub(crate) use record::lost_volumes::{ENDINGS, is_volume_of_law};
 #[cfg(feature = "study")]
 pub(crate) use record::number::known_or_none;
 pub use record::{
-    Column, FlowRecord, FlowStepRecord, HeatRecord, IncrementRecord, LostVolume, PassFlowRecord, PassRecord,
-    Presence, Regime, ResidualRecord, RunningRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord,
-    UpdateRecord,
+    AdhesionRecord, Column, FlowRecord, FlowStepRecord, HeatRecord, IncrementRecord, LostVolume,
+    PassFlowRecord, PassRecord, Presence, Regime, ResidualRecord, RunningRecord, ShearRecord, StaticRecord,
+    StepRecord, SweepRecord, UpdateRecord,
 };
 pub use report::PassReport;
 pub use rim::Interior;

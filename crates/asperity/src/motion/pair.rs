@@ -1,5 +1,6 @@
 //! A pair of contacting bodies.
 
+use crate::adhesion::Adhesion;
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid, Placement, check_finite};
 use crate::kernel::{SharedResponse, response};
@@ -23,6 +24,7 @@ pub struct Pair {
     response: SharedResponse,
     /// Prescribed share of the lower body in the plastic deformation; `None` if the softer of two cells takes all of it.
     share: Option<f64>,
+    adhesion: Option<Adhesion>,
 }
 
 impl Pair {
@@ -61,6 +63,7 @@ impl Pair {
             compliances,
             response: response(materials[0], materials[1])?,
             share: None,
+            adhesion: None,
         })
     }
 
@@ -83,12 +86,23 @@ impl Pair {
         Self { share: Some(share), ..self }
     }
 
+    /// Sets or removes the attraction between the bodies. Static contacts without friction take it into account.
+    #[must_use]
+    pub fn with_adhesion(self, adhesion: impl Into<Option<Adhesion>>) -> Self {
+        Self { adhesion: adhesion.into(), ..self }
+    }
+
     /// Replaces the elastic response of the materials by another `response`.
     ///
     /// Hardness and plastic share stay those of the materials. So do [`Pair::modulus`] and [`Pair::compliances`], which
     /// then no longer affect any contact.
     pub fn with_response(self, response: impl Into<SharedResponse>) -> Self {
         Self { response: response.into(), ..self }
+    }
+
+    /// The attraction between the bodies, if any.
+    pub fn adhesion(&self) -> Option<&Adhesion> {
+        self.adhesion.as_ref()
     }
 
     /// Size of a cell.
@@ -123,6 +137,16 @@ impl Pair {
             .coupled()
             .map(|_| ())
             .ok_or(Error::Unsupported("these bodies support friction only in gross sliding without coupling"))
+    }
+
+    /// Returns [`Error::Unsupported`] if the bodies attract each other.
+    pub(super) fn check_no_adhesion(&self) -> Result<()> {
+        match self.adhesion {
+            Some(_) => Err(Error::Unsupported(
+                "adhesion is solved only in static contacts of elastic bodies without friction",
+            )),
+            None => Ok(()),
+        }
     }
 
     /// Creates the operators of contacts on grids up to `largest`; [`Error::Unsupported`] if the response does not support

@@ -176,6 +176,7 @@ impl WearInPlace {
     /// If the bodies have different shapes.
     pub fn new(pair: Pair, boundary: Boundary, slide: Slide, params: Params) -> Result<Self> {
         let slide = slide.checked(&pair)?;
+        pair.check_no_adhesion()?;
         let (operators, _) = facing(&pair, boundary)?;
         let shape = pair.lower_grid().shape;
         let bounds = pair.bounds(&pair.at_rest(), slide.friction.as_ref());

@@ -10,7 +10,7 @@ use crate::motion::spot::largest_spot;
 use crate::motion::state::LoadedContact;
 use crate::motion::watch::{StaticWatch, Watch};
 use crate::operator::{Boundary, CoupledOperator, Operator};
-use crate::solver::{Control, Friction, Params, Rolling, Solution, normal_stiffness};
+use crate::solver::{Control, Friction, Params, Rolling, Solution, Stats, normal_stiffness};
 
 /// A prescribed point of a load sweep.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,6 +49,7 @@ pub fn sweep(
     let shape = pair.lower_grid().shape;
     let rolls = points.iter().any(|point| point.rolling.is_some());
     if rolls {
+        pair.check_no_adhesion()?;
         pair.check_shear()?;
     }
     let mut records = done;
@@ -138,7 +139,11 @@ fn record(
     contact: &LoadedContact,
     params: &Params,
 ) -> Result<SweepRecord> {
-    let (stiffness, stats) = normal_stiffness(operator, &contact.solution.normal().elastic_cells(), params)?;
+    // The attraction of open cells changes with the approach, too.
+    let (stiffness, stats) = match contact.record.adhesion {
+        Some(_) => (None, Stats::default()),
+        None => normal_stiffness(operator, &contact.solution.normal().elastic_cells(), params)?,
+    };
     let StaticRecord { load, approach, contact_area, apparent_area, .. } = contact.record;
     let Solution { grid, pressure, bounds, .. } = contact.solution.normal();
     let cells = pressure.iter().enumerate();
@@ -170,5 +175,6 @@ fn record(
         iterations: contact.record.iterations,
         convolutions: contact.record.convolutions + stats.convolutions,
         residual: contact.record.residual,
+        adhesion: contact.record.adhesion,
     })
 }

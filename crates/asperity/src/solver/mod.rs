@@ -1,6 +1,7 @@
 //! The contact problem: pressures within their bounds that close the gap, under a load or at an approach.
 
 mod active_set;
+mod adhesive;
 mod bounds;
 mod cascade;
 mod coarse_correction;
@@ -20,6 +21,8 @@ mod together;
 mod uniform;
 mod watch;
 
+pub use adhesive::solve_adhesive;
+pub(crate) use adhesive::solve_adhesive_watched;
 pub use bounds::Bounds;
 pub use equilibrium::Equilibrium;
 pub use friction::{

@@ -1,12 +1,13 @@
 //! The dictionary of columns: every column of a table and every number of a summary, by its name.
 
+use super::adhesion::AdhesionSummary;
 use super::closed_form::ClosedFormRecord;
 use super::observed::{ConductanceRecord, ElectricalRecord, GapFlowRecord, ThermalRecord};
 use super::subsurface::SubsurfaceRecord;
 use super::summary::{CONVERGED, RunningIn};
 use crate::motion::{
-    Column, ENDINGS, FlowRecord, FlowStepRecord, HeatRecord, IncrementRecord, PassFlowRecord, PassRecord,
-    Presence, ResidualRecord, RunningRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord,
+    AdhesionRecord, Column, ENDINGS, FlowRecord, FlowStepRecord, HeatRecord, IncrementRecord, PassFlowRecord,
+    PassRecord, Presence, ResidualRecord, RunningRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord,
     UpdateRecord,
 };
 use crate::units::Dimension;
@@ -15,10 +16,12 @@ use crate::units::Dimension;
 ///
 /// `Converged` holds the additional columns of `static` in `summary.json`. `Table` holds the columns of the table of a
 /// study other than its axes and the numbers of the records.
-pub const RECORDS: [(&str, &[Column]); 22] = [
+pub const RECORDS: [(&str, &[Column]); 24] = [
     ("StaticRecord", StaticRecord::OWN_COLUMNS),
     ("Converged", &[CONVERGED]),
     ("ShearRecord", ShearRecord::OWN_COLUMNS),
+    ("AdhesionRecord", AdhesionRecord::OWN_COLUMNS),
+    ("AdhesionSummary", AdhesionSummary::OWN_COLUMNS),
     ("FlowRecord", FlowRecord::OWN_COLUMNS),
     ("ResidualRecord", ResidualRecord::OWN_COLUMNS),
     ("ClosedFormRecord", ClosedFormRecord::OWN_COLUMNS),
@@ -180,6 +183,7 @@ mod tests {
         has::<UpdateRecord>(UpdateRecord::COLUMNS);
         has::<PassRecord>(PassRecord::COLUMNS);
         has::<StepRecord>(StepRecord::COLUMNS);
+        has::<AdhesionSummary>(AdhesionSummary::COLUMNS);
         has::<RunningIn>(RunningIn::COLUMNS);
         has::<SubsurfaceRecord>(SubsurfaceRecord::COLUMNS);
         // All of them are in the dictionary.

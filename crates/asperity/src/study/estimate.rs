@@ -7,6 +7,7 @@ mod plausible;
 pub(super) use contact::{CELLS_ACROSS, cut_off, spot, too_few_cells};
 pub use demand::{Demand, demand};
 
+use super::adhesion::AdhesionSummary;
 use super::case::{Body, Case, Hardness, Layer, LoadingPath, Source, TopographySpec};
 use super::closed_form::ClosedForm;
 use super::prepare::{Bodies, MountedSurface};
@@ -55,6 +56,8 @@ pub struct Estimate {
     pub plastic_limit: Newton,
     /// Rms slope of the initial gap, for independent surfaces.
     pub gap_slope: f64,
+    /// Adhesion of the bodies in numbers; `None` without adhesion.
+    pub adhesion: Option<AdhesionSummary>,
     /// Closed form of the contact, if both bodies are smooth forms and stay elastic; `None` for others.
     pub closed_form: Option<ClosedForm>,
     /// Requested output of the stress under the surface.
@@ -131,14 +134,28 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         mean_facing_area: overlaps.iter().sum::<usize>() as f64 / overlaps.len() as f64 * column,
         plastic_limit,
         gap_slope: slopes.iter().filter(|slope| slope.is_finite()).fold(0.0, |all: f64, s| all.hypot(*s)),
+        adhesion: None,
         closed_form: ClosedForm::of(case, lower_grid.extent(), control)
+            .filter(|_| case.adhesion.is_none())
             .filter(|form| form.max_pressure.is_none_or(|pressure| pressure <= hardness)),
         subsurface: Plan::new(case, [&lower_grid, &upper_grid], &positions)?,
         warnings: Vec::new(),
         predicted: Vec::new(),
     };
     estimate.warnings = warnings(case, bodies, &estimate);
-    contacts(case, bodies, &positions, &mut estimate);
+    if let Some(adhesion) = case.attraction(&lower_grid, estimate.modulus)? {
+        let heights = [&bodies.lower, &bodies.upper].map(|body| body.topography.heights());
+        let gap = initial_gap(heights, &positions[0]);
+        let numbers =
+            AdhesionSummary::new(&adhesion, &gap, &lower_grid, case.contact.boundary, estimate.modulus);
+        let pitch = lower_grid.pitch[0].max(lower_grid.pitch[1]);
+        estimate.warnings.extend(numbers.warnings(&adhesion, estimate.modulus, pitch));
+        estimate.adhesion = Some(numbers);
+    }
+    // Hertz' contact says little about bodies that attract each other.
+    if case.adhesion.is_none() {
+        contacts(case, bodies, &positions, &mut estimate);
+    }
     let yields = rolls_plastically(case, bodies, &estimate);
     estimate.predicted.extend(yields);
     Ok(estimate)

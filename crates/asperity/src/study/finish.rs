@@ -6,6 +6,7 @@ use web_time::Instant;
 use crate::error::Result;
 use crate::motion::{FlowRecord, Pair, UpdateRecord};
 use crate::solver::{Control, Params};
+use crate::study::adhesion::AdhesionSummary;
 use crate::study::case::Case;
 use crate::study::closed_form::{ClosedForm, ClosedFormRecord, ElasticContact};
 use crate::study::observed::{ConductanceRecord, GapFlowRecord};
@@ -23,6 +24,8 @@ pub(super) struct Computed {
     pub(super) sliding: Option<UpdateRecord>,
     /// The plastic flow of a motion of elasto-plastic bodies.
     pub(super) flow: Option<FlowRecord>,
+    /// Adhesion of the bodies in numbers.
+    pub(super) adhesion: Option<AdhesionSummary>,
     /// The closed form of the contact of smooth forms.
     pub(super) closed_form: Option<ClosedFormRecord>,
     /// The conductance of the last contact, or of each pass.
@@ -39,6 +42,7 @@ impl Computed {
             subsurface: Vec::new(),
             sliding: None,
             flow: None,
+            adhesion: None,
             closed_form: None,
             conductance: Vec::new(),
             gap_flow: Vec::new(),
@@ -52,7 +56,7 @@ pub(super) fn conclude(
     writer: &Writer,
     resolved: Value,
     began: Instant,
-    Computed { outcome, subsurface, sliding, flow, closed_form, conductance, gap_flow }: Computed,
+    Computed { outcome, subsurface, sliding, flow, adhesion, closed_form, conductance, gap_flow }: Computed,
     mut warnings: Vec<String>,
 ) -> Result<Summary> {
     outcome.check()?;
@@ -68,6 +72,7 @@ pub(super) fn conclude(
         running_in,
         sliding,
         plasticity: flow,
+        adhesion,
         closed_form,
         version: env!("CARGO_PKG_VERSION").to_owned(),
         case: resolved,
@@ -93,8 +98,8 @@ pub(super) fn closed_form(case: &Case, extent: [Metre; 2], outcome: &Outcome) ->
         Outcome::Sweep(points) => points.last().filter(|point| point.plastic_area == 0.0).map(Into::into),
         Outcome::Passes(_) => None,
     }?;
-    let form =
-        ClosedForm::of(case, extent, Control::Load(computed.load)).filter(|_| case.sliding.is_none())?;
+    let is_plain = case.sliding.is_none() && case.adhesion.is_none();
+    let form = ClosedForm::of(case, extent, Control::Load(computed.load)).filter(|_| is_plain)?;
     Some(form.beside(computed))
 }
 
@@ -102,7 +107,10 @@ pub(super) fn closed_form(case: &Case, extent: [Metre; 2], outcome: &Outcome) ->
 pub(super) fn pair(case: &Case, bodies: Bodies) -> Result<Pair> {
     let Bodies { lower, upper } = bodies;
     let materials = [&case.lower.material, &case.upper.material];
-    Pair::new(lower.topography, upper.topography, materials)?.with_hardness([lower.hardness, upper.hardness])
+    let pair = Pair::new(lower.topography, upper.topography, materials)?
+        .with_hardness([lower.hardness, upper.hardness])?;
+    let attraction = case.attraction(&pair.lower_grid(), pair.modulus())?;
+    Ok(pair.with_adhesion(attraction))
 }
 
 /// Returns the solver parameters of `case`.

@@ -4,6 +4,7 @@
 //! [`estimate`] return cost and warnings in advance. [`run()`] does all of this and writes a [`Results`] directory with a
 //! [`Summary`].
 
+mod adhesion; // adhesion of a case in numbers
 pub mod case; // the case file, checked key by key
 mod closed_form; // closed forms beside computed contacts
 mod estimate; // cost and warnings of a case in advance
@@ -28,6 +29,7 @@ mod subsurface; // the stress under the surface: plan and file
 mod summary; // summary.json
 mod tables; // steps.csv, passes.csv, increments.csv, sweep.csv
 
+pub use adhesion::AdhesionSummary;
 pub use case::Case;
 pub use case::rules::rules;
 pub use case::schema::keys;

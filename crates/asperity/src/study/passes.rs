@@ -190,6 +190,7 @@ impl Passes {
         let Observations { conductance, flow: gap_flow, .. } = self.observers.finish()?;
         self.warnings.extend(observe::warnings(&self.case, &conductance, &gap_flow));
         let outcome = Computed {
+            adhesion: None,
             conductance: ConductanceRecord::means(&conductance),
             gap_flow: GapFlowRecord::last(&gap_flow).to_vec(),
             outcome: Outcome::Passes(passes),

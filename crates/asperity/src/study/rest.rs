@@ -10,6 +10,7 @@ use crate::motion::{
 };
 use crate::operator::Boundary;
 use crate::solver::{Control, Equilibrium, Friction, Params, Rolling, Solution};
+use crate::study::adhesion::{self, AdhesionSummary};
 use crate::study::case::{Case, LoadingPath, PlasticitySpec};
 use crate::study::closed_form::ClosedFormRecord;
 use crate::study::estimate::estimate;
@@ -38,6 +39,8 @@ pub struct StaticResult {
     pub updates: Vec<UpdateRecord>,
     /// The fields of the contact; for a sweep, at its last point.
     pub fields: RestFields,
+    /// Adhesion of the bodies in numbers; `None` without adhesion.
+    pub adhesion: Option<AdhesionSummary>,
     /// The closed form of the contact, if both bodies are smooth forms; `None` for others.
     pub closed_form: Option<ClosedFormRecord>,
     /// The plastic state below the surfaces; `None` for other than elasto-plastic bodies.
@@ -77,6 +80,7 @@ impl StaticResult {
             increments: Vec::new(),
             updates: Vec::new(),
             fields,
+            adhesion: None,
             closed_form: None,
             flow_result: None,
             conductance: Vec::new(),
@@ -132,6 +136,10 @@ pub(super) fn solve(
     let law = case.friction.as_ref().map(|friction| &friction.law);
     let control = case.contact.prescribed.control(apparent_area);
     let extent = pair.lower_grid().extent();
+    let adhesion = pair.adhesion().map(|adhesion| {
+        let (gap, boundary) = (pair.initial_gap(&pair.at_rest()), case.contact.boundary);
+        AdhesionSummary::new(adhesion, &gap, &pair.lower_grid(), boundary, pair.modulus())
+    });
     let contact = StaticProblem { case, pair, law, control, params: params(case), writer, watch };
     if let Some(slide) = case.slide(apparent_area) {
         return contact.slide(slide);
@@ -145,7 +153,8 @@ pub(super) fn solve(
         }
         _ => contact.press(),
     }?;
-    Ok(StaticResult { closed_form: closed_form(case, extent, &rest.outcome), ..rest })
+    let adhesion = adhesion.map(|adhesion| adhesion.after(&rest.increments));
+    Ok(StaticResult { adhesion, closed_form: closed_form(case, extent, &rest.outcome), ..rest })
 }
 
 /// A static contact to be solved.
@@ -262,7 +271,8 @@ impl StaticProblem<'_> {
 
     /// Creates the result from the end of a loading, or of rolling.
     fn loaded(self, contact: LoadedContact) -> StaticResult {
-        let warnings = [review::loaded(&contact), self.review(contact.solution.normal())].concat();
+        let jumps = adhesion::jumps(&contact.increments).into_iter().collect();
+        let warnings = [review::loaded(&contact), jumps, self.review(contact.solution.normal())].concat();
         let LoadedContact { record, increments, solution, plastic, slip, .. } = contact;
         let fields = fields(self.pair, solution, plastic, slip);
         StaticResult { increments, warnings, ..StaticResult::of(record, fields) }

@@ -66,6 +66,7 @@ pub(super) fn run_with(
         updates,
         fields,
         flow_result,
+        adhesion,
         closed_form,
         conductance,
         gap_flow,
@@ -87,7 +88,8 @@ pub(super) fn run_with(
     let (subsurface, sliding) = (stress.into_iter().collect(), updates.last().cloned());
     let conductance = conductance.last().cloned().into_iter().collect();
     let gap_flow = GapFlowRecord::last(&gap_flow).to_vec();
-    let computed = Computed { outcome, subsurface, sliding, flow: None, closed_form, conductance, gap_flow };
+    let computed =
+        Computed { outcome, subsurface, sliding, flow: None, adhesion, closed_form, conductance, gap_flow };
     let summary = conclude(case, &writer, resolved, began, computed, warnings)?;
     writer.results().remove_state()?;
     Ok((summary, writer))

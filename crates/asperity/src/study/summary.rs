@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize, Serializer};
 
+use super::adhesion::AdhesionSummary;
 use super::closed_form::ClosedFormRecord;
 use super::observed::{ConductanceRecord, GapFlowRecord};
 use super::subsurface::SubsurfaceRecord;
@@ -35,6 +36,9 @@ pub struct Summary {
     /// residual state of a static contact is in its record.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plasticity: Option<FlowRecord>,
+    /// Adhesion of the bodies in numbers; `None` without adhesion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adhesion: Option<AdhesionSummary>,
     /// Closed form of the contact beside the computed one, if both bodies are smooth forms; `None` for others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub closed_form: Option<ClosedFormRecord>,
@@ -180,6 +184,7 @@ mod tests {
             convolutions: 15.5,
             residual: 3e-7,
             shear: None,
+            adhesion: None,
             flow: None,
         };
         let summary = Summary {
@@ -188,6 +193,7 @@ mod tests {
             running_in: None,
             sliding: None,
             plasticity: None,
+            adhesion: None,
             closed_form: None,
             outcome: Outcome::Static(Box::new(record)),
             subsurface: vec![SubsurfaceRecord {

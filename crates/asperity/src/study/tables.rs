@@ -418,6 +418,7 @@ mod tests {
             iterations: 12,
             convolutions: 21.25,
             residual: 1e-7,
+            adhesion: None,
         }
     }
 

@@ -29,6 +29,8 @@ pub type NewtonPerMetre = f64;
 pub type NewtonMetre = f64;
 /// Energy in joules.
 pub type Joule = f64;
+/// Energy of an area in joules per square metre.
+pub type JoulePerSquareMetre = f64;
 /// Speed in metres per second.
 pub type MetrePerSecond = f64;
 /// Time in seconds.

@@ -65,6 +65,8 @@ pub enum Dimension {
     Viscosity,
     /// Cubic metres per second.
     VolumeFlow,
+    /// Joules per square metre.
+    SurfaceEnergy,
 }
 
 /// Reason why a text is not a quantity of the expected dimension.
@@ -302,6 +304,7 @@ impl Dimension {
             Self::ElectricalConductanceOfArea => "an electrical conductance of an area",
             Self::Viscosity => "a viscosity",
             Self::VolumeFlow => "a flow of volume",
+            Self::SurfaceEnergy => "an energy of an area",
         }
     }
 
@@ -339,6 +342,7 @@ impl Dimension {
             Self::ElectricalConductanceOfArea => "1e9 S/m2",
             Self::Viscosity => "80 mPa s",
             Self::VolumeFlow => "2 mm3/s",
+            Self::SurfaceEnergy => "50 mJ/m2",
         }
     }
 
@@ -353,7 +357,7 @@ impl Dimension {
     }
 
     /// All dimensions.
-    pub const ALL: [Self; 31] = [
+    pub const ALL: [Self; 32] = [
         Self::Length,
         Self::Area,
         Self::Volume,
@@ -385,6 +389,7 @@ impl Dimension {
         Self::ElectricalConductanceOfArea,
         Self::Viscosity,
         Self::VolumeFlow,
+        Self::SurfaceEnergy,
     ];
 
     fn scale(self) -> Scale {
@@ -421,6 +426,7 @@ impl Dimension {
             Self::ElectricalConductanceOfArea => scale(Base::Of("S/m²"), 1, 12),
             Self::Viscosity => scale(Base::Of("Pa s"), 1, 3),
             Self::VolumeFlow => scale(Base::CubedPerSecond, 3, 0),
+            Self::SurfaceEnergy => scale(Base::Of("J/m²"), 1, 0),
         }
     }
 
@@ -550,6 +556,14 @@ impl Dimension {
                 ("ul/min", -9, 1.0 / 60.0),
                 ("L/min", -3, 1.0 / 60.0),
                 ("mL/min", -6, 1.0 / 60.0),
+            ],
+            Self::SurfaceEnergy => &[
+                ("J/m2", 0, 1.0),
+                ("mJ/m2", -3, 1.0),
+                ("uJ/m2", -6, 1.0),
+                ("J/m^2", 0, 1.0),
+                ("mJ/m^2", -3, 1.0),
+                ("erg/cm2", -3, 1.0),
             ],
             _ => &[],
         }

@@ -56,6 +56,7 @@ impl Dimension {
             Self::ThermalConductanceOfArea => (1e-18, 1e18, "W/(m² K)"),
             Self::ElectricalConductanceOfArea => (1e-18, 1e18, "S/m²"),
             Self::Viscosity => (1e-9, 1e9, "Pa s"),
+            Self::SurfaceEnergy => (1e-12, 1e6, "J/m²"),
             Self::VolumeFlow => (1e-45, 1e18, "m³/s"),
         };
         Range { least, most, unit }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::adhesion::AdhesionRecord;
 use super::columns::columns;
 use super::flow::FlowStepRecord;
 use super::number::number_or_none;
@@ -29,7 +30,7 @@ columns! {
         pub tangential_displacement_x: Metre,
         /// Rigid-body displacement of the upper body relative to the lower one along y; 0 in sliding.
         pub tangential_displacement_y: Metre,
-        /// Area of the cells with p > 0.
+        /// Area of the cells in contact: with p > 0, or with p > −σ(0) where the bodies attract each other.
         pub contact_area: SquareMetre,
         /// Area of the cells that stick in this increment; 0 without friction.
         pub stick_area: SquareMetre,
@@ -49,6 +50,9 @@ columns! {
         pub convolutions: f64,
         /// Scale-free residual η, the larger of the normal and the tangential one.
         pub residual: f64,
+        /// Attraction of the bodies; none without adhesion.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub adhesion: Option<AdhesionRecord>,
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub flow: Option<FlowStepRecord>,

@@ -3,6 +3,7 @@
 //! A field of a record is a column of its table, or a key of `summary.json`. Only this module declares it: its type is the
 //! unit and its documentation the meaning (`columns.rs`).
 
+mod adhesion;
 pub(crate) mod columns;
 mod flow;
 mod increment;
@@ -15,6 +16,7 @@ mod step;
 mod sweep;
 mod update;
 
+pub use adhesion::AdhesionRecord;
 pub use columns::{Column, Presence};
 pub use flow::{FlowRecord, FlowStepRecord, PassFlowRecord, Regime, ResidualRecord};
 pub use increment::IncrementRecord;

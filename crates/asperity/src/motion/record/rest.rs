@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::adhesion::AdhesionRecord;
 use super::columns::columns;
 use super::flow::FlowRecord;
 use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonMetre, Pascal, PerMetre, SquareMetre};
@@ -15,7 +16,7 @@ columns! {
         pub load: Newton,
         /// Rigid-body approach δ.
         pub approach: Metre,
-        /// Area of the cells with p > 0.
+        /// Area of the cells in contact: with p > 0, or with p > −σ(0) where the bodies attract each other.
         pub contact_area: SquareMetre,
         /// Area of the whole grid.
         pub apparent_area: SquareMetre,
@@ -38,6 +39,9 @@ columns! {
         /// Tangential quantities; none without friction.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub shear: Option<ShearRecord>,
+        /// Attraction of the bodies; none without adhesion.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub adhesion: Option<AdhesionRecord>,
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub flow: Option<FlowRecord>,

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::adhesion::AdhesionRecord;
 use super::columns::columns;
 use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonPerMetre, Pascal, SquareMetre};
 
@@ -22,7 +23,7 @@ columns! {
         pub approach: Metre,
         /// Mean deformed gap.
         pub mean_gap: Metre,
-        /// Area of the cells with p > 0.
+        /// Area of the cells in contact: with p > 0, or with p > −σ(0) where the bodies attract each other.
         pub contact_area: SquareMetre,
         /// Area of contact over the area of the whole grid, 0 to 1.
         pub contact_fraction: f64,
@@ -36,7 +37,7 @@ columns! {
         pub plastic_volume: CubicMetre,
         /// Elastic energy ½ ΔA Σ p u; in rolling also the energy of the shear.
         pub elastic_energy: Joule,
-        /// Normal stiffness dW/dδ; unknown in full elastic contact of a periodic surface, where it is infinite.
+        /// Normal stiffness dW/dδ; unknown with adhesion, and in full elastic contact of a periodic surface, where it is infinite.
         pub stiffness: Option<NewtonPerMetre>,
         /// Creepage along x; without rolling, the columns from here to `slip_work` are 0.
         pub creepage_x: f64,
@@ -60,5 +61,8 @@ columns! {
         pub convolutions: f64,
         /// Scale-free residual η.
         pub residual: f64,
+        /// Attraction of the bodies; none without adhesion.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub adhesion: Option<AdhesionRecord>,
     }
 }

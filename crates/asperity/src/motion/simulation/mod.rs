@@ -80,6 +80,7 @@ impl Simulation {
         let distinct = motion.distinct(positions.len(), pair.yields(), pair.couples());
         let columns: Vec<usize> = positions[..distinct].iter().map(|p| p.columns).collect();
         let largest = pair.grid(pair.lower.columns().min(pair.upper.columns()));
+        pair.check_no_adhesion()?;
         let operators = pair.operators(largest, boundary)?;
         if motion.friction.is_some_and(|friction| friction.coupling != Coupling::None) {
             pair.check_shear()?;

@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 
 use super::cursor::{Entry, Table};
-use super::prescribed::{Prescribed, prescribed};
+use super::prescribed::{Prescribed, of_stage};
 use super::schema::loading::{friction as keys, history};
 use super::schema::tables::known_in;
 use super::{Case, Number};
@@ -215,7 +215,7 @@ pub(super) fn stages(
         }
         at_most_one(table, plane)?;
         Ok(StageSpec {
-            normal: gives(normal).then(|| prescribed(table)).transpose()?,
+            normal: gives(normal).then(|| of_stage(table)).transpose()?,
             in_plane: in_plane(table)?,
             increments: history::INCREMENTS.of(table)?.unwrap_or(steps),
         })

@@ -3,6 +3,7 @@
 //! Everything that the file alone determines is checked, and each mistake is reported at its place. A [`Case`] is in SI and
 //! serialises under the keys of the file, so that a summary contains the computed case.
 
+mod adhesion;
 mod body;
 mod conductance;
 mod contact;
@@ -31,6 +32,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
 
+pub use self::adhesion::{AdhesionRange, AdhesionSpec};
 pub use self::conductance::ConductanceSpec;
 use self::document::Document;
 pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
@@ -70,6 +72,9 @@ pub struct Case {
     pub upper: Body,
     /// Load, boundary and solver.
     pub contact: Contact,
+    /// Attraction between the bodies; `None` if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub adhesion: Option<AdhesionSpec>,
     /// Friction of the bodies; `None` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<FrictionSpec>,

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::adhesion::adhesion;
 use super::body::body;
 use super::conductance::conductance;
 use super::contact::contact;
@@ -52,6 +53,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     let upper = body(&upper_table, folder, has_conductance)?;
     one_tells_the_other(&lower.topography, &upper.topography, &upper_table)?;
     let contact = contact(&keys::CONTACT.demand(root)?)?;
+    let adhesion = keys::ADHESION.of(root)?.map(|table| adhesion(&table)).transpose()?;
     let mut motion = keys::MOTION.of(root)?.map(|table| motion(&table, contact.prescribed)).transpose()?;
     let sliding = keys::SLIDING.of(root)?.map(|table| sliding(&table)).transpose()?;
     let mut friction = keys::FRICTION.of(root)?.map(|table| friction(&table)).transpose()?;
@@ -78,6 +80,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
         lower,
         upper,
         contact,
+        adhesion,
         friction,
         history: history.unwrap_or_default(),
         motion,

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::cursor::Table;
-use super::schema::loading::contact as keys;
+use super::schema::loading::{contact as keys, history};
 use crate::error::Result;
 use crate::solver;
 use crate::units::{Metre, Newton, Pascal, SquareMetre};
@@ -12,9 +12,9 @@ use crate::units::{Metre, Newton, Pascal, SquareMetre};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Prescribed {
-    /// Total normal force, > 0.
+    /// Total normal force, > 0; of any sign in a history of bodies with adhesion.
     Load(Newton),
-    /// Load over the apparent area, > 0.
+    /// Load over the apparent area, > 0; of any sign in a history of bodies with adhesion.
     MeanPressure(Pascal),
     /// Approach relative to the prepared heights; positive or negative.
     Approach(Metre),
@@ -50,12 +50,21 @@ impl Prescribed {
 /// The keys of a sweep in `[contact]`.
 pub(super) const LISTS: [&str; 3] = ["loads", "mean_pressures", "approaches"];
 
-/// The one of the three that `table`, [contact] or a stage of a [[history]], gives.
+/// Reads the one of the three that [contact] gives.
 pub(super) fn prescribed(table: &Table<'_>) -> Result<Prescribed> {
     table.exactly_one(&["load", "mean_pressure", "approach"], "for example `load = \"2 N\"`")?;
     let load = keys::LOAD.of(table)?.map(Prescribed::Load);
     let pressure = keys::MEAN_PRESSURE.of(table)?.map(Prescribed::MeanPressure);
     let approach = keys::APPROACH.of(table)?.map(Prescribed::Approach);
+    Ok(load.or(pressure).or(approach).expect("one of the three is given"))
+}
+
+/// Reads the one of the three that a stage of a [[history]] gives.
+pub(super) fn of_stage(table: &Table<'_>) -> Result<Prescribed> {
+    table.exactly_one(&["load", "mean_pressure", "approach"], "for example `load = \"2 N\"`")?;
+    let load = history::LOAD.of(table)?.map(Prescribed::Load);
+    let pressure = history::MEAN_PRESSURE.of(table)?.map(Prescribed::MeanPressure);
+    let approach = history::APPROACH.of(table)?.map(Prescribed::Approach);
     Ok(load.or(pressure).or(approach).expect("one of the three is given"))
 }
 

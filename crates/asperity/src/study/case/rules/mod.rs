@@ -3,6 +3,7 @@
 //! Each row has a message, a hint and the key that the error points to. A case is checked against the rows once all of its
 //! tables are read. `docs/input/combinations.md` lists them, and a test runs their examples.
 
+mod adhesion;
 mod bodies;
 mod examples;
 mod loading;
@@ -56,7 +57,7 @@ pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
 
 /// Returns the rules of a case file, in the order in which a case is checked.
 pub fn rules() -> impl Iterator<Item = &'static Rule> {
-    let tables: [&[Rule]; 8] = [
+    let tables: [&[Rule]; 9] = [
         bodies::RULES,
         motion::RULES,
         loading::RULES,
@@ -65,6 +66,7 @@ pub fn rules() -> impl Iterator<Item = &'static Rule> {
         temperature::RULES,
         output::RULES,
         passage::RULES,
+        adhesion::RULES,
     ];
     tables.into_iter().flatten()
 }

@@ -43,6 +43,22 @@ const APPROACH: Optional<f64> = optional(
     "distance by which the bodies have approached, of any sign; 0 if the planes z = 0 of both height maps coincide",
 );
 
+/// The load of a stage. Below 0 it pulls at bodies that attract each other.
+const SIGNED_LOAD: Optional<f64> = optional(
+    "load",
+    SIGNED_FORCE,
+    "unchanged",
+    "\"2 N\"",
+    "as in [contact]; at most one of the three; with [adhesion] it may be 0 or pull, below 0",
+);
+const SIGNED_MEAN_PRESSURE: Optional<f64> = optional(
+    "mean_pressure",
+    quantity(Dimension::Pressure, Any),
+    "unchanged",
+    "\"1 MPa\"",
+    "as in [contact]; at most one of the three; with [adhesion] it may be 0 or pull, below 0",
+);
+
 /// `[contact]`.
 pub(in crate::study) mod contact {
     use super::*;
@@ -199,8 +215,8 @@ pub(in crate::study) mod history {
     use super::*;
 
     section! { &["history"], "";
-        LOAD: Optional<f64> = super::LOAD.elsewhere("unchanged", "as in [contact]; at most one of the three");
-        MEAN_PRESSURE: Optional<f64> = super::MEAN_PRESSURE.elsewhere("unchanged", "as in [contact]; at most one of the three");
+        LOAD: Optional<f64> = super::SIGNED_LOAD;
+        MEAN_PRESSURE: Optional<f64> = super::SIGNED_MEAN_PRESSURE;
         APPROACH: Optional<f64> = super::APPROACH.elsewhere("unchanged", "as in [contact]; at most one of the three");
         FORCE: Optional<[f64; 2]> = super::IN_PLANE_FORCE.elsewhere("unchanged", "as in [friction], which it requires; at most one of the three");
         DISPLACEMENT: Optional<[f64; 2]> = super::DISPLACEMENT.elsewhere("unchanged", "as in [friction], which it requires; at most one of the three");

@@ -3,6 +3,7 @@
 //! A declaration holds the name, the accepted values, the default, an example and the meaning. The reader of case files,
 //! its messages, the units of study axes and the tables of `docs/input` are derived from it.
 
+pub(in crate::study) mod adhesion;
 pub(in crate::study) mod body;
 pub(in crate::study) mod loading;
 pub(in crate::study) mod hardness;
@@ -138,6 +139,7 @@ pub fn keys() -> &'static [Section] {
         body::upper::SECTION,
         body::coating::SECTION,
         loading::contact::SECTION,
+        adhesion::SECTION,
         moving::motion::SECTION,
         loading::friction::SECTION,
         results::subsurface::SECTION,

@@ -28,6 +28,7 @@ section! { &[], "";
         Absent("none"),
         "volume below the surface in which bodies deform plastically",
     );
+    ADHESION: Nested = table("adhesion", Absent("none"), "attraction between the bodies");
     SUBSURFACE: Nested = table("subsurface", Absent("none"), "stress below the surface");
     CONDUCTANCE: Nested = table("conductance", Absent("none"), "thermal or electrical conductance of the contacts");
     FLOW: Nested = table("flow", Absent("none"), "flow of a fluid through the gap");

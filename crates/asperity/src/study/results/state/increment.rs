@@ -17,6 +17,9 @@ pub(in crate::study) fn add(file: &mut FieldFile, state: &LoadingState) {
     add("pressure", "Pa", &normal.pressure);
     add("displacement", "m", &normal.displacement);
     add("deepest", "m", &state.flattening.deepest);
+    if let CellValues::Field(lower) = normal.bounds.lower() {
+        add("least_pressure", "Pa", lower);
+    }
     if let Some(kept) = &state.flattening.kept {
         add("kept", "m", kept);
     }
@@ -64,6 +67,10 @@ pub(in crate::study) fn read(
     let bounds = match stored.holds("cap") {
         true => Bounds::up_to(stored.field("cap")?),
         false => pair.bounds(&pair.at_rest(), None),
+    };
+    let bounds = match stored.holds("least_pressure") {
+        true => bounds.above(stored.field("least_pressure")?),
+        false => bounds,
     };
     let normal = Solution {
         grid: pair.lower_grid(),

@@ -1,5 +1,6 @@
 //! Readers of values of special forms, and their words.
 
+pub(in crate::study::case) mod adhesion;
 pub(in crate::study::case) mod contact;
 pub(in crate::study::case) mod hardness;
 pub(in crate::study::case) mod motion;

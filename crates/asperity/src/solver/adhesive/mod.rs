@@ -1,0 +1,272 @@
+//! The contact of bodies that attract each other across their gap.
+//!
+//! The lower bound of each pressure is the tension at its gap, which the solution itself determines. Each round solves a contact
+//! with the bounds at the gap of the round before. The energy of the attraction is concave, and lies below its tangents: hence each
+//! round lowers the energy, and the rounds converge to an equilibrium. Without positive influence between cells in the inverse of
+//! the operator, the gaps of all rounds change in one direction, and the equilibrium is the first one that bodies on their way reach.
+//! Rounds are slow near an instability. Newton's iteration then finds the equilibrium towards which they converge.
+
+mod newton;
+#[cfg(test)]
+mod tests;
+
+use ndarray::Zip;
+
+use crate::adhesion::{Adhesion, Potential};
+use crate::error::{Error, Result};
+use crate::grid::{CellValues, Field};
+use crate::operator::Operator;
+use crate::solver::watch::check_stop;
+use crate::solver::{
+    Bounds, Control, Params, Solution, Stats, Watch, residual, self_influence, solve_normal_watched,
+};
+use crate::units::{Metre, Newton};
+
+use newton::NewtonIteration;
+
+/// Tolerance of the contact of a round, as a fraction of the residual of the round before.
+const ROUND_TOLERANCE: f64 = 0.2;
+/// Largest and smallest tolerance of a round; the smallest is a fraction of the tolerance of the solution.
+const ROUND_TOLERANCES: [f64; 2] = [1e-2, 0.3];
+/// Number of rounds after an attempt of Newton's iteration that fails. It doubles with each failure, up to a limit.
+const ROUNDS_AFTER_FAILURE: [usize; 2] = [4, 32];
+
+/// Solves the frictionless contact of a pair of bodies that attract each other: with the tension σ(g) of the `adhesion`,
+///
+/// ```text
+/// g ≥ 0,   −σ(g) ≤ p,   (p + σ(g)) g = 0   where p is below its `upper` bound;   g = h + C p − δ
+/// ```
+///
+/// Cells in contact have g = 0 and p > −σ(0). The answer is an ordinary solution whose lower bounds are the tensions, so that
+/// [`Solution::contact_cells`] and the others mean what they say. Its residual is that of these equations.
+///
+/// There may be several equilibria. Bodies that come from afar, without a `last` solution, reach the one with the largest gaps.
+/// From the `last` solution, the bodies move on to the next equilibrium that is stable under the `control`; only the gap and the
+/// pressure of the `last` solution count. A load may be negative if there is a `last` solution.
+///
+/// # Errors
+/// The errors of [`solve_normal`](crate::solver::solve_normal), [`Error::PullOff`] if no equilibrium carries a load that pulls, and
+/// [`Error::Unsupported`] on several ranks.
+///
+/// # Panics
+/// If a field has another shape than the operator's grid.
+pub fn solve_adhesive(
+    operator: &mut dyn Operator,
+    initial_gap: &Field,
+    adhesion: &Adhesion,
+    upper: &CellValues,
+    control: Control,
+    last: Option<&Solution>,
+    params: &Params,
+) -> Result<Solution> {
+    solve_adhesive_watched(operator, initial_gap, adhesion, upper, control, last, params, &())
+}
+
+/// [`solve_adhesive`] with a watch.
+#[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
+pub(crate) fn solve_adhesive_watched(
+    operator: &mut dyn Operator,
+    initial_gap: &Field,
+    adhesion: &Adhesion,
+    upper: &CellValues,
+    control: Control,
+    last: Option<&Solution>,
+    params: &Params,
+    watch: &dyn Watch,
+) -> Result<Solution> {
+    if !operator.slab().is_whole() {
+        return Err(Error::Unsupported("adhesion is not solved on several ranks"));
+    }
+    let problem = Problem { initial_gap, adhesion, upper, control, params, watch };
+    problem.solve(operator, last)
+}
+
+/// A contact with adhesion to be solved.
+struct Problem<'a> {
+    initial_gap: &'a Field,
+    adhesion: &'a Adhesion,
+    upper: &'a CellValues,
+    control: Control,
+    params: &'a Params,
+    watch: &'a dyn Watch,
+}
+
+impl Problem<'_> {
+    fn solve(&self, operator: &mut dyn Operator, last: Option<&Solution>) -> Result<Solution> {
+        let Self { initial_gap, control, params, .. } = *self;
+        let tolerance = params.tolerance;
+        let influence = self_influence(operator);
+        let mut bounds = match last {
+            Some(last) => self.bounds_at(&last.gap()),
+            None => Bounds::up_to(self.upper.clone()),
+        };
+        let mut start = last.map(|last| last.pressure.clone());
+        let mut stats = Stats::default();
+        let mut eta = 1.0;
+        let mut newton = Attempts::new();
+        let mut changes = Changes::default();
+        loop {
+            check_stop(self.watch)?;
+            if let (Control::Load(load), true) = (control, last.is_some() || stats.iterations > 0) {
+                let held = operator.grid().cell_area() * bounds.lower().sum(initial_gap.len());
+                if load <= held {
+                    return Err(self.pull_off(operator, load, last));
+                }
+            }
+            let [most, least] = ROUND_TOLERANCES;
+            let of_round =
+                Params { tolerance: (ROUND_TOLERANCE * eta).min(most).max(least * tolerance), ..*params };
+            let solution = solve_normal_watched(
+                operator,
+                initial_gap,
+                &bounds,
+                control,
+                start.as_ref(),
+                &of_round,
+                self.watch,
+            )?;
+            stats = stats.and(&solution.stats);
+            let gap = solution.gap();
+            let next = self.bounds_at(&gap);
+            let Solution { pressure, displacement, approach, .. } = &solution;
+            let state = residual(pressure, displacement, initial_gap, &next, influence, Some(*approach));
+            eta = state.eta.max(solution.residual);
+            if eta < tolerance {
+                let bounds = self.bounds_of(&solution, &gap, influence);
+                return Ok(Solution { bounds, residual: eta, stats, ..solution });
+            }
+            if stats.convolutions >= params.max_convolutions as f64 {
+                return Err(Error::NotConverged { iterations: stats.iterations, residual: eta, tolerance });
+            }
+            let left = changes.after(&gap);
+            if let Some(left) = left.filter(|_| newton.is_due() && self.is_smooth()) {
+                let mut attempt = NewtonIteration::new(operator, self, influence, &solution);
+                let found = attempt.solve(operator, &gap, left)?;
+                stats = stats.and(&attempt.stats);
+                newton.record(found.is_some());
+                if let Some((pressure, gap)) = found {
+                    bounds = self.bounds_at(&gap);
+                    start = Some(pressure);
+                    changes = Changes::default();
+                    continue;
+                }
+            }
+            bounds = next;
+            start = Some(solution.pressure);
+        }
+    }
+
+    /// Returns the bounds of the pressures at a gap.
+    fn bounds_at(&self, gap: &Field) -> Bounds {
+        Bounds::up_to(self.upper.clone()).above(gap.mapv(|g| -self.adhesion.tension(g)))
+    }
+
+    /// Returns the bounds of a solution: the pressure itself on open cells, which differs from their tension by less than the
+    /// tolerance, and the largest tension on the cells in contact.
+    fn bounds_of(&self, solution: &Solution, gap: &Field, influence: f64) -> Bounds {
+        let closed = -self.adhesion.max_tension();
+        let lower = Zip::from(&solution.pressure).and(gap).map_collect(|p, g| {
+            let is_open = p - g / influence <= -self.adhesion.tension(*g);
+            if is_open { p.min(0.0) } else { closed.min(*p) }
+        });
+        Bounds::up_to(self.upper.clone()).above(lower)
+    }
+
+    /// Whether the tension has a derivative.
+    fn is_smooth(&self) -> bool {
+        self.adhesion.potential == Potential::Exponential
+    }
+
+    /// Creates the error for a load that no equilibrium carries. The bodies are drawn apart from their `last` contact to find the
+    /// least load that adhesion carries.
+    fn pull_off(&self, operator: &mut dyn Operator, load: Newton, last: Option<&Solution>) -> Error {
+        match last.map(|last| self.least_load(operator, last)) {
+            Some(Ok(least)) => Error::PullOff { load, least },
+            Some(Err(error)) => error,
+            None => Error::PullOff { load, least: 0.0 },
+        }
+    }
+
+    /// Returns the least load on the way apart from a contact.
+    fn least_load(&self, operator: &mut dyn Operator, last: &Solution) -> Result<Newton> {
+        let range = self.adhesion.range;
+        let (mut before, mut state, mut step) = (last.clone(), last.clone(), FIRST_STEP * range);
+        let mut least = last.load();
+        while step > LAST_STEP * range {
+            let control = Control::Approach(state.approach - step);
+            let next = Problem { control, ..*self }.solve(operator, Some(&state))?;
+            if next.load() < state.load() {
+                least = least.min(next.load());
+                before = std::mem::replace(&mut state, next);
+                step *= STEP_GROWTH;
+            } else {
+                // The least load may lie before the present state, or between it and the next.
+                state = before.clone();
+                step *= STEP_REDUCTION;
+            }
+        }
+        Ok(least)
+    }
+}
+
+/// First step apart in the search for the pull-off force, in ranges of the attraction.
+const FIRST_STEP: f64 = 0.5;
+/// Step at which the search ends, in ranges.
+const LAST_STEP: f64 = 0.01;
+/// Factor of the step while the load falls.
+const STEP_GROWTH: f64 = 1.4;
+/// Factor of the step when the load rises.
+const STEP_REDUCTION: f64 = 0.4;
+
+/// When to attempt Newton's iteration.
+struct Attempts {
+    /// Rounds to wait.
+    wait: usize,
+    /// Rounds to wait after the next failure.
+    next: usize,
+}
+
+impl Attempts {
+    fn new() -> Self {
+        Self { wait: 0, next: ROUNDS_AFTER_FAILURE[0] }
+    }
+
+    /// Counts a round. Returns whether an attempt is due.
+    fn is_due(&mut self) -> bool {
+        let due = self.wait == 0;
+        self.wait = self.wait.saturating_sub(1);
+        due
+    }
+
+    fn record(&mut self, succeeded: bool) {
+        if !succeeded {
+            self.wait = self.next;
+            self.next = (2 * self.next).min(ROUNDS_AFTER_FAILURE[1]);
+        }
+    }
+}
+
+/// Changes of the gap from round to round.
+#[derive(Default)]
+struct Changes {
+    gap: Option<Field>,
+    /// Largest change of the last round.
+    change: Metre,
+}
+
+impl Changes {
+    /// Takes the gap after a round. Returns the largest change that the rounds to come would still cause, if the last changes
+    /// decrease in a geometric series.
+    fn after(&mut self, gap: &Field) -> Option<Metre> {
+        let before = self.gap.replace(gap.clone())?;
+        let change = largest_difference(&before, gap);
+        let last = std::mem::replace(&mut self.change, change);
+        let ratio = change / last;
+        (last > 0.0 && ratio < 1.0).then(|| change * ratio / (1.0 - ratio))
+    }
+}
+
+/// Returns the largest difference between two gaps.
+fn largest_difference(one: &Field, other: &Field) -> Metre {
+    one.iter().zip(other).fold(0.0, |most, (one, other)| f64::max(most, (one - other).abs()))
+}

@@ -1,0 +1,85 @@
+//! `[adhesion]`: the attraction between the bodies.
+
+use serde::{Serialize, Serializer};
+
+use super::Case;
+use super::cursor::Table;
+use super::schema::adhesion as keys;
+use super::schema::tables::known_in;
+use crate::adhesion::{Adhesion, Potential};
+use crate::error::{Error, Result};
+use crate::grid::Grid;
+use crate::units::{Dimension, JoulePerSquareMetre, Metre, Pascal, format};
+
+/// Attraction between the bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct AdhesionSpec {
+    /// Work of adhesion, > 0.
+    pub work: JoulePerSquareMetre,
+    /// Range of the attraction.
+    pub range: AdhesionRange,
+    /// Form of the attraction.
+    pub potential: Potential,
+}
+
+/// Range of the attraction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AdhesionRange {
+    /// A length, > 0.
+    Length(Metre),
+    /// The shortest range that the grid resolves.
+    Grid,
+}
+
+/// The word for the shortest range that the grid resolves.
+pub(super) const GRID: &str = "grid";
+
+impl Serialize for AdhesionRange {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        match self {
+            Self::Length(length) => serializer.serialize_f64(*length),
+            Self::Grid => serializer.serialize_str(GRID),
+        }
+    }
+}
+
+pub(super) fn adhesion(table: &Table<'_>) -> Result<AdhesionSpec> {
+    known_in(table)?;
+    Ok(AdhesionSpec {
+        work: keys::WORK.of(table)?,
+        range: keys::RANGE.of(table)?,
+        potential: keys::POTENTIAL.of(table)?,
+    })
+}
+
+/// Largest range of the attraction, as a fraction of the shorter side of the grid.
+const MAX_RANGE: f64 = 0.1;
+
+impl Case {
+    /// Returns the attraction of bodies with this composite modulus on a `grid`; `None` without adhesion.
+    ///
+    /// # Errors
+    /// [`Error::Case`] for a range above a tenth of the grid.
+    pub(in crate::study) fn attraction(&self, grid: &Grid, modulus: Pascal) -> Result<Option<Adhesion>> {
+        let Some(AdhesionSpec { work, range, potential }) = self.adhesion else { return Ok(None) };
+        let range = match range {
+            AdhesionRange::Length(range) => range,
+            AdhesionRange::Grid => Adhesion::grid_range(work, modulus, grid.pitch[0].max(grid.pitch[1])),
+        };
+        let most = MAX_RANGE * grid.extent()[0].min(grid.extent()[1]);
+        if range > most {
+            return Err(self.too_long(range, most));
+        }
+        Ok(Some(Adhesion::new(work, range)?.with_potential(potential)))
+    }
+
+    fn too_long(&self, range: Metre, most: Metre) -> Error {
+        let [range, most] = [range, most].map(|length| format(length, Dimension::Length));
+        self.error_at(
+            "adhesion.range",
+            format!("the attraction has a range of {range}, more than a tenth of the grid, {most}"),
+            Some("a range is some nanometres; take a larger grid for a longer one".to_owned()),
+        )
+    }
+}

@@ -1,0 +1,32 @@
+//! The keys of `[adhesion]`.
+
+use super::Bounds::AboveZero;
+use super::typed::{Typed, choice, defaulted, other, quantity, required, section};
+use crate::adhesion::Potential;
+use crate::study::case::AdhesionRange;
+use crate::study::case::schema::values::adhesion as read;
+use crate::units::Dimension;
+
+section! { &["adhesion"], "";
+    WORK: Typed<f64> = required(
+        "work",
+        quantity(Dimension::SurfaceEnergy, AboveZero),
+        "\"50 mJ/m2\"",
+        "work of adhesion: the energy that separates an area of flat surfaces",
+    );
+    RANGE: Typed<AdhesionRange> = required(
+        "range",
+        other(Some(Dimension::Length), "length > 0, or `\"grid\"`: the shortest range that the grid resolves", |_, entry| {
+            read::range(entry)
+        }),
+        "\"2 nm\"",
+        "range of the attraction, the gap at which the exponential tension has fallen to 1/e",
+    );
+    POTENTIAL: Typed<Potential> = defaulted(
+        "potential",
+        choice::<Potential>(),
+        "\"exponential\"",
+        "\"dugdale\"",
+        "tension as a function of the gap: `\"exponential\"`, or constant up to the range, for comparison with closed forms",
+    );
+}
