@@ -1,5 +1,6 @@
 //! Contacts of bodies that may attract each other.
 
+use crate::choice::choice;
 use crate::error::Result;
 use crate::grid::Field;
 use crate::motion::pair::Pair;
@@ -29,3 +30,16 @@ pub(super) fn press_from(
         }
     }
 }
+
+/// Where bodies that attract each other come from at each position of a pass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AdhesionHistory {
+    /// From afar: positions are independent.
+    #[default]
+    None,
+    /// From the position before, with its displacement: the bodies keep what adheres, and jumps lose energy. Each pass begins from
+    /// afar.
+    Path,
+}
+
+choice!(AdhesionHistory: "none" => None, "path" => Path);

@@ -24,7 +24,7 @@ use crate::units::{CubicMetre, Kelvin, Metre, Newton, Pascal};
 pub struct Contact {
     /// The relative position of the bodies.
     pub position: Position,
-    /// Flat cells with p > 0 and their pressure, Pa.
+    /// Flat cells in contact and their pressure, Pa: with p > 0, or with p > −σ(0) where the bodies attract each other.
     pub pressure: Vec<(u32, Pascal)>,
     /// Flat cells at the hardness and their plastic interference w, m.
     pub plastic: Vec<(u32, Metre)>,
@@ -34,6 +34,8 @@ pub struct Contact {
     /// Gap of all cells, m, where an output asks for it ([`crate::motion::Simulation::keeping_gaps`]): below 0 by up to the plastic
     /// interference on cells at the hardness.
     pub gap: Option<Arc<Field>>,
+    /// Attraction of the bodies; `None` without adhesion.
+    pub adhesion: Option<AdhesionRecord>,
     /// Load W = ΔA Σ p, N.
     pub load: Newton,
     /// Friction force Q = ΔA Σ q along x of the upper body on the lower one.
@@ -47,7 +49,8 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// Solves the contact of `pair` at `position`, in gross slip if there is friction, from the pressure `start` if given.
+    /// Solves the contact of `pair` at `position`, in gross slip if there is friction, from the pressure `start` if given. Bodies that
+    /// attract each other come from the contact `last` on the same grid, or from afar.
     #[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
     pub(super) fn solve(
         pair: &Pair,
@@ -56,6 +59,7 @@ impl Contact {
         sliding: Option<&Sliding>,
         control: Control,
         start: Option<&Field>,
+        last: Option<&Solution>,
         params: &Params,
         watch: &dyn Watch,
     ) -> Result<(Self, Solution)> {
@@ -64,6 +68,11 @@ impl Contact {
         let shape = [position.columns, gap.ncols()];
         let bounds = pair.bounds(&position, sliding.map(|sliding| &sliding.friction));
         let solution = match sliding {
+            _ if pair.adhesion().is_some() => {
+                let last = last.map(|last| Solution { initial_gap: gap.clone(), ..last.clone() });
+                let mut operator = operators.on(shape);
+                press_from(pair, operator.as_mut(), &gap, &bounds, control, last.as_ref(), params, watch)?
+            }
             Some(sliding) if sliding.shear_displaces_normally(pair.couples()) => {
                 let mut operator = operators.coupled_on(shape);
                 solve_sliding(operator.as_mut(), &gap, &bounds, sliding, control, start, params, watch)?
@@ -74,7 +83,12 @@ impl Contact {
                 solve_normal_watched(operator.as_mut(), &gap, &bounds, control, start, params, watch)?
             }
         };
-        Ok((Self::new(position, sliding, &solution), solution))
+        let mut contact = Self::new(position, sliding, &solution);
+        contact.adhesion = pair.adhesion().map(|adhesion| {
+            let record = AdhesionRecord::of(adhesion, &solution);
+            last.map_or(record, |last| record.since(adhesion, &solution, last))
+        });
+        Ok((contact, solution))
     }
 
     /// Keeps the gap of the `solution`, if it is `wanted`.
@@ -106,6 +120,7 @@ impl Contact {
             plastic: Vec::new(),
             temperature: None,
             gap: None,
+            adhesion: None,
             load,
             tangential_force: 0.0,
             approach,
@@ -135,6 +150,7 @@ impl Contact {
             plastic,
             temperature: None,
             gap: None,
+            adhesion: None,
             load: solution.load(),
             approach: solution.approach,
             residual: solution.residual,
@@ -217,6 +233,7 @@ impl Contact {
             convolutions: self.stats.convolutions,
             residual: self.residual,
             heat: None,
+            adhesion: self.adhesion,
             flow: None,
         }
     }

@@ -31,6 +31,7 @@ impl Solver<'_> {
         params: &Params,
     ) -> Result<Vec<Contact>> {
         let pair = &outcome.pair;
+        pair.check_no_adhesion()?;
         let positions = self.positions.len();
         let control = match (self.motion.control, self.motion.load_control) {
             (Control::Load(_), LoadControl::Step) if positions > 1 => {

@@ -176,7 +176,8 @@ pub(super) fn sums(
         let [lower, upper] = placements.map(|placement| -> Vec<u32> {
             contact.pressure.iter().map(|(cell, _)| placement.cell(*cell as usize) as u32).collect()
         });
-        let pressure: Vec<Pascal> = contact.pressure.iter().map(|(_, p)| *p).collect();
+        // Laws count pressure alone, not the tension of adhesion.
+        let pressure: Vec<Pascal> = contact.pressure.iter().map(|(_, p)| p.max(0.0)).collect();
         let magnitude = |&p: &Pascal| {
             position_data
                 .sliding

@@ -33,6 +33,7 @@ mod warm_start;
 mod watch;
 mod wear;
 
+pub use adhesive::AdhesionHistory;
 pub use body::{Body, State};
 pub use contact::{Contact, StaticContact, press, press_slab};
 pub use course::{Output, Step};
@@ -60,9 +61,9 @@ pub(crate) use record::lost_volumes::{ENDINGS, is_volume_of_law};
 #[cfg(feature = "study")]
 pub(crate) use record::number::known_or_none;
 pub use record::{
-    AdhesionRecord, Column, FlowRecord, FlowStepRecord, HeatRecord, IncrementRecord, LostVolume,
-    PassFlowRecord, PassRecord, Presence, Regime, ResidualRecord, RunningRecord, ShearRecord, StaticRecord,
-    StepRecord, SweepRecord, UpdateRecord,
+    AdhesionPassRecord, AdhesionRecord, Column, FlowRecord, FlowStepRecord, HeatRecord, IncrementRecord,
+    LostVolume, PassFlowRecord, PassRecord, Presence, Regime, ResidualRecord, RunningRecord, ShearRecord,
+    StaticRecord, StepRecord, SweepRecord, UpdateRecord,
 };
 pub use report::PassReport;
 pub use rim::Interior;
@@ -185,6 +186,8 @@ pub struct Motion {
     pub path: Path,
     /// Offset of the passes along y. An offset other than 0 needs a boundary periodic along y.
     pub offset_y: OffsetY,
+    /// Where bodies that attract each other come from at each position.
+    pub adhesion_history: AdhesionHistory,
 }
 
 impl Motion {
@@ -204,6 +207,7 @@ impl Motion {
             bulk: None,
             path: Path::OneWay,
             offset_y: OffsetY::NONE,
+            adhesion_history: AdhesionHistory::None,
         }
     }
 
@@ -279,6 +283,12 @@ impl Motion {
         Self { offset_y, ..self }
     }
 
+    /// Sets where bodies that attract each other come from at each position.
+    #[must_use]
+    pub const fn with_adhesion_history(self, adhesion_history: AdhesionHistory) -> Self {
+        Self { adhesion_history, ..self }
+    }
+
     /// Returns the positions of a `pass`, from 1, for a lower and an upper body of `columns` columns, `width` cells across.
     ///
     /// One-way passes by a shift continue from one another: the slower surface starts where the pass before left it.
@@ -315,7 +325,8 @@ impl Motion {
     /// Returns how many of the `positions` of a pass must be solved, the first ones. If the bodies do not change, the
     /// return stroke repeats the contacts of the forward stroke, unless friction displaces the surfaces normally.
     pub(crate) fn distinct(&self, positions: usize, yields: bool, couples: bool) -> usize {
-        let stays = self.plastic_update == PlasticUpdate::Pass || !yields;
+        let follows = self.adhesion_history == AdhesionHistory::Path;
+        let stays = (self.plastic_update == PlasticUpdate::Pass || !yields) && !follows;
         let pushed =
             self.sliding(Stroke::Forth).is_some_and(|sliding| sliding.shear_displaces_normally(couples));
         if self.path == Path::Reciprocating && stays && !pushed { positions / 2 } else { positions }

@@ -14,9 +14,9 @@ use crate::motion::plastic_volume::ElastoPlasticPass;
 use crate::motion::record::LostVolume;
 use crate::motion::rim::Interior;
 use crate::motion::watch::{Progress, Watch};
-use crate::motion::{Motion, PlasticUpdate};
+use crate::motion::{AdhesionHistory, Motion, PlasticUpdate};
 use crate::operator::Operators;
-use crate::solver::{Control, Params};
+use crate::solver::{Control, Params, Solution};
 use crate::units::Newton;
 
 /// A pass at one prescribed load or approach: its contacts and the pair. The laws still have to change the pair, unless the
@@ -55,6 +55,8 @@ pub(super) struct Solver<'a> {
     pub(super) progress: Progress,
 }
 
+/// Interval of the positions whose dependence on the position before is checked.
+const SAMPLED: usize = 8;
 /// Largest number of convolutions spent on a rough solution.
 const MAX_ROUGH_CONVOLUTIONS: usize = 300;
 
@@ -79,6 +81,52 @@ impl Solver<'_> {
         self.solve(pair, control, params, earlier)
     }
 
+    /// Whether each position begins with the contact at the position before.
+    fn follows(&self, pair: &Pair) -> bool {
+        pair.adhesion().is_some() && self.motion.adhesion_history == AdhesionHistory::Path
+    }
+
+    /// Returns the largest difference between the loads of a pass and those of bodies that come from the position before, over the mean
+    /// of |W|. It solves every eighth position again, and the one before it.
+    ///
+    /// # Errors
+    /// The errors of the contacts.
+    pub(super) fn history_difference(&self, pass: &Pass, params: &Params) -> Result<f64> {
+        let loads = pass.contacts[..self.positions.len()].iter().map(|contact| contact.load.abs());
+        let mean = loads.sum::<f64>() / self.positions.len() as f64;
+        let is_sampled = |index: &usize| {
+            let columns = |index: usize| self.positions[index].columns;
+            *index > 0 && index.is_multiple_of(SAMPLED) && columns(*index) == columns(index - 1)
+        };
+        let sampled: Vec<usize> = (0..self.positions.len()).filter(is_sampled).collect();
+        let difference = |index: usize| {
+            let pair = &pass.pair;
+            let solve = |index: usize, last: Option<&Solution>| {
+                let position = self.positions[index];
+                let sliding = self.motion.sliding(position.stroke);
+                let control = Control::Approach(pass.contacts[index].approach);
+                let sliding = sliding.as_ref();
+                Contact::solve(
+                    pair,
+                    self.operators,
+                    position,
+                    sliding,
+                    control,
+                    None,
+                    last,
+                    params,
+                    self.watch,
+                )
+            };
+            let (_, before) = solve(index - 1, None)?;
+            let (contact, _) = solve(index, Some(&before))?;
+            Ok((contact.load - pass.contacts[index].load).abs())
+        };
+        let differences: Vec<Newton> = sampled.into_par_iter().map(difference).collect::<Result<_>>()?;
+        let largest = differences.into_iter().fold(0.0, f64::max);
+        Ok(if mean > 0.0 { largest / mean } else { 0.0 })
+    }
+
     /// Solves all positions, starting from the contacts of up to two earlier trials at the same positions, latest first.
     pub(super) fn solve(
         &self,
@@ -88,7 +136,7 @@ impl Solver<'_> {
         earlier: &[Vec<Contact>],
     ) -> Result<Pass> {
         let solved = AtomicUsize::new(0);
-        let solve = |pair: &Pair, index: usize| {
+        let solve = |pair: &Pair, index: usize, last: Option<&Solution>| {
             if self.watch.stop() {
                 return Err(Error::Interrupted);
             }
@@ -102,6 +150,7 @@ impl Solver<'_> {
                 sliding.as_ref(),
                 control,
                 start.as_ref(),
+                last,
                 params,
                 self.watch,
             );
@@ -120,7 +169,7 @@ impl Solver<'_> {
             }
             let solved = solved.fetch_add(1, Ordering::Relaxed) + 1;
             self.watch.at(&Progress { solved, load: contact.load, ..self.progress });
-            Ok(contact)
+            Ok((contact, solution))
         };
         let mut after = pair.clone();
         let mut lost: Vec<LostVolume> = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
@@ -128,7 +177,7 @@ impl Solver<'_> {
         if pair.yields() && self.motion.plastic_update == PlasticUpdate::Step {
             let mut contacts = Vec::with_capacity(self.positions.len());
             for index in 0..self.positions.len() {
-                let contact = solve(&after, index)?;
+                let (contact, _) = solve(&after, index, None)?;
                 let (sums, _) =
                     law::sums(self.laws, &after, std::slice::from_ref(&contact), &position_data, None)?;
                 law::advance(self.laws, &mut after, &sums, 1.0, self.interiors, &mut lost);
@@ -136,10 +185,20 @@ impl Solver<'_> {
             }
             return Ok(Pass { contacts, pair: after, lost, has_changed: true, plastic_pass: None });
         }
-        let contacts: Vec<Contact> = (0..self.positions.len())
-            .into_par_iter()
-            .map(|index| solve(pair, index))
-            .collect::<Result<_>>()?;
+        let positions = 0..self.positions.len();
+        let contacts: Vec<Contact> = if self.follows(pair) {
+            let mut last = None;
+            let in_sequence = positions.map(|index| {
+                let (contact, solution) = solve(pair, index, last.as_ref())?;
+                last = Some(solution);
+                Ok(contact)
+            });
+            in_sequence.collect::<Result<_>>()?
+        } else {
+            let alone =
+                positions.into_par_iter().map(|index| solve(pair, index, None).map(|(contact, _)| contact));
+            alone.collect::<Result<_>>()?
+        };
         Ok(Pass { contacts, pair: after, lost, has_changed: false, plastic_pass: None })
     }
 }

@@ -6,9 +6,9 @@ use super::observed::{ConductanceRecord, ElectricalRecord, GapFlowRecord, Therma
 use super::subsurface::SubsurfaceRecord;
 use super::summary::{CONVERGED, RunningIn};
 use crate::motion::{
-    AdhesionRecord, Column, ENDINGS, FlowRecord, FlowStepRecord, HeatRecord, IncrementRecord, PassFlowRecord,
-    PassRecord, Presence, ResidualRecord, RunningRecord, ShearRecord, StaticRecord, StepRecord, SweepRecord,
-    UpdateRecord,
+    AdhesionPassRecord, AdhesionRecord, Column, ENDINGS, FlowRecord, FlowStepRecord, HeatRecord,
+    IncrementRecord, PassFlowRecord, PassRecord, Presence, ResidualRecord, RunningRecord, ShearRecord,
+    StaticRecord, StepRecord, SweepRecord, UpdateRecord,
 };
 use crate::units::Dimension;
 
@@ -16,11 +16,12 @@ use crate::units::Dimension;
 ///
 /// `Converged` holds the additional columns of `static` in `summary.json`. `Table` holds the columns of the table of a
 /// study other than its axes and the numbers of the records.
-pub const RECORDS: [(&str, &[Column]); 24] = [
+pub const RECORDS: [(&str, &[Column]); 25] = [
     ("StaticRecord", StaticRecord::OWN_COLUMNS),
     ("Converged", &[CONVERGED]),
     ("ShearRecord", ShearRecord::OWN_COLUMNS),
     ("AdhesionRecord", AdhesionRecord::OWN_COLUMNS),
+    ("AdhesionPassRecord", AdhesionPassRecord::OWN_COLUMNS),
     ("AdhesionSummary", AdhesionSummary::OWN_COLUMNS),
     ("FlowRecord", FlowRecord::OWN_COLUMNS),
     ("ResidualRecord", ResidualRecord::OWN_COLUMNS),

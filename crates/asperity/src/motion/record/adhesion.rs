@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::columns::columns;
 use crate::adhesion::Adhesion;
 use crate::solver::Solution;
-use crate::units::{Joule, Newton, Pascal};
+use crate::units::{Joule, Metre, Newton, Pascal};
 
 columns! {
     /// Attraction of the bodies in a contact with adhesion.
@@ -18,15 +18,50 @@ columns! {
         pub min_pressure: Pascal,
         /// Energy of the attraction, ΔA Σ v(g): −w for each area in contact, 0 far apart.
         pub adhesion_energy: Joule,
-        /// Energy lost in jumps, the work ∫ W dδ minus the energy stored, by the trapezoidal rule; 0 for bodies that come from afar.
+        /// Energy lost in jumps: the work done minus the energy stored, by the trapezoidal rule; 0 for bodies that come from afar.
         pub energy_lost: Joule,
-        /// Number of jumps: increments that lose more than 1 % of the energy.
+        /// Number of jumps: increments, or positions, that lose more than 1 % of the energy.
         pub jumps: usize,
     }
 }
 
-/// Energy loss of an increment that counts as a jump, relative to the elastic energy and the energy of the attraction.
+columns! {
+    /// Attraction of the bodies in a pass.
+    #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+    #[non_exhaustive]
+    pub struct AdhesionPassRecord {
+        /// Mean over the positions of the force of the tension on the open cells.
+        pub mean_adhesive_load: Newton,
+        /// Energy lost in the jumps of the pass; 0 if the bodies come from afar at each position.
+        pub energy_lost: Joule,
+        /// Number of positions that jump.
+        pub jumps: usize,
+        /// Drag by adhesion: the energy lost over the distance slid.
+        pub adhesive_drag: Newton,
+        /// Largest difference between the load of a position from afar and that of bodies that come from the position before, over the mean
+        /// of |W|; of every eighth position. 0 with `history = "path"`.
+        pub history_difference: f64,
+    }
+}
+
+/// Energy loss that counts as a jump, relative to the elastic energy and the energy of the attraction.
 const JUMP: f64 = 0.01;
+
+/// Energy of a contact with adhesion.
+#[derive(Clone, Copy)]
+struct Stored {
+    /// Elastic energy and energy of the attraction.
+    energy: Joule,
+    /// The sum of their magnitudes.
+    size: Joule,
+}
+
+impl Stored {
+    fn of(solution: &Solution, record: &AdhesionRecord) -> Self {
+        let elastic = solution.elastic_energy();
+        Self { energy: elastic + record.adhesion_energy, size: elastic.abs() + record.adhesion_energy.abs() }
+    }
+}
 
 impl AdhesionRecord {
     /// Creates the record of a contact whose bodies come from afar.
@@ -49,20 +84,25 @@ impl AdhesionRecord {
         }
     }
 
-    /// Adds the energy lost since the contact `before`.
+    /// Adds the energy lost since the contact `before` of the same bodies.
+    ///
+    /// The work is ½(W₀ + W₁)(δ₁ − δ₀), and that of a change of the gap h by the motion, −½ΔA Σ (p₀ + p₁)(h₁ − h₀).
     pub(in crate::motion) fn since(
         self,
         adhesion: &Adhesion,
         solution: &Solution,
         before: &Solution,
     ) -> Self {
-        let stored = |solution: &Solution, record: &Self| solution.elastic_energy() + record.adhesion_energy;
-        let last = Self::of(adhesion, before);
-        let work = 0.5 * (solution.load() + before.load()) * (solution.approach - before.approach);
-        let lost = work - (stored(solution, &self) - stored(before, &last));
-        let size =
-            |solution: &Solution, record: &Self| solution.elastic_energy() + record.adhesion_energy.abs();
-        let jumps = lost > JUMP * size(solution, &self).max(size(before, &last));
+        let moved: Metre = solution.approach - before.approach;
+        let mut work = 0.5 * (solution.load() + before.load()) * moved;
+        let pressures = solution.pressure.iter().zip(&before.pressure);
+        let gaps = solution.initial_gap.iter().zip(&before.initial_gap);
+        let of_motion: f64 = pressures.zip(gaps).map(|((p1, p0), (h1, h0))| (p0 + p1) * (h1 - h0)).sum();
+        work -= 0.5 * solution.grid.cell_area() * of_motion;
+        let now = Stored::of(solution, &self);
+        let then = Stored::of(before, &Self::of(adhesion, before));
+        let lost = work - (now.energy - then.energy);
+        let jumps = lost > JUMP * now.size.max(then.size);
         Self { energy_lost: if jumps { lost } else { 0.0 }, jumps: usize::from(jumps), ..self }
     }
 
@@ -71,6 +111,29 @@ impl AdhesionRecord {
         increments.fold(Self { energy_lost: 0.0, jumps: 0, ..self }, |sum, increment| Self {
             energy_lost: sum.energy_lost + increment.energy_lost,
             jumps: sum.jumps + increment.jumps,
+            ..sum
+        })
+    }
+}
+
+impl AdhesionPassRecord {
+    /// Creates the record of a pass of this sliding `distance` from those of its positions.
+    pub(in crate::motion) fn of<'a>(
+        positions: impl Iterator<Item = &'a AdhesionRecord>,
+        distance: Metre,
+        history_difference: f64,
+    ) -> Option<Self> {
+        let (mut count, mut sum) = (0.0, Self { history_difference, ..Self::default() });
+        for position in positions {
+            count += 1.0;
+            sum.mean_adhesive_load += position.adhesive_load;
+            sum.energy_lost += position.energy_lost;
+            sum.jumps += position.jumps;
+        }
+        let adhesive_drag = if distance > 0.0 { sum.energy_lost / distance } else { 0.0 };
+        (count > 0.0).then(|| Self {
+            mean_adhesive_load: sum.mean_adhesive_load / count,
+            adhesive_drag,
             ..sum
         })
     }

@@ -16,7 +16,7 @@ mod step;
 mod sweep;
 mod update;
 
-pub use adhesion::AdhesionRecord;
+pub use adhesion::{AdhesionPassRecord, AdhesionRecord};
 pub use columns::{Column, Presence};
 pub use flow::{FlowRecord, FlowStepRecord, PassFlowRecord, Regime, ResidualRecord};
 pub use increment::IncrementRecord;

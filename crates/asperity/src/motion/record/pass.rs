@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::adhesion::AdhesionPassRecord;
 use super::columns::columns;
 use super::flow::PassFlowRecord;
 use super::lost_volumes::{self, LostVolume};
@@ -46,6 +47,9 @@ columns! {
         /// Wear, films and heat; none without wear and films.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub running: Option<RunningRecord>,
+        /// Attraction of the bodies; none without adhesion.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub adhesion: Option<AdhesionPassRecord>,
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub flow: Option<PassFlowRecord>,

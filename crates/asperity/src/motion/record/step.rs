@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::adhesion::AdhesionRecord;
 use super::columns::columns;
 use super::flow::FlowStepRecord;
 use super::running::HeatRecord;
@@ -29,9 +30,9 @@ columns! {
         pub load: Newton,
         /// Friction force of the upper body on the lower one along x; 0 without friction.
         pub tangential_force: Newton,
-        /// Area of the cells with p > 0.
+        /// Area of the cells in contact: with p > 0, or with p > −σ(0) where the bodies attract each other.
         pub contact_area: SquareMetre,
-        /// Area of the cells with p > 0 in the interior of both bodies.
+        /// Area of the cells in contact in the interior of both bodies.
         pub contact_area_interior: SquareMetre,
         /// Width of the contact spot with the most cells, in cells: the smaller of its columns and rows.
         pub largest_spot_cells: usize,
@@ -52,6 +53,9 @@ columns! {
         /// Frictional heat; none without a flash temperature.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub heat: Option<HeatRecord>,
+        /// Attraction of the bodies; none without adhesion.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub adhesion: Option<AdhesionRecord>,
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub flow: Option<FlowStepRecord>,

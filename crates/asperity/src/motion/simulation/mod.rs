@@ -17,7 +17,7 @@ use crate::motion::heat::PassHeat;
 use crate::motion::law::Law;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
-use crate::motion::path::{OffsetY, Position};
+use crate::motion::path::{OffsetY, Position, Stroke};
 use crate::motion::plastic_volume::PlasticVolume;
 use crate::motion::record::{RunningRecord, StepRecord};
 use crate::motion::rim::Interior;
@@ -25,7 +25,7 @@ use crate::motion::together::memory_together;
 use crate::motion::volumes::Volumes;
 use crate::motion::warm_start::WarmStart;
 use crate::motion::watch::{Progress, Watch};
-use crate::motion::{Motion, PlasticUpdate, Strategy, check_limit};
+use crate::motion::{AdhesionHistory, Motion, PlasticUpdate, Strategy, check_limit};
 use crate::operator::{Boundary, Operators};
 use crate::plasticity::{FlowParams, PlasticBody, PlasticState};
 use crate::solver::{Control, Coupling, Params};
@@ -80,13 +80,23 @@ impl Simulation {
         let distinct = motion.distinct(positions.len(), pair.yields(), pair.couples());
         let columns: Vec<usize> = positions[..distinct].iter().map(|p| p.columns).collect();
         let largest = pair.grid(pair.lower.columns().min(pair.upper.columns()));
-        pair.check_no_adhesion()?;
+        if pair.adhesion().is_some() {
+            let follows = motion.adhesion_history == AdhesionHistory::Path;
+            if follows && motion.strategy == Strategy::Overlap {
+                return Err(Error::Unsupported("adhesion follows the path of the bodies only in a shift"));
+            }
+            if motion.sliding(Stroke::Forth).is_some_and(|s| s.shear_displaces_normally(pair.couples())) {
+                return Err(Error::Unsupported(
+                    "adhesion is not solved together with shear that displaces the bodies normally",
+                ));
+            }
+        }
         let operators = pair.operators(largest, boundary)?;
         if motion.friction.is_some_and(|friction| friction.coupling != Coupling::None) {
             pair.check_shear()?;
         }
-        let together =
-            memory_together(&motion, params.method, pair.yields(), &columns, pair.lower.width()).is_some();
+        let together = pair.adhesion().is_none()
+            && memory_together(&motion, params.method, pair.yields(), &columns, pair.lower.width()).is_some();
         Ok(Self {
             together,
             gaps: vec![false; positions.len()],
@@ -114,7 +124,8 @@ impl Simulation {
     /// If the number of positions in `warm` differs from that of the solved positions of a pass, or if it has any although
     /// passes do not repeat.
     pub fn resumed(self, passes: usize, warm: WarmStart) -> Self {
-        let kept = if self.repeats() && self.volumes.is_none() { self.distinct } else { 0 };
+        let begins_alone = self.volumes.is_some() || self.pair.adhesion().is_some();
+        let kept = if self.repeats() && !begins_alone { self.distinct } else { 0 };
         assert_eq!(warm.positions.len(), kept, "positions of the warm start");
         let mut resumed = Self { passes_done: passes, warm, ..self };
         resumed.positions = resumed.next_positions();
@@ -356,6 +367,7 @@ impl Simulation {
         let (mut outcome, guess, trials) = self.solve_pass(&before, watch)?;
         let hardness = [&before.lower, &before.upper].map(|body| body.hardness.clone());
         drop(before);
+        let history_difference = self.history_difference(&outcome, watch)?;
         self.come_back(&mut outcome.contacts);
         let wear = self.solve_with_wear(&mut outcome, watch)?;
         let displaced = self.motion.offset_y != OffsetY::NONE;
@@ -375,6 +387,7 @@ impl Simulation {
         let represented = self.represented() + running.map_or(1, |running: RunningRecord| running.represents);
         let interiors = self.interiors.clone();
         let wall_time = began.elapsed().as_secs_f64();
+        let distance = self.motion.sliding_distance(self.pair.pitch()[0]) * steps.len() as f64;
         Ok(SolvedPass {
             outcome,
             hardness,
@@ -386,7 +399,20 @@ impl Simulation {
             running,
             extrapolation,
             represented,
+            history_difference,
+            distance,
         })
+    }
+
+    /// Returns how much the loads of a pass of bodies with adhesion depend on the position before; 0 if they follow it.
+    fn history_difference(&self, outcome: &Pass, watch: &dyn Watch) -> Result<f64> {
+        let is_alone = self.motion.adhesion_history == AdhesionHistory::None;
+        match self.pair.adhesion() {
+            Some(_) if is_alone && !outcome.has_changed => {
+                self.solver(watch).history_difference(outcome, &self.params)
+            }
+            _ => Ok(0.0),
+        }
     }
 
     /// Adds the contacts of the return stroke to the solved ones, if they are the same.
@@ -416,8 +442,8 @@ impl Simulation {
         let SolvedPass { outcome, hardness, steps, guess, extrapolation, represented, .. } = pass;
         // Without repetition the next pass begins from zero.
         let (guess, again) = match self.repeats() {
-            // Each pass of elasto-plastic bodies begins with separated bodies.
-            true if self.volumes.is_some() => (guess, &[][..]),
+            // Each pass of elasto-plastic bodies, and of bodies with adhesion, begins with separated bodies.
+            true if self.volumes.is_some() || self.pair.adhesion().is_some() => (guess, &[][..]),
             true => (guess, &outcome.contacts[..self.distinct]),
             false => (None, &[][..]),
         };

@@ -29,7 +29,9 @@ impl Simulation {
             (control, ..) => return Ok((solver.solve(pair, control, &self.params, &earlier)?, None, 1)),
         };
         // Plastic flow takes most of the time of a trial, so rough contacts would save nothing.
-        let roughest = if self.volumes.is_some() { self.params.tolerance } else { MAX_RESIDUAL };
+        // Rough contacts of bodies with adhesion may be in another state.
+        let exact = self.volumes.is_some() || pair.adhesion().is_some();
+        let roughest = if exact { self.params.tolerance } else { MAX_RESIDUAL };
         let mut residual = roughest;
         let mut guess = self.warm.guess;
         if self.together {
@@ -99,8 +101,18 @@ impl Simulation {
         let solve = |load: Newton, start: Option<&Contact>| {
             let start = start.map(|c| c.pressure_field(pair.lower.width()));
             let control = Control::Load(load);
-            Contact::solve(pair, &self.operators, *fullest, None, control, start.as_ref(), &params, watch)
-                .map(|(contact, _)| contact)
+            Contact::solve(
+                pair,
+                &self.operators,
+                *fullest,
+                None,
+                control,
+                start.as_ref(),
+                None,
+                &params,
+                watch,
+            )
+            .map(|(contact, _)| contact)
         };
         let (less, more) = ((load * share).min(0.9 * limit), (1.2 * load * share).min(0.95 * limit));
         let scale = height_scale(pair);

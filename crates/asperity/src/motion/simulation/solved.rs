@@ -8,11 +8,11 @@ use crate::motion::law;
 use crate::motion::pair::Pair;
 use crate::motion::pass::Pass;
 use crate::motion::plastic_volume::PlasticVolume;
-use crate::motion::record::{LostVolume, PassRecord, RunningRecord, StepRecord};
+use crate::motion::record::{AdhesionPassRecord, LostVolume, PassRecord, RunningRecord, StepRecord};
 use crate::motion::report::PassReport;
 use crate::motion::rim::Interior;
 use crate::motion::warm_start::{Guess, WarmStart};
-use crate::units::Second;
+use crate::units::{Metre, Second};
 
 /// A solved pass that is not yet [finished](super::Simulation::finish).
 pub struct SolvedPass {
@@ -28,6 +28,10 @@ pub struct SolvedPass {
     pub(super) extrapolation: Option<LastExtrapolation>,
     /// Finished passes of the motion, this one and its extrapolation included.
     pub(super) represented: usize,
+    /// Largest change of the load of a position if the bodies come from the position before, relative to the mean load.
+    pub(super) history_difference: f64,
+    /// Sliding distance of the pass.
+    pub(super) distance: Metre,
 }
 
 impl SolvedPass {
@@ -58,6 +62,11 @@ impl SolvedPass {
             outer_iterations: self.trials,
             wall_time_s: self.wall_time,
             running: self.running,
+            adhesion: AdhesionPassRecord::of(
+                self.steps.iter().filter_map(|step| step.adhesion.as_ref()),
+                self.distance,
+                self.history_difference,
+            ),
             flow: self.outcome.plastic_pass.as_ref().map(|pass| pass.record),
             ..record
         }
@@ -127,6 +136,7 @@ fn summarise(outcome: &Pass, interiors: &[Interior; 2], steps: &[StepRecord]) ->
         max_pressure: most(|s| s.max_pressure),
         lost: outcome.lost.clone(),
         running: None,
+        adhesion: None,
         flow: None,
         sq_lower: pair.lower.heights.std(0.0),
         sq_upper: pair.upper.heights.std(0.0),

@@ -93,7 +93,7 @@ fn random_contact(random: &mut ChaCha8Rng, cells: [usize; 2]) -> Random {
     };
     let mut gap = Field::zeros(shape);
     for wave in 1..=3 {
-        let size = random.random_range(0.1..0.5) / f64::from(wave);
+        let size = random.random_range(0.02..0.2) / f64::from(wave);
         let phases: [f64; 2] = [0.0; 2].map(|_| random.random_range(0.0..6.3));
         gap.indexed_iter_mut().for_each(|((i, j), h)| {
             let x = std::f64::consts::TAU * f64::from(wave) * i as f64 / shape[0] as f64 + phases[0];
@@ -101,7 +101,7 @@ fn random_contact(random: &mut ChaCha8Rng, cells: [usize; 2]) -> Random {
             *h += size * (x.cos() + y.cos() + (x + y).sin());
         });
     }
-    gap.iter_mut().for_each(|h| *h += random.random_range(0.0..0.02));
+    gap.iter_mut().for_each(|h| *h += random.random_range(0.0..0.01));
     let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
     gap -= lowest;
     let mean = gap.mean().unwrap();
@@ -111,7 +111,7 @@ fn random_contact(random: &mut ChaCha8Rng, cells: [usize; 2]) -> Random {
     let adhesion = Adhesion::new(range * range / (std::f64::consts::PI * zone), range).unwrap();
     let upper =
         if random.random_bool(0.2) { CellValues::Uniform(random.random_range(0.05..0.3)) } else { ELASTIC };
-    let approach = mean * random.random_range(-0.5..0.6);
+    let approach = mean * random.random_range(-1.0..0.5);
     Random { operator, gap, adhesion, upper, approaches: [approach, 0.95 * mean] }
 }
 

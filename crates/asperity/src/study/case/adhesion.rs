@@ -9,6 +9,7 @@ use super::schema::tables::known_in;
 use crate::adhesion::{Adhesion, Potential};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
+use crate::motion::AdhesionHistory;
 use crate::units::{Dimension, JoulePerSquareMetre, Metre, Pascal, format};
 
 /// Attraction between the bodies.
@@ -21,6 +22,9 @@ pub struct AdhesionSpec {
     pub range: AdhesionRange,
     /// Form of the attraction.
     pub potential: Potential,
+    /// Where the bodies come from at each position of a motion.
+    #[serde(skip_serializing_if = "is_none")]
+    pub history: AdhesionHistory,
 }
 
 /// Range of the attraction.
@@ -50,6 +54,7 @@ pub(super) fn adhesion(table: &Table<'_>) -> Result<AdhesionSpec> {
         work: keys::WORK.of(table)?,
         range: keys::RANGE.of(table)?,
         potential: keys::POTENTIAL.of(table)?,
+        history: keys::HISTORY.of(table)?,
     })
 }
 
@@ -62,7 +67,7 @@ impl Case {
     /// # Errors
     /// [`Error::Case`] for a range above a tenth of the grid.
     pub(in crate::study) fn attraction(&self, grid: &Grid, modulus: Pascal) -> Result<Option<Adhesion>> {
-        let Some(AdhesionSpec { work, range, potential }) = self.adhesion else { return Ok(None) };
+        let Some(AdhesionSpec { work, range, potential, .. }) = self.adhesion else { return Ok(None) };
         let range = match range {
             AdhesionRange::Length(range) => range,
             AdhesionRange::Grid => Adhesion::grid_range(work, modulus, grid.pitch[0].max(grid.pitch[1])),
@@ -82,4 +87,8 @@ impl Case {
             Some("a range is some nanometres; take a larger grid for a longer one".to_owned()),
         )
     }
+}
+
+fn is_none(history: &AdhesionHistory) -> bool {
+    *history == AdhesionHistory::None
 }

@@ -51,7 +51,7 @@ use crate::error::{Error, Result};
 use crate::io::regular;
 use crate::material::{Coating, Material};
 use crate::motion::{
-    Acceleration, LoadControl, Motion, OffsetY, Path as MotionPath, PlasticUpdate, Strategy,
+    Acceleration, AdhesionHistory, LoadControl, Motion, OffsetY, Path as MotionPath, PlasticUpdate, Strategy,
 };
 pub use crate::operator::{Boundary, Edge};
 use crate::solver::Control;
@@ -274,6 +274,7 @@ impl MotionSpec {
             bulk: None,
             path: self.path,
             offset_y: self.offset_y,
+            adhesion_history: AdhesionHistory::None,
         }
     }
 }
@@ -384,6 +385,7 @@ impl Case {
         Some(Motion {
             friction: self.friction.as_ref().map(|friction| friction.law),
             bulk: self.temperature.map(|temperature| temperature.bulk),
+            adhesion_history: self.adhesion.map(|adhesion| adhesion.history).unwrap_or_default(),
             ..self.motion?.under(self.contact.prescribed.control(apparent_area))
         })
     }

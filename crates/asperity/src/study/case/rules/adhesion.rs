@@ -3,6 +3,8 @@
 use super::super::Prescribed;
 use super::Rule;
 use super::examples::{AT_ANY_SPEED, FLOWS, RUBS, SLIDES, VOLUME};
+use crate::motion::AdhesionHistory;
+use crate::solver::Coupling;
 
 /// Bodies that attract each other.
 const STICKS: &str = r#"adhesion = { work = "50 mJ/m2", range = "2 nm" }"#;
@@ -10,21 +12,61 @@ const STICKS: &str = r#"adhesion = { work = "50 mJ/m2", range = "2 nm" }"#;
 pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[adhesion]",
-        with: "[motion]",
-        message: "[adhesion] applies to a static contact only",
-        hint: "leave [adhesion] or [motion] out",
-        at: "adhesion",
-        example: &[STICKS, AT_ANY_SPEED],
-        broken: |tables| tables.at("adhesion").filter(|_| tables.case.motion.is_some()),
-    },
-    Rule {
-        this: "[adhesion]",
-        with: "[friction]",
-        message: "[adhesion] applies to a contact without friction only",
+        with: "[friction] without [motion]",
+        message: "[adhesion] applies to a static contact without friction only",
         hint: "leave [adhesion] or [friction] out",
         at: "adhesion",
         example: &[STICKS, RUBS],
-        broken: |tables| tables.at("adhesion").filter(|_| tables.case.friction.is_some()),
+        broken: |tables| {
+            tables.friction().filter(|_| tables.case.motion.is_none())?;
+            tables.at("adhesion")
+        },
+    },
+    Rule {
+        this: "[adhesion]",
+        with: "[friction] of a [motion], with `coupling = \"full\"`",
+        message: "[adhesion] needs a friction that does not displace the bodies normally",
+        hint: "set `coupling = \"goodman\"` or `\"none\"` in [friction]",
+        at: "adhesion",
+        example: &[STICKS, RUBS, AT_ANY_SPEED],
+        broken: |tables| {
+            tables.friction().filter(|friction| friction.law.coupling == Coupling::Full)?;
+            tables.at("adhesion")
+        },
+    },
+    Rule {
+        this: "`history` in [adhesion]",
+        with: "no [motion]",
+        message: "'history' of [adhesion] needs a [motion]",
+        hint: "the increments of a [[history]] follow each other",
+        at: "adhesion.history",
+        example: &[r#"adhesion = { work = "50 mJ/m2", range = "2 nm", history = "path" }"#],
+        broken: |tables| tables.at("adhesion.history").filter(|_| tables.case.motion.is_none()),
+    },
+    Rule {
+        this: "`history = \"path\"` in [adhesion]",
+        with: "`strategy = \"overlap\"`",
+        message: "history = \"path\" needs a motion by a shift",
+        hint: "set `strategy = \"shift\"` in [motion]: an overlap grows and shrinks from position to position",
+        at: "adhesion.history",
+        example: &[r#"adhesion = { work = "50 mJ/m2", range = "2 nm", history = "path" }"#, AT_ANY_SPEED],
+        broken: |tables| {
+            tables.case.adhesion.filter(|adhesion| adhesion.history == AdhesionHistory::Path)?;
+            tables.overlap()?;
+            tables.at("adhesion.history")
+        },
+    },
+    Rule {
+        this: "[subsurface]",
+        with: "[adhesion] and [motion]",
+        message: "[subsurface] with [adhesion] applies to a static contact only",
+        hint: "leave [subsurface] or [adhesion] out",
+        at: "subsurface",
+        example: &[STICKS, AT_ANY_SPEED, "subsurface = { depths = [\"1 um\"] }"],
+        broken: |tables| {
+            tables.case.adhesion.and(tables.motion())?;
+            tables.at("subsurface")
+        },
     },
     Rule {
         this: "[adhesion]",

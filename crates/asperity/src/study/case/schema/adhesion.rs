@@ -3,6 +3,7 @@
 use super::Bounds::AboveZero;
 use super::typed::{Typed, choice, defaulted, other, quantity, required, section};
 use crate::adhesion::Potential;
+use crate::motion::AdhesionHistory;
 use crate::study::case::AdhesionRange;
 use crate::study::case::schema::values::adhesion as read;
 use crate::units::Dimension;
@@ -28,5 +29,13 @@ section! { &["adhesion"], "";
         "\"exponential\"",
         "\"dugdale\"",
         "tension as a function of the gap: `\"exponential\"`, or constant up to the range, for comparison with closed forms",
+    );
+    HISTORY: Typed<AdhesionHistory> = defaulted(
+        "history",
+        choice::<AdhesionHistory>(),
+        "\"none\"",
+        "\"path\"",
+        "in a motion: `\"none\"`, the bodies come from afar at each position; `\"path\"`, in a shift, from the position before, so that jumps \
+         lose energy",
     );
 }
