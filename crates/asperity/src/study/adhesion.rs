@@ -6,7 +6,7 @@ use crate::adhesion::{Adhesion, RESOLVED_CELLS};
 use crate::grid::{Field, Grid};
 use crate::math::RealFft2;
 use crate::math::fft::angular_frequency;
-use crate::motion::{IncrementRecord, columns};
+use crate::motion::{IncrementRecord, PassRecord, columns};
 use crate::operator::Boundary;
 use crate::units::{Dimension, Joule, Metre, Newton, Pascal, PerMetre, format};
 
@@ -107,6 +107,21 @@ pub(super) fn jumps(increments: &[IncrementRecord]) -> Option<String> {
         increments.len(),
         first.increment
     ))
+}
+
+/// Returns the warning about positions that depend on the one before.
+pub(super) fn depends_on_history(passes: &[PassRecord]) -> Option<String> {
+    /// Largest change of the load of a position, relative to the mean, without a warning.
+    const INDEPENDENT: f64 = 0.01;
+    let of_pass = |pass: &PassRecord| pass.adhesion.map_or(0.0, |adhesion| adhesion.history_difference);
+    let largest = passes.iter().map(of_pass).fold(0.0, f64::max);
+    (largest > INDEPENDENT).then(|| {
+        format!(
+            "the load of a position changes by {:.1} % if the bodies come from the position before: contacts jump, and depend on the \
+             path; set `history = \"path\"` in [adhesion] of a shift",
+            100.0 * largest
+        )
+    })
 }
 
 /// Returns the rms slope and the rms Laplacian of a gap, by differences of neighbouring cells. They wrap round periodic axes.

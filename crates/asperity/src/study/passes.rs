@@ -8,6 +8,7 @@ use web_time::Instant;
 use crate::error::{Error, Result};
 use crate::io::lock::Lock;
 use crate::motion::{Body, FlowRecord, Motion, Pair, PassRecord, Simulation, SolvedPass, Watch};
+use crate::study::adhesion::{self, AdhesionSummary};
 use crate::study::case::{Case, CounterBody};
 use crate::study::estimate::{Estimate, estimate};
 use crate::study::finish::{Computed, conclude, pair, params};
@@ -35,6 +36,7 @@ pub struct Passes {
     output: StepWriter,
     observers: Observers,
     resolved: Value,
+    adhesion: Option<AdhesionSummary>,
     warnings: Vec<String>,
     began: Instant,
 }
@@ -73,7 +75,7 @@ impl Passes {
     ) -> Result<Self> {
         let began = Instant::now();
         let bodies = bodies_until(case, given, stop)?;
-        let Estimate { apparent_area, subsurface, warnings, .. } = estimate(case, &bodies)?;
+        let Estimate { apparent_area, subsurface, adhesion, warnings, .. } = estimate(case, &bodies)?;
         let motion =
             case.motion(apparent_area).ok_or(Error::Unsupported("a static contact has no passes"))?;
         let resolved = identity::resolved(case, &bodies);
@@ -124,6 +126,7 @@ impl Passes {
             output,
             observers,
             resolved,
+            adhesion,
             warnings,
             began,
         })
@@ -179,6 +182,7 @@ impl Passes {
         let shapes = [pair.lower_grid(), pair.upper_grid()].map(|grid| grid.shape);
         let passes = self.done()?;
         self.warnings.extend(review::motion(&self.case, shapes, &passes));
+        self.warnings.extend(adhesion::depends_on_history(&passes));
         let left = self.simulation.plastic_volumes();
         let flow = (!left.is_empty()).then(|| -> Result<FlowRecord> {
             let steps = self.writer.results().steps()?;
@@ -190,7 +194,7 @@ impl Passes {
         let Observations { conductance, flow: gap_flow, .. } = self.observers.finish()?;
         self.warnings.extend(observe::warnings(&self.case, &conductance, &gap_flow));
         let outcome = Computed {
-            adhesion: None,
+            adhesion: self.adhesion,
             conductance: ConductanceRecord::means(&conductance),
             gap_flow: GapFlowRecord::last(&gap_flow).to_vec(),
             outcome: Outcome::Passes(passes),
