@@ -10,6 +10,8 @@ mod newton;
 #[cfg(test)]
 mod tests;
 
+use std::mem;
+
 use ndarray::Zip;
 
 use crate::adhesion::{Adhesion, Potential};
@@ -104,7 +106,7 @@ impl Problem<'_> {
         let mut stats = Stats::default();
         let mut eta = 1.0;
         let mut newton = Attempts::new();
-        let mut changes = Changes::default();
+        let mut changes = Changes::new();
         loop {
             check_stop(self.watch)?;
             if let (Control::Load(load), true) = (control, last.is_some() || stats.iterations > 0) {
@@ -138,16 +140,16 @@ impl Problem<'_> {
             if stats.convolutions >= params.max_convolutions as f64 {
                 return Err(Error::NotConverged { iterations: stats.iterations, residual: eta, tolerance });
             }
-            let left = changes.after(&gap);
-            if let Some(left) = left.filter(|_| newton.is_due() && self.is_smooth()) {
+            let forecast = changes.after(&gap);
+            if let Some(forecast) = forecast.filter(|_| newton.is_due() && self.is_smooth()) {
                 let mut attempt = NewtonIteration::new(operator, self, influence, &solution);
-                let found = attempt.solve(operator, &gap, left)?;
+                let found = attempt.solve(operator, &forecast)?;
                 stats = stats.and(&attempt.stats);
                 newton.record(found.is_some());
                 if let Some((pressure, gap)) = found {
                     bounds = self.bounds_at(&gap);
                     start = Some(pressure);
-                    changes = Changes::default();
+                    changes = Changes::new();
                     continue;
                 }
             }
@@ -197,7 +199,7 @@ impl Problem<'_> {
             let next = Problem { control, ..*self }.solve(operator, Some(&state))?;
             if next.load() < state.load() {
                 least = least.min(next.load());
-                before = std::mem::replace(&mut state, next);
+                before = mem::replace(&mut state, next);
                 step *= STEP_GROWTH;
             } else {
                 // The least load may lie before the present state, or between it and the next.
@@ -247,22 +249,36 @@ impl Attempts {
 }
 
 /// Changes of the gap from round to round.
-#[derive(Default)]
 struct Changes {
     gap: Option<Field>,
     /// Largest change of the last round.
     change: Metre,
+    /// Estimate of the change left after the last round.
+    left: Metre,
+}
+
+/// The gap towards which the rounds converge, if their changes go on in a geometric series.
+struct Forecast {
+    gap: Field,
+    /// Largest distance from the present gap.
+    distance: Metre,
 }
 
 impl Changes {
-    /// Takes the gap after a round. Returns the largest change that the rounds to come would still cause, if the last changes
-    /// decrease in a geometric series.
-    fn after(&mut self, gap: &Field) -> Option<Metre> {
+    fn new() -> Self {
+        Self { gap: None, change: 0.0, left: 0.0 }
+    }
+
+    /// Takes the gap after a round. Returns a forecast if the distance to it has decreased. Near an equilibrium that has just vanished
+    /// the changes decrease, too, but ever more slowly, so that the distance grows from round to round.
+    fn after(&mut self, gap: &Field) -> Option<Forecast> {
         let before = self.gap.replace(gap.clone())?;
         let change = largest_difference(&before, gap);
-        let last = std::mem::replace(&mut self.change, change);
-        let ratio = change / last;
-        (last > 0.0 && ratio < 1.0).then(|| change * ratio / (1.0 - ratio))
+        let ratio = change / mem::replace(&mut self.change, change);
+        let share = if ratio < 1.0 { ratio / (1.0 - ratio) } else { f64::INFINITY };
+        let left_before = mem::replace(&mut self.left, change * share);
+        let nearer = self.left < left_before && left_before.is_finite();
+        nearer.then(|| Forecast { gap: gap + (gap - &before) * share, distance: self.left })
     }
 }
 

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::grid::{Field, SingleField};
 use crate::math::gmres;
 use crate::operator::Operator;
-use crate::solver::adhesive::{Problem, largest_difference};
+use crate::solver::adhesive::{Forecast, Problem, largest_difference};
 use crate::solver::preconditioner::Preconditioner;
 use crate::solver::sets::{Set, Sets};
 use crate::solver::watch::check_stop;
@@ -25,9 +25,11 @@ const MAX_STAGNATIONS: usize = 4;
 const LAST_RESIDUAL: f64 = 0.1;
 /// Largest reduction of the residual that a step aims at.
 const MAX_REDUCTION: f64 = 0.1;
-/// Largest change of the gap, as a multiple of the change that the rounds of the lagged bounds would still cause. The rounds converge
-/// to a stable equilibrium, and one that is farther away is another one.
-const MAX_CHANGE: f64 = 2.0;
+/// Largest distance of the gap from the forecast, as a fraction of the distance of the forecast. The rounds of the lagged bounds
+/// converge to the stable equilibrium that the bodies reach; one elsewhere is another one.
+const MAX_DISTANCE: f64 = 0.3;
+/// Largest distance of the gap from the forecast during the iteration.
+const MAX_EXCURSION: f64 = 3.0;
 
 /// The unknowns of the iteration: pressure, displacement and approach. With the cells in contact C, capped cells U and open cells O,
 /// the equations of a step are
@@ -82,13 +84,11 @@ impl<'a> NewtonIteration<'a> {
         }
     }
 
-    /// Returns pressure and gap of the equilibrium that the iteration finds, if it is about as `far` from the `first` gap as the
-    /// lagged bounds would still move.
+    /// Returns pressure and gap of the equilibrium that the iteration finds, if it is near the forecast.
     pub(super) fn solve(
         &mut self,
         operator: &mut dyn Operator,
-        first: &Field,
-        far: Metre,
+        forecast: &Forecast,
     ) -> Result<Option<(Field, Field)>> {
         let tolerance = LAST_RESIDUAL * self.problem.params.tolerance;
         let (mut best, mut stagnations) = (f64::INFINITY, 0);
@@ -104,12 +104,13 @@ impl<'a> NewtonIteration<'a> {
                 self.influence,
                 Some(self.approach),
             );
-            let change = largest_difference(first, &gap);
-            if !(change <= MAX_CHANGE * far + 10.0 * tolerance * state.scale) {
-                return Ok(None);
-            }
+            let distance = largest_difference(&forecast.gap, &gap) - 10.0 * tolerance * state.scale;
             if state.eta < tolerance {
-                return Ok(Some((mem::take(&mut self.pressure), gap)));
+                let is_near = distance <= MAX_DISTANCE * forecast.distance;
+                return Ok(is_near.then(|| (mem::take(&mut self.pressure), gap)));
+            }
+            if !(distance <= MAX_EXCURSION * forecast.distance) {
+                return Ok(None);
             }
             if state.eta < PROGRESS * best {
                 (best, stagnations) = (state.eta, 0);

@@ -52,7 +52,7 @@ fn a_sphere_held_by_its_position_lets_go_at_the_pull_off_force() {
     let least = solutions.iter().map(Solution::load).fold(f64::INFINITY, f64::min);
     assert!((least + 1.622).abs() < 0.008, "{least}");
     let convolutions: f64 = solutions.iter().map(|s| s.stats.convolutions).sum::<f64>();
-    assert!(convolutions < 60.0 * solutions.len() as f64, "{convolutions} for {}", solutions.len());
+    assert!(convolutions < 80.0 * solutions.len() as f64, "{convolutions} for {}", solutions.len());
 }
 
 #[test]
@@ -92,8 +92,8 @@ fn random_contact(random: &mut ChaCha8Rng, cells: [usize; 2]) -> Random {
         _ => Box::new(FreeFamily::new(&grid, 1.0, line).operator(shape)),
     };
     let mut gap = Field::zeros(shape);
-    for wave in 1..=3 {
-        let size = random.random_range(0.02..0.2) / f64::from(wave);
+    for wave in 1..=2 {
+        let size = random.random_range(0.05..0.3) / f64::from(wave);
         let phases: [f64; 2] = [0.0; 2].map(|_| random.random_range(0.0..6.3));
         gap.indexed_iter_mut().for_each(|((i, j), h)| {
             let x = std::f64::consts::TAU * f64::from(wave) * i as f64 / shape[0] as f64 + phases[0];
@@ -102,16 +102,30 @@ fn random_contact(random: &mut ChaCha8Rng, cells: [usize; 2]) -> Random {
         });
     }
     gap.iter_mut().for_each(|h| *h += random.random_range(0.0..0.01));
+    let mean = gap.mean().unwrap() - gap.iter().copied().fold(f64::INFINITY, f64::min);
+    let mut range = random.random_range(0.04..0.3);
+    // Length of the process zone in cells.
+    let mut zone = random.random_range(0.2f64..2.0);
+    let mut approach = mean * random.random_range(-0.5..0.5);
+    // Smooth tips on a free boundary jump, and have two states.
+    if boundary == 1 {
+        let radius = random.random_range(5.0..20.0f64);
+        let middle = shape.map(|n| 0.5 * n as f64 + random.random_range(-1.0..0.0));
+        gap.indexed_iter_mut().for_each(|((i, j), h)| {
+            let r2 = (i as f64 - middle[0]).powi(2) + (j as f64 - middle[1]).powi(2);
+            *h = 0.5 * r2 / radius + random.random_range(0.0..0.05);
+        });
+        (range, zone) = (random.random_range(0.05..0.2), random.random_range(0.1..0.5));
+        let work = range * range / (std::f64::consts::PI * zone);
+        approach =
+            random.random_range(-0.6..0.0) * 2.0 * (std::f64::consts::TAU * work * radius.sqrt()).sqrt();
+    }
     let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
     gap -= lowest;
     let mean = gap.mean().unwrap();
-    let range = random.random_range(0.04..0.3);
-    let zone = random.random_range(0.3f64..2.5);
-    // From a process zone of `zone` cells.
     let adhesion = Adhesion::new(range * range / (std::f64::consts::PI * zone), range).unwrap();
     let upper =
         if random.random_bool(0.2) { CellValues::Uniform(random.random_range(0.05..0.3)) } else { ELASTIC };
-    let approach = mean * random.random_range(-1.0..0.5);
     Random { operator, gap, adhesion, upper, approaches: [approach, 0.95 * mean] }
 }
 
@@ -215,8 +229,8 @@ fn compare(count: usize, seed: u64, cells: [usize; 2], method: Method) -> (usize
 
 #[test]
 fn random_contacts_reach_the_states_of_a_dense_program_from_both_sides() {
-    let (two, _) = compare(40, 3, [5, 12], Method::Direct);
-    assert!(two >= 4, "{two} have two states");
+    let (two, _) = compare(40, 3, [6, 14], Method::Direct);
+    assert!(two >= 2, "{two} have two states");
 }
 
 /// Run by hand: `COUNT=500 cargo test --lib many_random_contacts -- --ignored`.
