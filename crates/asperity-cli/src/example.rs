@@ -21,7 +21,7 @@ struct ExampleFiles {
 const STUDY: &str = "load.toml";
 
 /// The examples that the command writes.
-const KITS: [ExampleFiles; 8] = [
+const KITS: [ExampleFiles; 9] = [
     ExampleFiles {
         name: "quickstart",
         about: "two rough steel surfaces run in: 64 × 64 cells, 5 passes",
@@ -55,6 +55,17 @@ const KITS: [ExampleFiles; 8] = [
         name: "rolling",
         about: "a ball rolls ten times over ground steel, which flows below its surface and shakes down",
         files: &[("case.toml", include_bytes!("../examples/rolling/case.toml"))],
+    },
+    ExampleFiles {
+        name: "seal",
+        about: "a measured disc against a flat ring: leakage and heat over loads, as the ring wears, and over samples",
+        files: &[
+            ("case.toml", include_bytes!("../examples/seal/case.toml")),
+            ("wear.toml", include_bytes!("../examples/seal/wear.toml")),
+            ("sample.toml", include_bytes!("../examples/seal/sample.toml")),
+            ("samples.toml", include_bytes!("../examples/seal/samples.toml")),
+            ("disc.x3p", include_bytes!("../examples/measured/disc.x3p")),
+        ],
     },
     ExampleFiles {
         name: "study",

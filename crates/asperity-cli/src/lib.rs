@@ -3,9 +3,11 @@
 mod args;
 mod check;
 mod closed_form;
+mod conductance;
 mod draw;
 mod example;
 mod figures;
+mod flow;
 mod machine;
 mod numbers;
 mod page;
@@ -69,6 +71,8 @@ fn command(arguments: impl IntoIterator<Item = OsString>) -> report::Outcome {
         Command::Check(arguments) => check::check(&arguments),
         Command::Example(arguments) => example::example(&arguments),
         Command::Surface(arguments) => surface::surface(arguments),
+        Command::Conductance(arguments) => conductance::conductance(&arguments),
+        Command::Flow(arguments) => flow::flow(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
         Command::Report(arguments) => page::report(&arguments),
         Command::Verify => verify::verify(),

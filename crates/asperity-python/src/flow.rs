@@ -1,7 +1,7 @@
 //! Flow through a gap.
 
 use asperity::Choice;
-use asperity::flow::{Along, Ends, Faces, FlowAlong, Settings, Sides, memory, solve};
+use asperity::flow::{Along, Ends, Faces, FlowAlong, Fluid, Settings, Sides, memory, solve};
 use asperity::{Error, Grid};
 use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
@@ -24,41 +24,39 @@ type AlongAxis<'py> = (
     Bound<'py, PyArray2<bool>>,
 );
 
-/// A fluid: its viscosity, the drop of its pressure, and the absolute pressure of the outlet of a gas.
-type Fluid = (f64, f64, Option<f64>);
-
-/// Solves for the flow through a gap along both axes. Returns numbers of the gap, the coupling of both directions, and the flow along each.
+/// Solves for the flow through a gap along both axes; a fluid has a viscosity, a drop of its pressure, and the absolute pressure of the
+/// outlet of a gas. Ends and sides are those of the flow along each axis. Returns numbers of the gap, the coupling of both directions, and the flow along each.
 #[pyfunction]
 pub(crate) fn flow<'py>(
     py: Python<'py>,
     gap: Heights<'py>,
-    ends: &str,
-    sides: &str,
+    ends: [String; 2],
+    sides: [String; 2],
     faces: &str,
-    fluid: Option<Fluid>,
+    fluid: Option<(f64, f64, Option<f64>)>,
     threads: usize,
 ) -> PyResult<(Numbers, Option<f64>, Vec<AlongAxis<'py>>)> {
     let (gap, pitch) = (field(&gap.0), gap.1);
     let grid = ok(Grid::new([gap.nrows(), gap.ncols()], pitch), py)?;
-    let settings = Settings {
-        ends: Ends::of_word(ends).expect("ends are one of the words"),
-        sides: Sides::of_word(sides).expect("sides are one of the words"),
-        faces: Faces::of_word(faces).expect("faces are one of the words"),
-        along: Along::Both,
-    };
+    let fluid = fluid.map(|(viscosity, drop, outlet)| Fluid { viscosity, drop, outlet });
+    let ends = ends.map(|word| Ends::of_word(&word).expect("ends are one of the words"));
+    let sides = sides.map(|word| Sides::of_word(&word).expect("sides are one of the words"));
+    let faces = Faces::of_word(faces).expect("faces are one of the words");
+    let settings = Settings::of_axes(ends, sides, faces, Along::Both);
     let (needed, available) = (memory(grid.shape), asperity_cli::available_memory());
     if needed > available {
         return ok(Err(Error::Memory { needed, available }), py);
     }
     let (flow, leakage) = work::run(py, threads, None, |_| {
-        let flow = solve(&gap, &grid, &settings)?;
-        let leakage = |along: &FlowAlong| match fluid {
-            None => Ok(None),
-            Some((viscosity, drop, None)) => along.leakage(drop, viscosity).map(Some),
-            Some((viscosity, drop, Some(outlet))) => {
-                along.gas_leakage(outlet + drop, outlet, viscosity).map(Some)
-            }
-        };
+        let flows = settings.iter().map(|settings| solve(&gap, &grid, settings));
+        let mut flows = flows.collect::<asperity::Result<Vec<_>>>()?;
+        let mut flow = flows.swap_remove(0);
+        // Ends that differ between the axes take a solution for each.
+        if let Some(along_y) = flows.pop() {
+            let [_, along_y] = along_y.along;
+            flow.along[1] = along_y;
+        }
+        let leakage = |along: &FlowAlong| fluid.map(|fluid| along.leakage(&fluid)).transpose();
         let leakage = flow.along.iter().flatten().map(leakage).collect::<asperity::Result<Vec<_>>>()?;
         Ok((flow, leakage))
     })?;

@@ -2,6 +2,7 @@
 
 mod drawing;
 mod generate;
+mod passage;
 mod preparation;
 mod study;
 mod surface;
@@ -17,6 +18,7 @@ use values::threads;
 
 pub(crate) use drawing::{Drawing, RangedDrawing};
 pub(crate) use generate::{Generate, Recipe};
+pub(crate) use passage::{Conductance, Flow, Writing};
 pub(crate) use study::Study;
 pub(crate) use surface::{Convert, Info, Input, PlotSurface, ReadingArguments, Surface};
 
@@ -62,7 +64,6 @@ pub(crate) fn unparsed(error: &Error) -> Outcome {
 const MAX_CHARACTERS: usize = 2000;
 
 #[derive(Debug, Subcommand)]
-#[expect(clippy::large_enum_variant, reason = "there is one in a process")]
 pub(crate) enum Command {
     Run(Run),
     Study(Study),
@@ -70,6 +71,8 @@ pub(crate) enum Command {
     Example(Example),
     #[command(subcommand)]
     Surface(Surface),
+    Conductance(Conductance),
+    Flow(Flow),
     Plot(Plot),
     Report(Report),
     /// Compare the solvers with closed forms

@@ -2,6 +2,7 @@
 
 use crate::threads::MAX_THREADS;
 use asperity::Choice;
+use asperity::operator::{Boundary, Edge};
 use asperity::surface::Resample;
 use asperity::units::{self, Dimension, MAX_COUNT, NUMBERS};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -24,7 +25,7 @@ pub(super) fn threads(text: &str) -> Result<usize, String> {
     count.ok_or_else(|| format!("expected a whole number from 1 to {MAX_THREADS}"))
 }
 
-fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
+pub(super) fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
     units::parse(text, dimension).map_err(|error| match error.hint() {
         Some(hint) => format!("{error}; {hint}"),
         None => error.to_string(),
@@ -99,6 +100,16 @@ pub(super) fn range(text: &str) -> Result<Pair, String> {
     if low < high { Ok(Pair([low, high])) } else { Err(format!("expected {EXPECTED}")) }
 }
 
+/// The surroundings along both axes, or along each.
+pub(super) fn boundary(text: &str) -> Result<Boundary, String> {
+    let edges: Option<Vec<Edge>> = text.split(',').map(|word| Edge::of_word(word.trim())).collect();
+    match edges.as_deref() {
+        Some([both]) => Ok(Boundary([*both; 2])),
+        Some([x, y]) => Ok(Boundary([*x, *y])),
+        _ => Err("expected free or periodic, or one of them for each axis, such as periodic,free".to_owned()),
+    }
+}
+
 /// A number above 0.
 pub(super) fn factor(text: &str) -> Result<f64, String> {
     let factor = text.parse().ok().filter(|factor: &f64| NUMBERS.holds(*factor));
@@ -138,6 +149,9 @@ mod tests {
         assert_eq!(range("0,2GPa").unwrap().0, [0.0, 2e9]);
         assert!(range("2GPa,0").is_err() && range("1").is_err() && range("1 furlong,2").is_err());
         assert!(resample("0x4").is_err() && resample("4x4um").is_err());
+        assert_eq!(boundary("periodic").unwrap(), Boundary::PERIODIC);
+        assert_eq!(boundary("free, periodic").unwrap(), Boundary([Edge::Free, Edge::Periodic]));
+        assert!(boundary("").is_err() && boundary("free,free,free").is_err() && boundary("closed").is_err());
         assert!(lengths("8um,inf").is_err() && lengths("1um,2um,3um").is_err() && lengths("0").is_err());
     }
 }

@@ -31,7 +31,7 @@ pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, has_new_upper
 pub(crate) use flow::{FlowSection, flow_sections, of_increments as of_flow_increments};
 pub(crate) use friction::stick;
 pub(crate) use loading::curves as of_loading;
-pub(crate) use passage::curves as passage_curves;
+pub(crate) use passage::{FLOW, FLUX, curves as passage_curves, flow_map, flux_map};
 pub(crate) use pressure::histogram;
 pub(crate) use rest::{approach, open_gap, profile as profile_at_rest};
 pub(crate) use rolling::curves as of_rolling;
@@ -119,7 +119,8 @@ fn gather<'a>(
         subsurface::draw(&fields, &of, &mut sheet)?;
     }
     if case.conductance.is_some() || case.flow.is_some() {
-        passage::draw(results, &of, &mut sheet)?;
+        let of_all = if points.is_empty() { of.clone() } else { sweep::loads_in_words(&points) };
+        passage::draw(results, &done(&passes), &of, &of_all, &mut sheet)?;
     }
     Ok(sheet)
 }

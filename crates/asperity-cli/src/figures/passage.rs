@@ -1,22 +1,30 @@
 //! Figures of what a contact lets through: heat or current, and a fluid.
 
 use asperity::io::fields::Fields;
-use asperity::study::{ConductanceRecord, FlowAxis, GapFlowRecord, Results};
+use asperity::study::{ConductanceRecord, GapFlowRecord, Results};
+use asperity::surface::Axis as Direction;
+use asperity::units::{Dimension, format};
+use asperity::{Field, Grid};
 
 use super::Curves;
 use super::sheet::Sheet;
 use super::stored::StoredArray;
-use crate::draw::{Axis, Chart, Colours, Maps, Mark, Series, Unit};
+use crate::draw::{Axis, Chart, Colours, Map, Maps, Mark, Quantity, Series, Unit};
 use crate::report::Outcome;
 
 /// From such a ratio of the largest to the smallest value an axis is logarithmic.
 const DECADE: f64 = 10.0;
+/// Smallest flow with a colour of its own over the largest: dead ends carry next to nothing.
+const LEAST_FLOW: f64 = 1e-6;
 /// Relative change of the load from which the curves are drawn over the mean pressure.
 const LOADED: f64 = 0.01;
 
-pub(super) fn draw(results: &Results, of: &str, sheet: &mut Sheet) -> Outcome {
+/// Draws the figures. The curves have all contacts, `of_all`, and the maps the last one, `of`.
+///
+/// `done` are the passes of a motion that are done before the first and after each of the computed ones.
+pub(super) fn draw(results: &Results, done: &[usize], of: &str, of_all: &str, sheet: &mut Sheet) -> Outcome {
     let (conductance, flow) = (results.conductance()?, results.flow()?);
-    curves(&conductance, &flow).into_iter().try_for_each(|curves| sheet.add_curves(curves, of))?;
+    curves(&conductance, &flow, done).into_iter().try_for_each(|curves| sheet.add_curves(curves, of_all))?;
     // The fields of a static contact are those of its last contact.
     if conductance.iter().all(|row| row.pass.is_none()) && flow.iter().all(|row| row.pass.is_none()) {
         maps(&results.static_fields()?, GapFlowRecord::last(&flow), of, sheet)?;
@@ -31,49 +39,111 @@ fn maps(fields: &Fields, flow: &[GapFlowRecord], of: &str, sheet: &mut Sheet) ->
     if given("flux") {
         let flux = StoredArray::read(fields, "flux")?;
         let unit = Unit::Of(if fields.read("flux")?.unit == "A/m²" { "A/m²" } else { "W/m²" });
-        let largest = flux.field.iter().copied().fold(0.0, f64::max);
-        // Without gas all of it passes through the spots; with gas the spots would hide what passes beside them.
-        let everywhere = flux.field.iter().all(|flux| *flux > 0.0);
-        if largest > 0.0 {
-            sheet.add("flux", "flux through the contact", of, || {
-                let colours = if everywhere { Colours::Logarithmic } else { Colours::Pressure };
-                Ok(Maps::new(vec![flux.map("", "flux", unit, colours)]))
-            })?;
+        if flux.field.iter().any(|flux| *flux > 0.0) {
+            sheet.add("flux", FLUX, of, || Ok(flux_map(&flux.field, &flux.grid, unit)))?;
         }
     }
     for row in flow {
-        let (name, title) = match row.along {
-            FlowAxis::X => ("flow_x", "flow through the gap under a pressure that falls along x"),
-            FlowAxis::Y => ("flow_y", "flow through the gap under a pressure that falls along y"),
-        };
+        let (name, title) = FLOW[row.along as usize];
         if !given(name) || row.leakage == 0.0 {
             continue;
         }
         let rate = StoredArray::read(fields, name)?;
-        sheet.add(name, title, of, || {
-            let map = rate.map("", "flow per width", Unit::Of("m²/s"), Colours::Logarithmic);
-            let place = row.critical_x.zip(row.critical_y).map(|(x, y)| [x, y]);
-            Ok(Maps::new(vec![match place {
-                Some(place) => map.marked(place, "critical constriction"),
-                None => map,
-            }]))
-        })?;
+        let place = row.critical_x.zip(row.critical_y).map(|(x, y)| [x, y]);
+        let quantity = Quantity::new("flow per width", Unit::Of("m²/s"));
+        sheet.add(name, title, of, || Ok(flow_map(&rate.field, &rate.grid, quantity, place)))?;
     }
     Ok(())
 }
 
-/// The curves over the loads of a sweep, or over the contacts of the last pass; none for a single contact.
-pub(crate) fn curves(conductance: &[ConductanceRecord], flow: &[GapFlowRecord]) -> Vec<Curves> {
-    let last_pass = |pass: Option<usize>, rows: Option<Option<usize>>| rows == Some(pass);
-    let conductance: Vec<&ConductanceRecord> = {
-        let last = conductance.last().map(|row| row.pass);
-        conductance.iter().filter(|row| last_pass(row.pass, last)).collect()
+/// Title of the map of a flux.
+pub(crate) const FLUX: &str = "flux through the contact";
+/// Names and titles of the maps of a flow along x and along y.
+pub(crate) const FLOW: [(&str, &str); 2] = [
+    ("flow_x", "flow through the gap under a pressure that falls along x"),
+    ("flow_y", "flow through the gap under a pressure that falls along y"),
+];
+
+/// The map of a flux through a contact.
+pub(crate) fn flux_map<'a>(flux: &'a Field, grid: &Grid, unit: Unit) -> Maps<'a> {
+    // Without gas all of it passes through the spots; with gas the spots would hide what passes beside them.
+    let everywhere = flux.iter().all(|flux| *flux > 0.0);
+    let colours = if everywhere { Colours::Logarithmic } else { Colours::Pressure };
+    Maps::new(vec![Map::new("", flux, grid, Quantity::new("flux", unit), colours)])
+}
+
+/// The map of the flow through a gap, with the critical constriction at its place.
+pub(crate) fn flow_map<'a>(
+    rate: &'a Field,
+    grid: &Grid,
+    quantity: Quantity,
+    place: Option<[f64; 2]>,
+) -> Maps<'a> {
+    let largest = rate.iter().copied().fold(0.0, f64::max);
+    let map = Map::new("", rate, grid, quantity, Colours::Logarithmic).range([LEAST_FLOW * largest, largest]);
+    Maps::new(vec![match place {
+        Some(place) => map.marked(place, "critical constriction"),
+        None => map,
+    }])
+}
+
+/// The curves over the loads of a sweep, or over the passes, and over the contacts of the last pass; none for a single contact.
+pub(crate) fn curves(
+    conductance: &[ConductanceRecord],
+    flow: &[GapFlowRecord],
+    done: &[usize],
+) -> Vec<Curves> {
+    let mut curves: Vec<Curves> = over_passes(conductance, flow, done);
+    let last = conductance.last().map(|row| row.pass);
+    let conductance: Vec<_> = conductance.iter().filter(|row| Some(row.pass) == last).collect();
+    let last = flow.last().map(|row| row.pass);
+    let flow: Vec<_> = flow.iter().filter(|row| Some(row.pass) == last).collect();
+    let names = match curves.is_empty() {
+        true => ["joint_conductance", "leakage"],
+        false => ["joint_conductance_positions", "leakage_positions"],
     };
-    let flow: Vec<&GapFlowRecord> = {
-        let last = flow.last().map(|row| row.pass);
-        flow.iter().filter(|row| last_pass(row.pass, last)).collect()
+    curves.extend(of_conductance(&conductance, names[0]));
+    curves.extend(of_flow(&flow, names[1]));
+    curves
+}
+
+/// The curves over the passes, with the mean over the contacts of each; none for a single pass.
+fn over_passes(conductance: &[ConductanceRecord], flow: &[GapFlowRecord], done: &[usize]) -> Vec<Curves> {
+    let after = |pass: Option<usize>| pass.and_then(|pass| done.get(pass)).map(|done| *done as f64);
+    let mut curves = Vec::new();
+    let mut add = |name, title, column, named: Vec<(&str, Vec<[f64; 2]>, Mark)>| {
+        if named.iter().any(|(_, points, _)| points.len() > 1) {
+            let series =
+                named.into_iter().map(|(name, points, mark)| Series::new(name, points, mark)).collect();
+            let (x, y) = (Axis::linear("pass", Unit::Count), Axis::of(title, column));
+            let chart = Chart::new("", x, y, series);
+            curves.push(Curves::new(name, format!("{title} over the passes"), chart));
+        }
     };
-    of_conductance(&conductance).into_iter().chain(of_flow(&flow)).collect()
+    let means = ConductanceRecord::means(conductance);
+    if let Some(first) = means.first() {
+        let points =
+            means.iter().filter_map(|row| Some([after(row.pass)?, row.joint()[0].unwrap_or(f64::NAN)]));
+        let series = vec![("", points.collect(), Mark::LineAndPoints)];
+        add("joint_conductance", "joint conductance", joint_column(first), series);
+    }
+    let along = [("along x", Direction::X, Mark::LineAndPoints), ("along y", Direction::Y, Mark::Dashed)];
+    let along = along.into_iter().filter_map(|(name, axis, mark)| {
+        let rows: Vec<_> = flow.iter().filter(|row| row.along == axis).collect();
+        let mean = |rows: &[&GapFlowRecord]| {
+            let sum: f64 = rows.iter().map(|row| row.leakage).sum();
+            Some([after(rows[0].pass)?, sum / rows.len() as f64])
+        };
+        let points: Vec<_> = rows.chunk_by(|one, other| one.pass == other.pass).filter_map(mean).collect();
+        (!points.is_empty()).then_some((name, points, mark))
+    });
+    add("leakage", "leakage", "leakage", along.collect());
+    curves
+}
+
+/// The column of the joint conductance.
+fn joint_column(row: &ConductanceRecord) -> &'static str {
+    if row.thermal.is_some() { "thermal_joint_conductance" } else { "electrical_joint_conductance" }
 }
 
 /// How the contacts are lined up: by their mean pressure, or one after another.
@@ -108,34 +178,32 @@ impl Order {
 }
 
 /// Joint conductance, with the correlation beside it.
-fn of_conductance(rows: &[&ConductanceRecord]) -> Option<Curves> {
+fn of_conductance(rows: &[&ConductanceRecord], name: &'static str) -> Option<Curves> {
     if rows.len() < 2 {
         return None;
     }
     let pressures: Vec<f64> = rows.iter().map(|row| row.mean_pressure).collect();
     let order = Order::of(&pressures);
-    let column =
-        if rows[0].thermal.is_some() { "thermal_joint_conductance" } else { "electrical_joint_conductance" };
     let curve = |which: usize| {
         order.curve(rows.iter().map(|row| (row.mean_pressure, row.joint()[which].unwrap_or(f64::NAN))))
     };
     let series = vec![
         Series::new("computed", curve(0), Mark::LineAndPoints),
-        Series::new("correlation", curve(1), Mark::Dashed),
+        Series::new("correlation of clean spots", curve(1), Mark::Dashed),
     ];
-    let vertical = Axis { log: order.log, ..Axis::of("joint conductance", column) };
+    let vertical = Axis { log: order.log, ..Axis::of("joint conductance", joint_column(rows[0])) };
     let title = if order.by_pressure {
         "joint conductance over mean pressure"
     } else {
         "joint conductance, contact after contact"
     };
-    Some(Curves::new("joint_conductance", title, Chart::new("", order.axis(), vertical, series)))
+    Some(Curves::new(name, title, Chart::new("", order.axis(), vertical, series)))
 }
 
 /// Leakage along each axis.
-fn of_flow(rows: &[&GapFlowRecord]) -> Option<Curves> {
-    let along = |axis: FlowAxis| rows.iter().filter(move |row| row.along == axis);
-    let contacts = along(FlowAxis::X).count().max(along(FlowAxis::Y).count());
+fn of_flow(rows: &[&GapFlowRecord], name: &'static str) -> Option<Curves> {
+    let along = |axis: Direction| rows.iter().filter(move |row| row.along == axis);
+    let contacts = along(Direction::X).count().max(along(Direction::Y).count());
     if contacts < 2 {
         return None;
     }
@@ -143,11 +211,19 @@ fn of_flow(rows: &[&GapFlowRecord]) -> Option<Curves> {
     let order = Order::of(&pressures);
     // A closed contact leaks nothing, which has no logarithm.
     let shown = |leakage: f64| if leakage > 0.0 || !order.log { leakage } else { f64::NAN };
-    let both = [("along x", FlowAxis::X, Mark::LineAndPoints), ("along y", FlowAxis::Y, Mark::Dashed)];
+    let both = [("along x", Direction::X, Mark::LineAndPoints), ("along y", Direction::Y, Mark::Dashed)];
     let series =
         both.into_iter().filter(|(_, axis, _)| along(*axis).count() > 0).map(|(name, axis, mark)| {
+            // From the closing pressure on no contact leaks.
+            let leaks = along(axis).filter(|row| row.leakage > 0.0).map(|row| row.mean_pressure);
+            let open = leaks.fold(0.0, f64::max);
+            let closed = along(axis).map(|row| row.mean_pressure).filter(|pressure| *pressure > open);
+            let closing = closed.reduce(f64::min).filter(|_| order.by_pressure);
+            let closing = closing.map_or(String::new(), |pressure| {
+                format!(", closed from {}", format(pressure, Dimension::Pressure))
+            });
             Series::new(
-                name,
+                name.to_owned() + &closing,
                 order.curve(along(axis).map(|row| (row.mean_pressure, shown(row.leakage)))),
                 mark,
             )
@@ -155,5 +231,5 @@ fn of_flow(rows: &[&GapFlowRecord]) -> Option<Curves> {
     let vertical = Axis { log: order.log, ..Axis::of("leakage", "leakage") };
     let title =
         if order.by_pressure { "leakage over mean pressure" } else { "leakage, contact after contact" };
-    Some(Curves::new("leakage", title, Chart::new("", order.axis(), vertical, series.collect())))
+    Some(Curves::new(name, title, Chart::new("", order.axis(), vertical, series.collect())))
 }

@@ -23,9 +23,14 @@ const DRAWN: [(&str, &str, bool, Number); 4] = [
 ];
 
 pub(super) fn draw(points: &[SweepRecord], case: &Case, sheet: &mut Sheet) -> Outcome {
-    let [from, to] = loads(points).map(|load| format(load, Dimension::Force));
-    let of = if from == to { format!("load {from}") } else { format!("load {from} to {to}") };
+    let of = loads_in_words(points);
     curves(points, case).into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))
+}
+
+/// The loads of a sweep, as subtitles tell them.
+pub(super) fn loads_in_words(points: &[SweepRecord]) -> String {
+    let [from, to] = loads(points).map(|load| format(load, Dimension::Force));
+    if from == to { format!("load {from}") } else { format!("load {from} to {to}") }
 }
 
 /// All curves of a sweep of at least one point.

@@ -1,8 +1,8 @@
 //! What a contact lets through: heat or current, and a fluid.
 
-use asperity::Field;
-use asperity::study::{ConductanceRecord, FlowAxis, GapFlowRecord};
+use asperity::study::{ConductanceRecord, GapFlowRecord};
 use asperity::units::{Dimension, format, format_number};
+use asperity::{Choice, Field};
 use serde_json::Value;
 
 use super::curves;
@@ -21,6 +21,7 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     }
     let conductance = found.kept(found.results.conductance()).unwrap_or_default();
     let flow = found.kept(found.results.flow()).unwrap_or_default();
+    let done = figures::done(&found.kept(found.results.passes()).unwrap_or_default());
     let mut html = facts(rows(&conductance, GapFlowRecord::last(&flow)));
     let planes = if found.moves() || !found.is_finished() {
         Vec::new()
@@ -30,7 +31,7 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     if !planes.is_empty() {
         html += &plane::html(planes, data);
     }
-    html += &curves::html(figures::passage_curves(&conductance, &flow), charts);
+    html += &curves::html(figures::passage_curves(&conductance, &flow, &done), charts);
     Some(html)
 }
 
@@ -116,7 +117,8 @@ fn planes(found: &mut PageData, flow: &[GapFlowRecord]) -> Vec<Plane> {
         .map(|flux| plane("flux", "Flux through the contact.".to_owned(), "flux", flux, None))
         .collect();
     for row in flow {
-        let (name, axis) = if row.along == FlowAxis::X { ("flow_x", "x") } else { ("flow_y", "y") };
+        let axis = row.along.word();
+        let name = &format!("flow_{axis}");
         if let Some(rate) = read(name).filter(is_there) {
             let title = format!("Flow per width through the gap under a pressure that falls along {axis}.");
             let place = row.critical_x.zip(row.critical_y).map(|(x, y)| ([x, y], "critical constriction"));

@@ -5,7 +5,8 @@ use asperity::study::{Case, ClosedFormRecord, Outcome, SubsurfaceRecord, Summary
 use asperity::units::{Dimension, format, format_number};
 
 use super::rows::planes;
-use crate::{closed_form, passage};
+use crate::closed_form;
+use crate::passage::{self, line};
 
 /// Describes a static contact and the largest stress below the surface, with a line for each number. The rows of
 /// passes and points are printed during the run.
@@ -139,8 +140,4 @@ fn static_table(record: &StaticRecord, planes: &str) -> String {
         ]);
     }
     rows.iter().map(|(name, value)| line(name, value)).collect()
-}
-
-fn line(name: &str, value: &str) -> String {
-    format!("{name:<17} {value}\n")
 }

@@ -29,9 +29,9 @@ pub(crate) fn surface(arguments: Surface) -> Outcome {
 }
 
 /// Heights of a file, its other data, and the pitch: its own, or else the given one.
-struct ReadSurface {
-    topography: Topography,
-    pitch: Option<[Metre; 2]>,
+pub(crate) struct ReadSurface {
+    pub(crate) topography: Topography,
+    pub(crate) pitch: Option<[Metre; 2]>,
     scan: Scan,
 }
 
@@ -51,7 +51,7 @@ fn read(path: &Path, reading: &ReadingArguments) -> Outcome<ReadSurface> {
 }
 
 /// Reads a file ([`read`]) and prepares it according to the arguments, with notes on the steps.
-fn read_prepared(input: &Input) -> Outcome<ReadSurface> {
+pub(crate) fn read_prepared(input: &Input) -> Outcome<ReadSurface> {
     let read = read(&input.file, &input.reading)?;
     if let (None, Some(argument)) = (read.pitch, input.preparing.needs_pitch()) {
         let message = format!("{argument} needs a pitch, which `{}` has not", input.file.display());
@@ -60,6 +60,19 @@ fn read_prepared(input: &Input) -> Outcome<ReadSurface> {
     let (topography, findings) = input.preparing.preparation().apply(read.topography)?;
     report(&findings, &topography);
     Ok(ReadSurface { pitch: read.pitch.map(|_| topography.grid().pitch), topography, scan: read.scan })
+}
+
+/// Reads and prepares a second file with the arguments of a first one, whose pitch it has unless it has its own.
+pub(crate) fn read_beside(path: &Path, input: &Input, pitch: [Metre; 2]) -> Outcome<ReadSurface> {
+    let mut options = ReadOptions::default();
+    options.channel.clone_from(&input.reading.channel);
+    options.unit = input.reading.unit;
+    let mut scan = options.scan(path)?;
+    let pitch = scan.pitch.or(input.reading.pitch.map(|pitch| pitch.0)).unwrap_or(pitch);
+    let heights = std::mem::take(&mut scan.heights);
+    let topography = Topography::new(Grid::new([heights.nrows(), heights.ncols()], pitch)?, heights)?;
+    let (topography, _) = input.preparing.preparation().apply(topography)?;
+    Ok(ReadSurface { pitch: Some(topography.grid().pitch), topography, scan })
 }
 
 /// Returns the axis of a single line of heights; none for several lines.
@@ -85,7 +98,7 @@ fn has_pitch(path: &Path, [x, y]: [Metre; 2], scan: &Scan) -> Failure {
 }
 
 /// Returns the failure of a step that needs a pitch, if neither the file nor an argument gives one.
-fn without_pitch(message: impl Into<String>) -> Failure {
+pub(crate) fn without_pitch(message: impl Into<String>) -> Failure {
     Failure::usage(message, Some("give it: --pitch 0.5um"))
 }
 

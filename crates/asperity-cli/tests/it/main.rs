@@ -6,6 +6,7 @@ mod command;
 mod damage;
 mod digests;
 mod documents;
+mod passage;
 mod run;
 mod study;
 #[cfg(unix)]

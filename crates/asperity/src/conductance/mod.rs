@@ -44,6 +44,7 @@
 mod barber;
 mod bodies;
 mod correlations;
+mod doubts;
 mod joint;
 mod settings;
 mod spots;
@@ -51,6 +52,7 @@ mod spots;
 pub use barber::Bracket;
 pub use bodies::{ConductingCoating, Conductor, composite_conductivity, response};
 pub use correlations::JointRoughness;
+pub use doubts::doubts;
 pub use joint::{Conductance, Shares, full_resistance, solve};
 pub use settings::{Gas, Joint, Kind};
 pub use spots::ContactSpots;

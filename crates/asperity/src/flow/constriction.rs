@@ -49,6 +49,19 @@ pub(super) fn constrictions<const N: usize>(
     found
 }
 
+/// Returns the number of open cells in a row through a `cell`, across the gradient along `axis`. The row goes on beyond the grid if it `wraps`.
+pub(super) fn width(gaps: &[f64], [nx, ny]: [usize; 2], cell: usize, axis: usize, wraps: bool) -> usize {
+    let (count, from, step) = if axis == 0 { (ny, cell % ny, 1) } else { (nx, cell / ny, ny) };
+    let is_open = |k: usize| gaps[cell - from * step + k * step] > 0.0;
+    let after = (1..count).take_while(|k| (wraps || from + k < count) && is_open((from + k) % count)).count();
+    if after + 1 == count {
+        return count;
+    }
+    let before =
+        (1..count).take_while(|k| (wraps || *k <= from) && is_open((from + count - k) % count)).count();
+    1 + before + after
+}
+
 /// Returns a cell with its two neighbours along `axis`: the earlier cell, the later one, and whether a period lies between them.
 fn pairs(shape: [usize; 2], cell: usize, axis: usize) -> [(usize, usize, bool); 2] {
     let (previous, seam) = before(shape, cell, axis);
@@ -66,6 +79,23 @@ fn pairs(shape: [usize; 2], cell: usize, axis: usize) -> [(usize, usize, bool); 
 mod tests {
     use super::super::components::{WINDS_X, WINDS_Y};
     use super::*;
+
+    #[test]
+    fn a_constriction_is_as_wide_as_its_row_of_open_cells() {
+        #[rustfmt::skip]
+        let gaps = [
+            1.0, 0.0, 1.0, 1.0,
+            0.0, 0.0, 1.0, 0.0,
+            1.0, 1.0, 1.0, 1.0,
+        ];
+        let width = |cell, axis, wraps| width(&gaps, [3, 4], cell, axis, wraps);
+        assert_eq!([width(0, 0, false), width(0, 0, true), width(3, 0, true)], [1, 3, 3]);
+        assert_eq!([width(3, 0, false), width(6, 0, true), width(9, 0, false)], [2, 1, 4]);
+        assert_eq!(
+            [width(0, 1, false), width(0, 1, true), width(6, 1, false), width(9, 1, true)],
+            [1, 2, 3, 1]
+        );
+    }
 
     const OPEN: Topology = Topology { shape: [4, 3], closed: [false; 2], between: None };
 

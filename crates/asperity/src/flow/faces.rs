@@ -68,19 +68,14 @@ impl Network {
         rule: Faces,
         Topology { shape, closed, between }: Topology,
     ) -> Self {
-        let [nx, ny] = shape;
         let ratio = [pitch[1] / pitch[0], pitch[0] / pitch[1]];
-        let mut faces = [vec![0.0; nx * ny], vec![0.0; nx * ny]];
-        for (i, j, cell) in cells(shape) {
-            if i > 0 || !closed[0] {
-                let before = if i > 0 { cell - ny } else { cell + (nx - 1) * ny };
-                faces[0][cell] = ratio[0] * rule.mean(gaps[before], gaps[cell]);
-            }
-            if j > 0 || !closed[1] {
-                let before = if j > 0 { cell - 1 } else { cell + ny - 1 };
-                faces[1][cell] = ratio[1] * rule.mean(gaps[before], gaps[cell]);
-            }
-        }
+        let faces = [0, 1].map(|axis| {
+            let face = |cell: usize| match before(shape, cell, axis) {
+                (_, true) if closed[axis] => 0.0,
+                (before, _) => ratio[axis] * rule.mean(gaps[before], gaps[cell]),
+            };
+            (0..shape[0] * shape[1]).map(face).collect()
+        });
         let ends = between.map(|axis| {
             let row = |index: usize| {
                 end_cells(shape, axis, index)
@@ -116,11 +111,6 @@ pub(super) fn before([nx, ny]: [usize; 2], cell: usize, axis: usize) -> (usize, 
 pub(super) fn end_cells([nx, ny]: [usize; 2], axis: usize, index: usize) -> impl Iterator<Item = usize> {
     let (first, step, count) = if axis == 0 { (index * ny, 1, ny) } else { (index, ny, nx) };
     (0..count).map(move |k| first + k * step)
-}
-
-/// Both indices and the flat index of each cell.
-fn cells([nx, ny]: [usize; 2]) -> impl Iterator<Item = (usize, usize, usize)> {
-    (0..nx).flat_map(move |i| (0..ny).map(move |j| (i, j, i * ny + j)))
 }
 
 #[cfg(test)]

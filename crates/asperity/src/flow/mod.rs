@@ -7,7 +7,7 @@
 //! [`solve`] computes the permeability of the whole gap: a tensor K with the mean flux `−K ∇P/12η`, in m³.
 //!
 //! ```
-//! use asperity::flow::{Settings, solve};
+//! use asperity::flow::{Fluid, Settings, solve};
 //! use asperity::{Field, Grid};
 //!
 //! // A gap of 1 µm with a row of contacts of 4 × 4 cells.
@@ -18,7 +18,7 @@
 //! let along_x = flow.along[0].as_ref().expect("both directions are solved by default");
 //! assert!(along_x.hydraulic_gap < 1e-6 && along_x.critical_gap == 1e-6);
 //! // Water at a pressure drop of 1 bar, m³/s.
-//! let leakage = along_x.leakage(1e5, 1e-3)?;
+//! let leakage = along_x.leakage(&Fluid { viscosity: 1e-3, drop: 1e5, outlet: None })?;
 //! assert!((leakage - along_x.permeability * 1e5 / 12e-3).abs() < 1e-12 * leakage);
 //! # Ok::<(), asperity::Error>(())
 //! ```
@@ -26,18 +26,21 @@
 mod comparisons;
 mod components;
 mod constriction;
+mod doubts;
 mod faces;
 mod factor;
+mod fluid;
 mod ordering;
 mod pressure;
 
 pub use comparisons::{effective_medium, patir_cheng, single_constriction};
+pub use doubts::doubts;
 pub use faces::Faces;
+pub use fluid::Fluid;
 
 use ndarray::Array2;
 
 use components::{AT_END, AT_START, Components, WINDS_X, WINDS_Y};
-use constriction::constrictions;
 use faces::{Network, Topology};
 use factor::Factor;
 use ordering::Ordering;
@@ -47,7 +50,7 @@ use crate::choice::choice;
 use crate::error::{Error, Result, check_in};
 use crate::grid::{Field, Grid, check_finite};
 use crate::math::parallel;
-use crate::units::{CubicMetre, Dimension, Metre, Pascal, PascalSecond};
+use crate::units::{CubicMetre, Dimension, Metre};
 
 /// Continuation of the gap beyond the ends of the grid, along the pressure gradient.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -87,6 +90,13 @@ pub enum Along {
 
 choice!(Along: "x" => X, "y" => Y, "both" => Both);
 
+impl Along {
+    /// Whether the flow along x, and along y, is wanted.
+    pub fn axes(self) -> [bool; 2] {
+        [self != Self::Y, self != Self::X]
+    }
+}
+
 /// Settings of a flow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Settings {
@@ -98,6 +108,19 @@ pub struct Settings {
     pub faces: Faces,
     /// The directions of the gradient.
     pub along: Along,
+}
+
+impl Settings {
+    /// Returns the settings for ends and sides that differ between a flow along x and one along y: one for both axes if they are alike, else
+    /// one for each axis that is wanted.
+    pub fn of_axes(ends: [Ends; 2], sides: [Sides; 2], faces: Faces, along: Along) -> Vec<Self> {
+        let one = |axis: usize, along| Self { ends: ends[axis], sides: sides[axis], faces, along };
+        if ends[0] == ends[1] && sides[0] == sides[1] {
+            return vec![one(0, along)];
+        }
+        let each = [(0, Along::X), (1, Along::Y)].into_iter();
+        each.filter(|(axis, _)| along.axes()[*axis]).map(|(axis, along)| one(axis, along)).collect()
+    }
 }
 
 /// Flow through a gap.
@@ -130,6 +153,8 @@ pub struct FlowAlong {
     pub critical_gap: Metre,
     /// The cell `[ix, iy]` of the critical constriction; `None` without a path.
     pub critical_cell: Option<[usize; 2]>,
+    /// Width of the critical constriction: open cells in a row across the axis; 0 without a path.
+    pub critical_cells: usize,
     /// Share of the cells of the grid that are part of a path, with their dead ends, 0 … 1.
     pub flowing_share: f64,
     /// Volume in the open cells from which no path leads out, m³: around no period, and to neither end.
@@ -148,56 +173,20 @@ pub struct FlowAlong {
     /// Solutions for what was left of the imbalance.
     pub rounds: usize,
     /// Pressure at the centres of the cells over the pressure drop: 1 at the start of the axis, 0 at its end. 0 in closed cells, and
-    /// where no path leads to an end.
+    /// where no path leads to an end. For an ideal gas it is the square of the pressure that falls like this.
     pub pressure: Field,
     /// Flux per width through the faces across x, `[nx + 1, ny]`, and across y, `[nx, ny + 1]`, over the mean gradient and 1/12η, m³. Its
     /// mean is the permeability. The first and the last face of a periodic axis are the same.
     pub flux: [Field; 2],
     /// Whether a cell is part of a path along the axis.
     pub flowing: Array2<bool>,
-    /// Width of the grid over its length.
-    aspect: f64,
+    /// Length of the grid along the axis.
+    length: Metre,
+    /// Width of the grid across the axis.
+    width: Metre,
 }
 
 impl FlowAlong {
-    /// Returns the volume of a liquid that leaks in a unit of time, m³/s, under this drop of pressure over the length of the grid.
-    ///
-    /// Q = K (W/L) ΔP/12η
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] if the drop is negative or the viscosity is not positive.
-    pub fn leakage(&self, pressure_drop: Pascal, viscosity: PascalSecond) -> Result<f64> {
-        let drop = Dimension::Pressure.range();
-        let good = pressure_drop == 0.0 || drop.holds(pressure_drop);
-        check_in(Dimension::Pressure, "pressure drop", pressure_drop, good, "0, or 1e-6 … 1e15 Pa")?;
-        let good = Dimension::Viscosity.range().holds(viscosity);
-        check_in(Dimension::Viscosity, "viscosity", viscosity, good, "1e-9 … 1e9 Pa s")?;
-        Ok(self.permeability * self.aspect * pressure_drop / (12.0 * viscosity))
-    }
-
-    /// Returns the volume of an ideal gas of constant temperature that leaks in a unit of time, m³/s at the pressure of the outlet.
-    ///
-    /// Q = K (W/L) (P₁² − P₀²)/(2P₀)/12η
-    ///
-    /// The pressures are absolute. The mean free path of the gas must be small compared with the gap.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] if the outlet's pressure or the viscosity is not positive, or if the inlet's pressure is lower than the
-    /// outlet's.
-    pub fn gas_leakage(&self, inlet: Pascal, outlet: Pascal, viscosity: PascalSecond) -> Result<f64> {
-        let range = Dimension::Pressure.range();
-        check_in(
-            Dimension::Pressure,
-            "pressure of the outlet",
-            outlet,
-            range.holds(outlet),
-            "1e-6 … 1e15 Pa",
-        )?;
-        let good = inlet >= outlet && range.holds(inlet);
-        check_in(Dimension::Pressure, "pressure of the inlet", inlet, good, "at least that of the outlet")?;
-        Ok(self.leakage(inlet - outlet, viscosity)? * (0.5 * (inlet + outlet) / outlet))
-    }
-
     /// Computes the flux per width at the centres of the cells, m³ as [`Self::flux`]: `[along x, along y]`, means of two faces.
     pub fn flux_at_centres(&self) -> [Field; 2] {
         let shape = self.pressure.dim();
@@ -259,11 +248,7 @@ pub fn solve(gap: &Field, grid: &Grid, settings: &Settings) -> Result<Flow> {
     check_in(Dimension::Length, "gap", largest, largest <= most, "at most 1e6 m")?;
 
     let gaps = Gaps::new(gap, grid, largest);
-    let asked = match settings.along {
-        Along::X => [true, false],
-        Along::Y => [false, true],
-        Along::Both => [true, true],
-    };
+    let asked = settings.along.axes();
     let periodic = settings.ends == Ends::Periodic && settings.sides == Sides::Periodic;
     let mut along = [None, None];
     let mut coupling = None;
@@ -364,7 +349,8 @@ impl<'a> Part<'a> {
         let each: [usize; N] = std::array::from_fn(|n| n);
         let solved = pressure::solve(&self.network, &factor, each.map(|n| (axes[n], flowing[n].as_slice())));
         drop(factor);
-        let paths = constrictions(&self.gaps.scaled, self.topology, axes.map(|axis| self.needed(axis)));
+        let paths =
+            constriction::constrictions(&self.gaps.scaled, self.topology, axes.map(|axis| self.needed(axis)));
         let other = match self.faces {
             Faces::Linear => Faces::Harmonic,
             Faces::Harmonic => Faces::Linear,
@@ -457,6 +443,9 @@ impl<'a> Part<'a> {
             flow_factor: if scaled > 0.0 { scaled / self.gaps.mean.powi(3) } else { 0.0 },
             critical_gap: path.map_or(0.0, |cell| self.gaps.gap[[cell / ny, cell % ny]]),
             critical_cell: path.map(|cell| [cell / ny, cell % ny]),
+            critical_cells: path.map_or(0, |cell| {
+                constriction::width(&self.gaps.scaled, grid.shape, cell, axis, !self.topology.closed[across])
+            }),
             flowing_share: flowing_cells as f64 / grid.cells() as f64,
             trapped_volume: trapped * self.gaps.largest * grid.cell_area(),
             other_faces: bounds.map(|bound| bound * permeability),
@@ -468,7 +457,8 @@ impl<'a> Part<'a> {
             pressure,
             flux,
             flowing: Array2::from_shape_vec((nx, ny), flowing).expect("a cell has a place"),
-            aspect: width / grid.extent()[axis],
+            length: grid.extent()[axis],
+            width,
         })
     }
 }

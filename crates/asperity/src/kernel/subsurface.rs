@@ -90,6 +90,7 @@ pub(crate) fn stress_lines(
 ) {
     let (size, depth) = ([1.0, pitch[1] / pitch[0]], depth / pitch[0]);
     let [s, t] = [size[1 - axis], size[axis]];
+    // A coefficient is even if its corner function is odd.
     let odd = traction.odd(component).map(|odd| if odd { 1.0 } else { -1.0 });
     let [across, odd_along] = [odd[1 - axis], odd[axis]];
     let mut before = vec![0.0; along];
@@ -147,18 +148,11 @@ pub fn stress_table(
     component: Component,
     traction: Traction,
 ) -> Field {
-    let [width, height, depth] = [1.0, pitch[1] / pitch[0], depth / pitch[0]];
-    let corners = Field::from_shape_fn(shape, |(i, j)| {
-        let [x, y] = [(i as f64 + 0.5) * width, (j as f64 + 0.5) * height];
-        corner(component, traction, x, y, depth, poisson)
+    let mut table = Field::zeros(shape);
+    stress_lines(shape, 1, depth, pitch, poisson, component, traction, |i, values| {
+        table.row_mut(i).iter_mut().zip(values).for_each(|(at, value)| *at = *value);
     });
-    // A coefficient is even if its corner function is odd.
-    let across = traction.odd(component).map(|odd| if odd { 1.0 } else { -1.0 });
-    let at = |i: usize, j: usize| corners[[i, j]];
-    let along_y = |i: usize, j: usize| at(i, j) - if j == 0 { across[1] * at(i, 0) } else { at(i, j - 1) };
-    Field::from_shape_fn(shape, |(i, j)| {
-        along_y(i, j) - if i == 0 { across[0] * along_y(0, j) } else { along_y(i - 1, j) }
-    })
+    table
 }
 
 /// Computes the `component` at `depth` per unit of the harmonic traction e^{i(k x + l y)}. It has a factor i if

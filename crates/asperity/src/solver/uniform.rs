@@ -62,8 +62,8 @@ pub fn displace_uniformly(
     if operator.leaves_mean_free() && all && own.iter().all(|own| *own == 0.0) {
         return Err(Error::Unsupported("a uniform traction on all of a period displaces nothing"));
     }
-    let level = Level::new(operator, cells, &own);
-    let mut gradients = Gradients::with_level(&grid, cells, level);
+    let preconditioner = CellPreconditioner::new(operator, cells, &own);
+    let mut gradients = Gradients::preconditioned_by(&grid, cells, preconditioner);
     let mut compliant = Compliant::new(&mut *operator, own)?;
     // A traction that is uniform over a period displaces it by D alone: no wave tells how large it is.
     let uniform = (compliant.boundary().leaves_mean_free() && all && least > 0.0).then(|| grid.zeros() + 1.0);
@@ -113,7 +113,7 @@ fn on_cells(cells: &Array2<bool>, compliance: &CellValues) -> Field {
 pub(super) struct Gradients {
     /// 1 on the cells, 0 elsewhere.
     mask: Field,
-    level: Level,
+    preconditioner: CellPreconditioner,
     /// The traction so far.
     pub(super) traction: Field,
     residual: Field,
@@ -129,13 +129,13 @@ pub(super) struct Gradients {
 impl Gradients {
     /// Starts from 0 on the `cells`.
     pub(super) fn new(operator: &dyn Operator, cells: &Array2<bool>) -> Self {
-        Self::with_level(operator.grid(), cells, Level::alike(operator, cells))
+        Self::preconditioned_by(operator.grid(), cells, CellPreconditioner::alike(operator, cells))
     }
 
-    fn with_level(grid: &Grid, cells: &Array2<bool>, level: Level) -> Self {
+    fn preconditioned_by(grid: &Grid, cells: &Array2<bool>, preconditioner: CellPreconditioner) -> Self {
         let mask = cells.mapv(|is_cell| f64::from(u8::from(is_cell)));
         Self {
-            level,
+            preconditioner,
             traction: grid.zeros(),
             residual: mask.clone(),
             mask,
@@ -161,7 +161,7 @@ impl Gradients {
         }
     }
 
-    /// Replaces the residual, which each step changes by what it should change, by that of the traction.
+    /// Computes the residual from the traction: the one that the steps have updated has gathered rounding errors.
     fn renew(&mut self, operator: &mut dyn Operator) {
         operator.apply(&self.traction, &mut self.response);
         self.stats.convolutions += 1.0;
@@ -172,8 +172,18 @@ impl Gradients {
 
     /// One step; returns what it adds to the sum of the traction.
     pub(super) fn step(&mut self, operator: &mut dyn Operator) -> Result<f64> {
-        let Self { mask, level, traction, residual, direction, response, single, preconditioned, .. } = self;
-        level.apply(residual, single, preconditioned);
+        let Self {
+            mask,
+            preconditioner,
+            traction,
+            residual,
+            direction,
+            response,
+            single,
+            preconditioned,
+            ..
+        } = self;
+        preconditioner.apply(residual, single, preconditioned);
         let product =
             Zip::from(&*residual).and(&*preconditioned).fold(0.0, |sum, r, z| sum + r * f64::from(*z));
         let beta = product / self.product_before;
@@ -202,7 +212,7 @@ impl Gradients {
 
 /// The preconditioner: that of a contact on the cells which the bodies displace, and their own compliance on those which hardly
 /// anything else displaces.
-struct Level {
+struct CellPreconditioner {
     sets: Sets,
     /// None without cells that the bodies displace.
     bodies: Option<Preconditioner>,
@@ -210,7 +220,7 @@ struct Level {
     alone: Vec<(usize, f32)>,
 }
 
-impl Level {
+impl CellPreconditioner {
     /// Preconditioner of cells without a compliance of their own.
     fn alike(operator: &dyn Operator, cells: &Array2<bool>) -> Self {
         let sets = sets(cells.dim().into(), cells.iter().copied().collect());

@@ -58,8 +58,13 @@ pub(super) const MESSAGE: Column = Column::new("message", "", "Why the case fail
 const OF_A_STUDY: [Column; 5] = [CASE, DONE, WARNINGS, STATE, MESSAGE];
 
 /// Prefixes that the table of a study adds to the column names of a record.
-const PREFIXES: [(&str, &[Column]); 2] =
-    [("sliding_", UpdateRecord::OWN_COLUMNS), ("subsurface_", SubsurfaceRecord::OWN_COLUMNS)];
+const PREFIXES: [(&str, &[Column]); 5] = [
+    ("sliding_", UpdateRecord::OWN_COLUMNS),
+    ("subsurface_", SubsurfaceRecord::OWN_COLUMNS),
+    ("conductance_", ConductanceRecord::OWN_COLUMNS),
+    ("flow_x_", GapFlowRecord::OWN_COLUMNS),
+    ("flow_y_", GapFlowRecord::OWN_COLUMNS),
+];
 /// Suffixes that the table of a study adds to the names of vectors, for their components.
 const COMPONENTS: [&str; 3] = ["_x", "_y", "_z"];
 
@@ -220,6 +225,9 @@ mod tests {
             ("subsurface_max_shear", "Pa"),
             ("subsurface_max_shear_position_z", "m"),
             ("subsurface_position_x", "m"),
+            ("conductance_spots", "1"),
+            ("thermal_joint_conductance", "W/(m² K)"),
+            ("flow_y_permeability", "m³"),
             ("sliding_max_temperature", "K"),
             ("sliding_own_volume_upper", "m³"),
             ("max_plastic_strain_position_y", "m"),

@@ -194,14 +194,8 @@ pub(super) fn check_plastic_limit(case: &Case, grids: [Grid; 2]) -> Result<()> {
     let positions = positions(case, grids);
     let bearable: Vec<Newton> =
         positions.iter().map(|position| cap * position.columns as f64 * column).collect();
-    let control = case.contact.prescribed.control(apparent_area);
-    match control {
-        Control::Load(_) => {
-            let load_control = motion.map_or(LoadControl::Step, |motion| motion.load_control);
-            check_limit(control, load_control.plastic_limit(&bearable))
-        }
-        Control::Approach(_) => Ok(()),
-    }
+    let load_control = motion.map_or(LoadControl::Step, |motion| motion.load_control);
+    check_limit(case.contact.prescribed.control(apparent_area), load_control.plastic_limit(&bearable))
 }
 
 /// Largest pressure on cells of a hardness, reduced by the shear of sliding bodies.

@@ -87,7 +87,8 @@ impl Passes {
         let passes = writer.results().passes()?;
         // They compare with the bodies before the first pass.
         let done = Some(passes.len()).filter(|done| *done > 0);
-        let observers = Observers::new(case, simulation.pair(), (Some(&writer), done))?;
+        let mut observers =
+            Observers::new(case, simulation.pair(), simulation.positions(), (Some(&writer), done))?;
         let represented = passes.iter().map(PassRecord::represents).sum();
         let simulation = match passes.len() {
             0 => {
@@ -114,8 +115,8 @@ impl Passes {
             }
         };
         let (case, done) = (case.clone(), passes.len());
-        let positions = simulation.positions().to_vec();
-        let simulation = simulation.keeping_gaps(|index| observers.want(index, &positions[index]));
+        let wanted = observers.wanted(simulation.positions().len());
+        let simulation = simulation.keeping_gaps(|index| wanted[index]);
         Ok(Self {
             case,
             simulation,

@@ -280,7 +280,7 @@ impl StaticProblem<'_> {
 
     /// Creates the observers of the case, after the steps that are `done`.
     fn observers(&self, done: Option<usize>) -> Result<Observers> {
-        Observers::new(self.case, &self.pair, (self.writer, done))
+        Observers::new(self.case, &self.pair, &[], (self.writer, done))
     }
 
     fn boundary(&self) -> Boundary {

@@ -76,7 +76,8 @@ pub enum Groove {
 choice!(Groove: "parabolic" => Parabolic, "triangular" => Triangular);
 
 /// A direction in the plane of the surface.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Axis {
     /// The direction of motion.
     X,

@@ -4,13 +4,12 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use asperity::conductance::{self, Joint, Kind};
-use asperity::flow::{self, Along, Ends, Settings, Sides};
+use asperity::flow::{self, Along, Ends, Fluid, Settings, Sides};
 use asperity::motion::{Progress, Watch};
 use asperity::operator::{Boundary, FreeFft, Operator, PeriodicFft};
 use asperity::solver::Params;
-use asperity::study::{
-    self, Case, ConductanceRecord, Existing, FlowAxis, GapFlowRecord, Results, SurfaceInput,
-};
+use asperity::study::{self, Case, ConductanceRecord, Existing, GapFlowRecord, Results, SurfaceInput};
+use asperity::surface::Axis;
 use asperity::{Error, Field, Grid};
 
 const PASSAGE: &str = "
@@ -24,6 +23,9 @@ drop = \"10 K\"
 viscosity = \"80 mPa s\"
 pressure = \"1 bar\"
 ";
+
+/// The fluid of this `[flow]`.
+const OIL: Fluid = Fluid { viscosity: 0.08, drop: 1e5, outlet: None };
 
 /// Two rough bodies under this `[contact]`, with further tables and keys of the lower body.
 fn case(lower: &str, contact: &str, more: &str) -> Case {
@@ -120,7 +122,7 @@ fn leaks(grid: Grid, boundary: Boundary, pressure: &Field, gap: &Field) -> f64 {
         }
     };
     let found = flow::solve(&open, &grid, &settings).unwrap();
-    found.along[0].as_ref().unwrap().leakage(1e5, 0.08).unwrap()
+    found.along[0].as_ref().unwrap().leakage(&OIL).unwrap()
 }
 
 fn near(one: f64, other: f64, within: f64) -> bool {
@@ -144,7 +146,7 @@ fn every_course_says_what_its_contacts_let_through() {
             );
             assert!((row.spot_share + row.gas_share - 1.0).abs() < 1e-9, "{name}: {row:?}");
             assert!(near(row.power.unwrap(), 10.0 * thermal.thermal_conductance.unwrap(), 1e-12));
-            for (flow, along) in flows.iter().zip([FlowAxis::X, FlowAxis::Y]) {
+            for (flow, along) in flows.iter().zip([Axis::X, Axis::Y]) {
                 assert_eq!((flow.pass, Some(flow.step), flow.along), (row.pass, row.step, along), "{name}");
                 assert!(flow.load == row.load && flow.contact_area == row.contact_area, "{name}");
                 assert!(
@@ -234,4 +236,81 @@ fn positions_that_are_kept_have_their_fields() {
     let names = |name: &str| results.observed_fields(name, 2).unwrap().names().unwrap();
     assert_eq!(names("conductance"), ["flux_00001"]);
     assert!(names("flow").contains(&"fluid_pressure_x_00001".to_owned()), "{:?}", names("flow"));
+}
+
+#[test]
+fn each_axis_has_the_ends_and_sides_of_its_boundary() {
+    for [x, y] in [[true, false], [false, true]] {
+        let [one, other] = [x, y].map(|periodic| if periodic { "periodic" } else { "free" });
+        let case = case("", &format!("load = \"0.05 N\"\nboundary = [\"{one}\", \"{other}\"]"), "");
+        let rest = study::rest(&case, SurfaceInput::default(), &()).unwrap();
+        let gap = rest.fields.fields.iter().find(|field| field.name == "gap").unwrap().values.clone();
+        let pressure = rest.fields.fields.iter().find(|field| field.name == "pressure").unwrap();
+        let gap = ndarray::Zip::from(&gap)
+            .and(&pressure.values)
+            .map_collect(|gap, p| if *p > 0.0 { 0.0 } else { gap.max(0.0) });
+        let grid = Grid::new([24, 20], [1e-6; 2]).unwrap();
+        let ends = |periodic| if periodic { Ends::Periodic } else { Ends::Reservoirs };
+        let sides = |periodic| if periodic { Sides::Periodic } else { Sides::Closed };
+        let settings = [(x, y), (y, x)].map(|(along, across)| (ends(along), sides(across)));
+        for (axis, (ends, sides)) in settings.into_iter().enumerate() {
+            let along = [Along::X, Along::Y][axis];
+            let found =
+                flow::solve(&gap, &grid, &Settings { ends, sides, along, ..Settings::default() }).unwrap();
+            let alone = found.along[axis].as_ref().unwrap().leakage(&OIL).unwrap();
+            let row = &rest.gap_flow[axis];
+            assert!(alone > 0.0 && near(row.leakage, alone, 1e-9), "{one} {axis}: {row:?} {alone}");
+        }
+    }
+}
+
+#[test]
+fn a_gas_has_the_fields_of_its_leakage() {
+    let (inlet, outlet) = (5e5, 2e5);
+    let mut case = case("", "load = \"0.05 N\"", "");
+    let liquid = study::rest(&case, SurfaceInput::default(), &()).unwrap();
+    let spec = case.flow.as_mut().unwrap();
+    (spec.gas, spec.outlet, spec.pressure) = (true, Some(outlet), inlet - outlet);
+    let gas = study::rest(&case, SurfaceInput::default(), &()).unwrap();
+    let field = |rest: &study::StaticResult, name: &str| {
+        rest.fields.fields.iter().find(|field| field.name == name).unwrap().values.clone()
+    };
+    let ratio = gas.gap_flow[0].leakage / liquid.gap_flow[0].leakage;
+    assert!(near(ratio, (inlet * inlet - outlet * outlet) / (2.0 * outlet * 1e5), 1e-12), "{ratio}");
+    let rates = ["flow_x", "flow_y"].map(|name| (field(&liquid, name), field(&gas, name)));
+    for (liquid, gas) in rates {
+        assert!(liquid.iter().zip(&gas).all(|(liquid, gas)| (gas - ratio * liquid).abs() <= 1e-12 * gas));
+    }
+    // The square of the absolute pressure falls as the pressure of a liquid does.
+    let (liquid, gas) = (field(&liquid, "fluid_pressure_x"), field(&gas, "fluid_pressure_x"));
+    assert!(liquid.iter().any(|p| *p > 0.0 && *p < 1e5));
+    for (liquid, gas) in liquid.iter().zip(&gas) {
+        let square = outlet * outlet + liquid / 1e5 * (inlet * inlet - outlet * outlet);
+        assert!(near(gas + outlet, square.sqrt(), 1e-12), "{liquid} {gas}");
+    }
+}
+
+#[test]
+fn a_path_to_and_fro_has_one_flush_position() {
+    let folder = tempfile::tempdir().unwrap();
+    let motion = "[motion]\nspeed = \"1 m/s\"\nstride = 12\npasses = 2\npath = \"reciprocating\"";
+    let mut case = case("", "load = \"0.05 N\"", motion);
+    case.flow.as_mut().unwrap().every = 0;
+    let results = run(&case, folder.path(), Existing::Keep, &()).unwrap();
+    let seen: Vec<_> = results.flow().unwrap().iter().map(|row| (row.pass, row.step, row.along)).collect();
+    let at = |pass| [Axis::X, Axis::Y].map(|along| (Some(pass), seen[0].1, along));
+    assert_eq!(seen, [at(1), at(2)].concat());
+}
+
+#[test]
+fn positions_are_looked_at_in_parallel_with_the_same_bits() {
+    let tables = [1, 3].map(|threads| {
+        let folder = tempfile::tempdir().unwrap();
+        let case = case("", "load = \"0.05 N\"", "[motion]\nspeed = \"1 m/s\"\nstride = 3\npasses = 2");
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| run(&case, folder.path(), Existing::Keep, &()).map(drop)).unwrap();
+        ["conductance.csv", "flow.csv"].map(|name| std::fs::read_to_string(folder.path().join(name)).unwrap())
+    });
+    assert_eq!(tables[0], tables[1]);
+    assert!(tables[0].iter().all(|table| table.lines().count() > 2 * 15), "{tables:?}");
 }

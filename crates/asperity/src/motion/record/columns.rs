@@ -147,7 +147,7 @@ macro_rules! columns {
     (@unit [bool]) => { "" };
     (@unit [Regime]) => { "" };
     (@unit [Theory]) => { "" };
-    (@unit [FlowAxis]) => { "" };
+    (@unit [Axis]) => { "" };
     (@unit [usize]) => { "1" };
     (@unit [f64]) => { "1" };
     (@unit [Metre]) => { "m" };

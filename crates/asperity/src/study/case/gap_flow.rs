@@ -6,7 +6,7 @@ use super::cursor::Table;
 use super::schema::passage::flow as keys;
 use super::schema::tables::known_in;
 use crate::error::Result;
-use crate::flow::{Along, Ends};
+use crate::flow::{Along, Ends, Fluid};
 use crate::operator::Boundary;
 use crate::units::{Pascal, PascalSecond};
 
@@ -20,27 +20,39 @@ pub struct GapFlowSpec {
     pub pressure: Pascal,
     /// Directions of the flow.
     pub along: Along,
-    /// How the gap goes on beyond the grid along the flow.
-    pub ends: Ends,
+    /// How the gap goes on beyond the grid along the flow; `None` for what the boundary does along that axis.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ends: Option<Ends>,
     /// Whether the fluid is an ideal gas.
     pub gas: bool,
-    /// Absolute pressure of a gas at the outlet.
+    /// Absolute pressure of a gas at the outlet; `None` for a liquid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub outlet: Option<Pascal>,
     /// Interval of the contacts whose flow is computed; 0 for one contact of each pass, or the last contact.
     pub every: usize,
 }
 
-/// Reads the table of a case with this boundary.
-pub(super) fn flow(table: &Table<'_>, boundary: Boundary) -> Result<GapFlowSpec> {
+impl GapFlowSpec {
+    /// Returns the fluid with the difference of its pressure.
+    pub fn fluid(&self) -> Fluid {
+        Fluid { viscosity: self.viscosity, drop: self.pressure, outlet: self.outlet }
+    }
+
+    /// Returns how the gap of a contact with this boundary goes on beyond the grid, for a flow along `axis`.
+    pub fn ends_along(&self, axis: usize, boundary: Boundary) -> Ends {
+        let by_boundary = if boundary.repeats(axis) { Ends::Periodic } else { Ends::Reservoirs };
+        self.ends.unwrap_or(by_boundary)
+    }
+}
+
+/// Reads the table.
+pub(super) fn flow(table: &Table<'_>) -> Result<GapFlowSpec> {
     known_in(table)?;
-    let periodic = boundary.repeats(0) && boundary.repeats(1);
-    let ends = if periodic { Ends::Periodic } else { Ends::Reservoirs };
     Ok(GapFlowSpec {
         viscosity: keys::VISCOSITY.of(table)?,
         pressure: keys::PRESSURE.of(table)?,
         along: keys::ALONG.of(table)?,
-        ends: keys::ENDS.of(table)?.unwrap_or(ends),
+        ends: keys::ENDS.of(table)?,
         gas: keys::GAS.of(table)?,
         outlet: keys::OUTLET.of(table)?,
         every: keys::EVERY.of(table)?,

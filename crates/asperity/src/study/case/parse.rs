@@ -74,7 +74,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     let temperature = keys::TEMPERATURE.of(root)?.map(|table| temperature(&table, heated)).transpose()?;
     let subsurface = keys::SUBSURFACE.of(root)?.map(|table| subsurface(&table)).transpose()?;
     let conductance = keys::CONDUCTANCE.of(root)?.map(|table| conductance(&table)).transpose()?;
-    let flow = keys::FLOW.of(root)?.map(|table| flow(&table, contact.boundary)).transpose()?;
+    let flow = keys::FLOW.of(root)?.map(|table| flow(&table)).transpose()?;
     Ok(Case {
         title,
         lower,

@@ -48,7 +48,7 @@ pub fn demand(case: &Case, given: &SurfaceInput, threads: usize) -> Result<Deman
     let overlaps: Vec<usize> = super::positions(case, [lower, upper]).iter().map(|p| p.columns).collect();
     let sizes = Sizes { case, lower, upper, overlaps: &overlaps };
     let surfaces = sizes.surfaces();
-    let Memory { solver, together, results, volumes } = sizes.memory();
+    let Memory { solver, together, results, volumes } = sizes.memory(threads);
     let solvers = threads.clamp(1, overlaps.len().max(1)) as f64 * solver;
     let memory = PROGRAM
         + match case.motion {
@@ -169,7 +169,7 @@ impl Sizes<'_> {
         Surfaces { kept: bytes[0] + bytes[1], making: lower.max(bytes[0] + upper) }
     }
 
-    fn memory(&self) -> Memory {
+    fn memory(&self, threads: usize) -> Memory {
         let case = self.case;
         let [nx, ny] = self.facing();
         // Seven numbers of the iteration for each cell. Half of the padded transform is stored, if single precision is
@@ -210,7 +210,7 @@ impl Sizes<'_> {
             let kept = if case.friction.is_some() { 2.0 * kept } else { kept };
             2.0 * (cells[0] + cells[1]) + 2.0 * kept
         });
-        let results = NUMBER * results + volumes + self.passage_memory();
+        let results = NUMBER * results + volumes + self.passage_memory(threads);
         Memory { solver, together, results, volumes }
     }
 
@@ -368,7 +368,7 @@ impl Sizes<'_> {
             let planes = spec.layers + spec.planes.len();
             effort += passes * STRESS * planes as f64 * work(nx) / together(planes);
         }
-        effort += self.passage(boundary, digits);
+        effort += self.passage(boundary, digits, &together);
         // A new counterbody is made for each pass.
         let times = match case.motion {
             Some(MotionSpec { counter: CounterBody::Fresh, passes, .. }) => [1.0, passes as f64],
@@ -404,29 +404,38 @@ impl Sizes<'_> {
     }
 
     /// Work of the conductance and of the flow through the gap.
-    fn passage(&self, boundary: f64, digits: f64) -> f64 {
+    fn passage(&self, boundary: f64, digits: f64, together: &dyn Fn(usize) -> f64) -> f64 {
         let (case, [nx, ny]) = (self.case, self.facing());
         let work = nx * ny * (nx * ny).max(2.0).log2();
         let conductance = case.conductance.map_or(0.0, |spec| {
             let gas = if spec.gas.is_some() { CONDUCTING_GAS } else { 1.0 };
             CONDUCTANCE * gas * boundary * digits * self.observed(spec.every)
+                / together(self.observed_together(spec.every))
         });
-        let flow = case.flow.map_or(0.0, |spec| FLOW * self.observed(spec.every));
+        let flow = case.flow.map_or(0.0, |spec| {
+            FLOW * self.observed(spec.every) / together(self.observed_together(spec.every))
+        });
         (conductance + flow) * work
     }
 
-    /// Memory of the conductance and of the flow through the gap, bytes: their solvers, and the gaps of a pass.
-    fn passage_memory(&self) -> f64 {
-        let (case, [nx, ny]) = (self.case, self.facing());
-        let every = [case.conductance.map(|spec| spec.every), case.flow.map(|spec| spec.every)];
-        let gaps = every.into_iter().flatten().map(|every| match (case.motion, every) {
-            (None, _) => 1,
-            (Some(_), 0) => 1,
+    /// Number of contacts of a step that an observer with this interval looks at.
+    fn observed_together(&self, every: usize) -> usize {
+        match (self.case.motion, every) {
+            (None, _) | (Some(_), 0) => 1,
             (Some(_), every) => self.overlaps.len().div_ceil(every),
-        });
-        let gaps = NUMBER * gaps.max().unwrap_or(0) as f64 * nx * ny;
-        let conductance = if case.conductance.is_some() { NUMBER * 12.0 * nx * ny } else { 0.0 };
-        let flow = if case.flow.is_some() { crate::flow::memory([nx as usize, ny as usize]) } else { 0.0 };
+        }
+    }
+
+    /// Memory of the conductance and of the flow through the gap, bytes: their solvers, one for each thread, and the gaps of a pass.
+    fn passage_memory(&self, threads: usize) -> f64 {
+        let (case, [nx, ny]) = (self.case, self.facing());
+        let together = |every: Option<usize>| every.map_or(0, |every| self.observed_together(every));
+        let [conductance, flow] =
+            [case.conductance.map(|spec| spec.every), case.flow.map(|spec| spec.every)].map(together);
+        let gaps = NUMBER * conductance.max(flow) as f64 * nx * ny;
+        let at_once = |positions: usize| threads.clamp(1, positions.max(1)).min(positions) as f64;
+        let conductance = at_once(conductance) * NUMBER * 14.0 * nx * ny;
+        let flow = at_once(flow) * (crate::flow::memory([nx as usize, ny as usize]) + NUMBER * 2.0 * nx * ny);
         gaps + conductance.max(flow)
     }
 

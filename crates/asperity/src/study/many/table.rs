@@ -12,6 +12,7 @@ use super::axis::Axis;
 use super::cell::quoted;
 use super::folder::Folder;
 use super::plan::Study;
+use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::io::fields::FieldFile;
@@ -217,7 +218,8 @@ fn is_damage(error: &io::Error) -> bool {
 }
 
 /// Returns the numbers of a summary: the record of a static contact, or the last point of a sweep, or the last pass of a
-/// motion. Then those of wear in place, of running-in, of the residual plastic flow, and of the last most stressed point.
+/// motion. Then those of wear in place, of running-in, of the residual plastic flow, of the last most stressed point, and of the last
+/// conductance and flow through the gap.
 fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     let mut numbers = Vec::new();
     match &summary.outcome {
@@ -237,18 +239,43 @@ fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     if let Some(stress) = summary.subsurface.last() {
         add(&mut numbers, "subsurface_", stress);
     }
+    if let Some(conductance) = summary.conductance.last() {
+        add_beside(&mut numbers, "conductance_", conductance);
+    }
+    for flow in &summary.flow {
+        add_beside(&mut numbers, &format!("flow_{}_", flow.along.word()), flow);
+    }
     numbers
 }
 
 /// Adds the numbers of a record, in order. Several numbers under one key have one column each.
 fn add(numbers: &mut Vec<(String, f64)>, prefix: &str, record: &impl serde::Serialize) {
-    for (key, text) in tables::Row::of(record).cells() {
-        // Neither is a result.
-        if key != "wall_time_s" {
-            let value = serde_json::from_str(text).unwrap_or(Value::Null);
-            flatten(numbers, format!("{prefix}{key}"), &value);
-        }
+    for (key, value) in of_record(record) {
+        flatten(numbers, format!("{prefix}{key}"), &value);
     }
+}
+
+/// Adds the numbers of a record of an observer. Its contact has some of them too, which have one column. The names that say `thermal` or
+/// `electrical` have no prefix.
+fn add_beside(numbers: &mut Vec<(String, f64)>, prefix: &str, record: &impl serde::Serialize) {
+    const PLACE: [&str; 2] = ["pass", "step"];
+    const OF_CONTACT: [&str; 3] = ["load", "mean_pressure", "contact_area"];
+    for (key, value) in of_record(record) {
+        let is_there = |key: &str| numbers.iter().any(|(known, _)| known == key);
+        if PLACE.contains(&key.as_str()) || OF_CONTACT.contains(&key.as_str()) && is_there(&key) {
+            continue;
+        }
+        let names_kind = ["thermal_", "electrical_"].iter().any(|kind| key.starts_with(kind));
+        flatten(numbers, if names_kind { key } else { format!("{prefix}{key}") }, &value);
+    }
+}
+
+/// Keys and values of a record that are results.
+fn of_record(record: &impl serde::Serialize) -> Vec<(String, Value)> {
+    let row = tables::Row::of(record);
+    let results = row.cells().iter().filter(|(key, _)| key != "wall_time_s");
+    let value = |text: &str| serde_json::from_str(text).unwrap_or(Value::Null);
+    results.map(|(key, text)| (key.clone(), value(text))).collect()
 }
 
 fn flatten(numbers: &mut Vec<(String, f64)>, key: String, value: &Value) {
@@ -287,6 +314,44 @@ mod tests {
         let of = |name: &str| numbers.iter().find(|(column, _)| column == name).map(|(_, number)| *number);
         assert_eq!(of("max_plastic_strain_position_z"), Some(3e-6));
         assert_eq!([of("shift_per_pass"), of("max_residual_tension")], [Some(-2e-9), Some(3e8)]);
+        let without: Vec<_> = numbers.iter().filter(|(name, _)| unit_of_column(name).is_none()).collect();
+        assert!(without.is_empty(), "no unit of {without:?}");
+    }
+
+    #[test]
+    fn a_contact_that_conducts_and_leaks_has_their_numbers() {
+        let conductance = json!({
+            "step": 1, "load": 0.1, "mean_pressure": 1e6, "contact_area": 1e-12, "spots": 7.0, "median_spot_cells": 12.0,
+            "spot_share": 0.9, "gas_share": 0.1, "film_share": 0.2, "power": 1.5, "convolutions": 20.0, "residual": 1e-7,
+            "thermal_conductivity": 46.0, "thermal_conductance": 0.02, "thermal_joint_conductance": 2e4,
+            "thermal_resistance": 50.0, "thermal_resistance_full": null, "thermal_resistance_holm_greenwood": null,
+            "thermal_joint_correlation": 2.1e4,
+        });
+        let flow = |along: &str, leakage: f64| {
+            json!({
+                "step": 1, "along": along, "length": 1e-3, "load": 0.1, "mean_pressure": 1e6, "contact_area": 1e-12,
+                "mean_gap": 1e-7, "permeability": 1e-22, "permeability_across": 0.0, "hydraulic_gap": 5e-8,
+                "flow_factor": 0.1, "leakage": leakage, "critical_gap": 1e-8, "critical_x": 1e-6, "critical_y": 2e-6,
+                "critical_cells": 4, "flowing_share": 0.8, "trapped_volume": 1e-20, "effective_medium": 2e-22,
+                "estimate": 0.01, "residual": 1e-14,
+            })
+        };
+        let summary: Summary = serde_json::from_value(json!({
+            "version": "", "case": {}, "passes": [], "warnings": [], "wall_time_s": 1.0,
+            "conductance": [conductance], "flow": [flow("x", 1e-15), flow("y", 2e-15)],
+        }))
+        .unwrap();
+        let numbers = numbers(&summary);
+        let of = |name: &str| numbers.iter().find(|(column, _)| column == name).map(|(_, number)| *number);
+        assert_eq!([of("flow_x_leakage"), of("flow_y_leakage")], [Some(1e-15), Some(2e-15)]);
+        assert_eq!([of("thermal_joint_conductance"), of("conductance_spots")], [Some(2e4), Some(7.0)]);
+        // The same residual is another number, and the same load is not.
+        assert_eq!([of("conductance_residual"), of("flow_x_residual")], [Some(1e-7), Some(1e-14)]);
+        let mut beside = vec![("contact_area".to_owned(), 1e-12)];
+        add_beside(&mut beside, "flow_x_", &summary.flow[0]);
+        assert_eq!(beside.iter().filter(|(name, _)| name.ends_with("contact_area")).count(), 1);
+        let names: std::collections::BTreeSet<_> = numbers.iter().map(|(name, _)| name).collect();
+        assert_eq!(names.len(), numbers.len(), "{numbers:?}");
         let without: Vec<_> = numbers.iter().filter(|(name, _)| unit_of_column(name).is_none()).collect();
         assert!(without.is_empty(), "no unit of {without:?}");
     }

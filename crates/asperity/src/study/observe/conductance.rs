@@ -1,11 +1,11 @@
 //! Conductance of the contacts of a case.
 
-use ndarray::Array2;
+use std::sync::OnceLock;
 
 use super::{Observer, Place};
 use crate::conductance::{self, Conductance, JointRoughness, Kind};
 use crate::error::{Error, Result};
-use crate::motion::{ObservedContact, Pair};
+use crate::motion::{ObservedContact, Pair, Position};
 use crate::operator::Operators;
 use crate::solver::Params;
 use crate::study::case::{Case, ConductanceSpec};
@@ -26,7 +26,7 @@ pub(super) struct ConductanceObserver {
     hardness: Pascal,
     modulus: Pascal,
     /// Resistance with all cells in contact at full overlap, computed once.
-    full: Option<Option<f64>>,
+    full: OnceLock<Option<f64>>,
 }
 
 impl ConductanceObserver {
@@ -42,9 +42,7 @@ impl ConductanceObserver {
         let response = conductance::response(&lower.ok_or_else(unknown)??, &upper.ok_or_else(unknown)??)?;
         let boundary = case.contact.boundary;
         let largest = pair.grid(pair.lower_grid().shape[0].min(pair.upper_grid().shape[0]));
-        let flush = Array2::from_shape_fn(largest.shape, |(i, j)| {
-            pair.upper.heights[[i, j]] - pair.lower.heights[[i, j]]
-        });
+        let flush = pair.initial_gap(&Position::flush(largest.shape[0]));
         Ok(Some(Self {
             spec,
             operators: Operators::new(largest, response, boundary),
@@ -53,18 +51,17 @@ impl ConductanceObserver {
             roughness: JointRoughness::new(&largest, &flush, [0, 1].map(|axis| boundary.repeats(axis))),
             hardness: pair.min_hardness(),
             modulus: pair.modulus(),
-            full: None,
+            full: OnceLock::new(),
         }))
     }
 
     /// Returns the resistance with all cells in contact at full overlap.
-    fn full(&mut self, shape: [usize; 2]) -> Result<Option<f64>> {
-        if let Some(full) = self.full {
-            return Ok(full);
+    fn full(&self, shape: [usize; 2]) -> Result<Option<f64>> {
+        if let Some(full) = self.full.get() {
+            return Ok(*full);
         }
         let full = conductance::full_resistance(self.operators.on(shape).as_mut(), &self.params)?;
-        self.full = Some(full);
-        Ok(full)
+        Ok(*self.full.get_or_init(|| full))
     }
 
     /// Returns the joint conductance by a correlation.
@@ -86,7 +83,7 @@ impl Observer for ConductanceObserver {
     }
 
     fn observe(
-        &mut self,
+        &self,
         place: Place,
         contact: &ObservedContact<'_>,
     ) -> Result<(Vec<ConductanceRecord>, Vec<NamedField>)> {

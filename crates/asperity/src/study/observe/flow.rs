@@ -2,17 +2,18 @@
 
 use super::{Observer, Place};
 use crate::error::Result;
-use crate::flow::{self, FlowAlong, Settings, Sides};
+use crate::flow::{self, Faces, FlowAlong, Settings, Sides};
 use crate::motion::ObservedContact;
 use crate::study::case::{Case, GapFlowSpec};
 use crate::study::fields::NamedField;
-use crate::study::observed::{FlowAxis, GapFlowRecord};
-use crate::units::CubicMetrePerSecond;
+use crate::study::observed::GapFlowRecord;
+use crate::surface::Axis;
 
 /// Computes the flow through the gap of each contact.
 pub(super) struct FlowObserver {
     spec: GapFlowSpec,
-    settings: Settings,
+    /// One for both axes if the gap goes on alike along both, else one for each axis.
+    settings: Vec<Settings>,
 }
 
 impl FlowObserver {
@@ -20,19 +21,21 @@ impl FlowObserver {
     pub(super) fn of(case: &Case) -> Option<Self> {
         let spec = case.flow?;
         let boundary = case.contact.boundary;
-        let periodic = boundary.repeats(0) && boundary.repeats(1);
-        let sides = if periodic { Sides::Periodic } else { Sides::Closed };
-        let settings = Settings { ends: spec.ends, sides, along: spec.along, ..Settings::default() };
+        let ends = [0, 1].map(|axis| spec.ends_along(axis, boundary));
+        let sides =
+            [1, 0].map(|across| if boundary.repeats(across) { Sides::Periodic } else { Sides::Closed });
+        let settings = Settings::of_axes(ends, sides, Faces::default(), spec.along);
         Some(Self { spec, settings })
     }
 
-    /// Volume that leaks in a unit of time.
-    fn leakage(&self, along: &FlowAlong) -> Result<CubicMetrePerSecond> {
-        let GapFlowSpec { viscosity, pressure, outlet, .. } = self.spec;
-        match outlet.filter(|_| self.spec.gas) {
-            Some(outlet) => along.gas_leakage(outlet + pressure, outlet, viscosity),
-            None => along.leakage(pressure, viscosity),
-        }
+    /// Fields of the flow along one axis: pressure above that of the outlet, and flow per width.
+    fn fields(&self, axis: usize, along: &FlowAlong) -> [NamedField; 2] {
+        let fluid = self.spec.fluid();
+        let [pressure, rate] = FIELDS[axis];
+        [
+            NamedField { name: pressure, unit: "Pa", values: along.pressure_of(&fluid) },
+            NamedField { name: rate, unit: "m²/s", values: along.rate_of(&fluid) },
+        ]
     }
 }
 
@@ -49,24 +52,27 @@ impl Observer for FlowObserver {
     }
 
     fn observe(
-        &mut self,
+        &self,
         place: Place,
         contact: &ObservedContact<'_>,
     ) -> Result<(Vec<GapFlowRecord>, Vec<NamedField>)> {
         let grid = contact.grid;
-        let found = flow::solve(&contact.gap, &grid, &self.settings)?;
         let touching = contact.touching.iter().filter(|touches| **touches).count();
-        let GapFlowSpec { viscosity, pressure, .. } = self.spec;
         let (mut rows, mut fields) = (Vec::new(), Vec::new());
-        for (axis, along) in found.along.iter().enumerate() {
-            let Some(along) = along else { continue };
+        let found = self.settings.iter().map(|settings| flow::solve(&contact.gap, &grid, settings));
+        let found = found.collect::<Result<Vec<_>>>()?;
+        let each = found.iter().flat_map(|found| {
+            let along = found.along.iter().enumerate();
+            along.filter_map(move |(axis, along)| Some((found, axis, along.as_ref()?)))
+        });
+        for (found, axis, along) in each {
             let critical = along.critical_cell;
             let [x, y] =
                 [0, 1].map(|axis| critical.map(|cell| contact.corner[axis] + grid.centre(axis, cell[axis])));
             rows.push(GapFlowRecord {
                 pass: place.pass,
                 step: place.step,
-                along: if axis == 0 { FlowAxis::X } else { FlowAxis::Y },
+                along: if axis == 0 { Axis::X } else { Axis::Y },
                 length: grid.extent()[axis],
                 load: contact.load,
                 mean_pressure: contact.load / grid.area(),
@@ -76,46 +82,19 @@ impl Observer for FlowObserver {
                 permeability_across: found.coupling,
                 hydraulic_gap: along.hydraulic_gap,
                 flow_factor: along.flow_factor,
-                leakage: self.leakage(along)?,
+                leakage: along.leakage(&self.spec.fluid())?,
                 critical_gap: along.critical_gap,
                 critical_x: x,
                 critical_y: y,
-                critical_cells: critical.map_or(0, |cell| width(contact, cell, axis, self.settings.sides)),
+                critical_cells: along.critical_cells,
                 flowing_share: along.flowing_share,
                 trapped_volume: along.trapped_volume,
                 effective_medium: found.effective_medium,
                 estimate: along.estimate,
                 residual: along.residual.max(along.dissipation),
             });
-            let [name_of_pressure, name_of_flow] = FIELDS[axis];
-            let [qx, qy] = along.flux_at_centres();
-            let length = grid.extent()[axis];
-            let scale = pressure / (12.0 * viscosity * length);
-            let mut rate = qx;
-            rate.zip_mut_with(&qy, |rate, across| *rate = scale * rate.hypot(*across));
-            let values = &along.pressure * pressure;
-            fields.push(NamedField { name: name_of_pressure, unit: "Pa", values });
-            fields.push(NamedField { name: name_of_flow, unit: "m²/s", values: rate });
+            fields.extend(self.fields(axis, along));
         }
         Ok((rows, fields))
     }
-}
-
-/// Number of open cells in a row across the gradient along `axis` through a cell.
-fn width(contact: &ObservedContact<'_>, cell: [usize; 2], axis: usize, sides: Sides) -> usize {
-    let count = contact.grid.shape[1 - axis];
-    let is_open = |k: usize| {
-        let mut at = cell;
-        at[1 - axis] = k;
-        contact.gap[at] > 0.0
-    };
-    let from = cell[1 - axis];
-    let wraps = sides == Sides::Periodic;
-    let after = (1..count).take_while(|k| (wraps || from + k < count) && is_open((from + k) % count)).count();
-    if after + 1 == count {
-        return count;
-    }
-    let before =
-        (1..count).take_while(|k| (wraps || *k <= from) && is_open((from + count - k) % count)).count();
-    (1 + before + after).min(count)
 }

@@ -11,24 +11,27 @@ mod review; // warnings
 
 pub(super) use review::{barber, warnings};
 
+use std::mem;
+
 use conductance::ConductanceObserver;
 use flow::FlowObserver;
 use serde::de::DeserializeOwned;
 
 use crate::error::{Error, Result};
 use crate::io::fields::FieldFile;
+use crate::math::parallel;
 use crate::motion::{ObservedContact, Output, Pair, Position, Step};
 use crate::solver::Solution;
 use crate::study::case::Case;
 use crate::study::fields::NamedField;
 use crate::study::observed::{ConductanceRecord, GapFlowRecord};
-use crate::study::results::{Results, Writer, is_kept};
+use crate::study::results::{Results, Writer, is_nth};
 use crate::study::tables::{self, GrowingTable, Record};
 
 /// Computes something from a solved contact and changes nothing.
-trait Observer {
+trait Observer: Sync {
     /// A row of its table.
-    type Record: Record + DeserializeOwned + Clone;
+    type Record: Record + DeserializeOwned + Clone + Send;
 
     /// Name of its table, `NAME.csv`, and of its field files, `fields/NAME-NNNN.h5`.
     const NAME: &'static str;
@@ -42,7 +45,7 @@ trait Observer {
     /// # Errors
     /// The reason why they cannot be computed.
     fn observe(
-        &mut self,
+        &self,
         place: Place,
         contact: &ObservedContact<'_>,
     ) -> Result<(Vec<Self::Record>, Vec<NamedField>)>;
@@ -60,7 +63,9 @@ struct Place {
 /// An observer with what it has seen.
 struct Observed<O: Observer> {
     observer: O,
-    /// The rows that are not in a file.
+    /// The rows of the present step.
+    rows: Vec<O::Record>,
+    /// The rows of the steps before, if they are not in a file.
     records: Vec<O::Record>,
     /// The fields of the last contact of a static contact.
     fields: Vec<NamedField>,
@@ -74,6 +79,8 @@ struct Files {
     table: GrowingTable,
     /// Interval of the points or positions whose fields are kept; 0 for none.
     kept_every: usize,
+    /// The fields of the present step.
+    of_step: Option<FieldFile>,
 }
 
 impl<O: Observer> Observed<O> {
@@ -93,7 +100,7 @@ impl<O: Observer> Observed<O> {
 
     /// Creates an observer whose rows stay in memory.
     fn in_memory(observer: O) -> Self {
-        Self { observer, records: Vec::new(), fields: Vec::new(), files: None }
+        Self { observer, rows: Vec::new(), records: Vec::new(), fields: Vec::new(), files: None }
     }
 
     /// Creates an observer that writes its table and its fields to the results of a `writer`, after `done` steps.
@@ -119,93 +126,30 @@ impl<O: Observer> Observed<O> {
         };
         let table = GrowingTable::open(path, rows)?;
         let identity = writer.identity().to_owned();
-        let files = Some(Files { results, identity, table, kept_every });
+        let files = Some(Files { results, identity, table, kept_every, of_step: None });
         Ok(Self { files, ..Self::in_memory(observer) })
     }
 
-    /// Looks at the contacts of a step.
-    ///
-    /// # Errors
-    /// The errors of the observer, [`Error::File`], [`Error::NotFinite`].
-    fn step(&mut self, step: &Step<'_>) -> Result<()> {
-        let number = step.number();
-        let mut rows = Vec::new();
-        let mut file = None;
-        for contact in step.contacts() {
-            let place = match step.pass() {
-                Some(_) => Place { pass: Some(number), step: contact.index + 1 },
-                None => Place { pass: None, step: number },
+    /// Adds the fields of a contact to the file of its step, which begins with the first ones.
+    fn keep(&mut self, step: &Step<'_>, contact: &ObservedContact<'_>, place: Place, fields: &[NamedField]) {
+        let Some(files) = &mut self.files else { return };
+        let is_of_course = matches!(step, Step::Pass(_) | Step::Point { .. });
+        if !is_of_course || !is_nth(place.step, files.kept_every) {
+            return;
+        }
+        let (identity, path) = (&files.identity, files.results.observer_fields(O::NAME, step.number()));
+        let file = files.of_step.get_or_insert_with(|| {
+            let mut file = FieldFile::of_run(identity, &path);
+            file.set(if place.pass.is_some() { "pass" } else { "point" }, step.number());
+            file
+        });
+        for NamedField { name, values, unit } in fields {
+            let name = match place.pass {
+                Some(_) => format!("{name}_{:05}", place.step),
+                None => (*name).to_owned(),
             };
-            let is_wanted = match step.pass() {
-                Some(report) => {
-                    let position = &report.contacts[contact.index].position;
-                    wants_position(self.observer.every(), contact.index, position)
-                }
-                None => {
-                    wants_step(self.observer.every(), number)
-                        || step.is_last()
-                        || matches!(step, Step::Flow { is_last_load: true, .. })
-                }
-            };
-            if !is_wanted {
-                continue;
-            }
-            let (new, fields) = self.observer.observe(place, &contact)?;
-            rows.extend(new);
-            if let Some(files) = &self.files {
-                let is_kept = match step {
-                    Step::Pass(_) => files.kept_every > 0 && contact.index.is_multiple_of(files.kept_every),
-                    Step::Point { .. } => is_kept(number, files.kept_every),
-                    _ => false,
-                };
-                if is_kept {
-                    let file =
-                        file.get_or_insert_with(|| files.field_file(O::NAME, number, step.pass().is_some()));
-                    for NamedField { name, values, unit } in &fields {
-                        let name = match place.pass {
-                            Some(_) => format!("{name}_{:05}", place.step),
-                            None => (*name).to_owned(),
-                        };
-                        file.add_field(&name, unit, &contact.grid, contact.corner, values);
-                    }
-                }
-            }
-            if step.pass().is_none() {
-                self.fields = fields;
-            }
+            file.add_field(&name, unit, &contact.grid, contact.corner, values);
         }
-        if let Some(file) = file {
-            file.write()?;
-        }
-        self.add(rows)
-    }
-
-    /// Looks at a contact that is solved in one step.
-    ///
-    /// # Errors
-    /// The errors of [`Observed::step`].
-    fn contact(&mut self, contact: &ObservedContact<'_>) -> Result<()> {
-        let (rows, fields) = self.observer.observe(Place { pass: None, step: 1 }, contact)?;
-        self.fields = fields;
-        self.add(rows)
-    }
-
-    fn add(&mut self, rows: Vec<O::Record>) -> Result<()> {
-        match &mut self.files {
-            // A table begins with its first row.
-            _ if rows.is_empty() => Ok(()),
-            Some(files) => files.table.add(&rows),
-            None => {
-                tables::checked(&rows)?;
-                self.records.extend(rows);
-                Ok(())
-            }
-        }
-    }
-
-    /// Whether it looks at a position of a pass.
-    fn wants(&self, index: usize, position: &Position) -> bool {
-        wants_position(self.observer.every(), index, position)
     }
 
     /// Returns all rows, and the fields of the last contact of a static contact.
@@ -221,29 +165,78 @@ impl<O: Observer> Observed<O> {
     }
 }
 
-impl Files {
-    fn field_file(&self, name: &str, number: usize, is_pass: bool) -> FieldFile {
-        let mut file = FieldFile::of_run(&self.identity, &self.results.observer_fields(name, number));
-        file.set(if is_pass { "pass" } else { "point" }, number);
-        file
-    }
+/// A contact at its place in the course.
+struct Seen<'a> {
+    contact: ObservedContact<'a>,
+    place: Place,
+    /// Whether it is the last contact of a course, or the first position of a pass at which the left edges are flush.
+    is_main: bool,
 }
 
-fn wants_position(every: usize, index: usize, position: &Position) -> bool {
-    match every {
-        0 => position.offset == 0.0,
-        every => index.is_multiple_of(every),
-    }
+/// Looks at the contacts of a course.
+trait Look {
+    /// Whether it looks at the contact at a place; see [`Seen`] for `is_main`.
+    fn wants(&self, place: Place, is_main: bool) -> bool;
+
+    /// Looks at contacts in parallel; `step` is the step that they belong to, if there are several.
+    ///
+    /// # Errors
+    /// The errors of the observer.
+    fn look(&mut self, step: Option<&Step<'_>>, contacts: &[Seen<'_>]) -> Result<()>;
+
+    /// Writes what it has found in a step.
+    ///
+    /// # Errors
+    /// [`Error::File`], [`Error::NotFinite`].
+    fn end_step(&mut self) -> Result<()>;
 }
 
-fn wants_step(every: usize, number: usize) -> bool {
-    every > 0 && (number + every - 1).is_multiple_of(every)
+impl<O: Observer> Look for Observed<O> {
+    fn wants(&self, place: Place, is_main: bool) -> bool {
+        let every = self.observer.every();
+        is_nth(place.step, every) || is_main && (every == 0 || place.pass.is_none())
+    }
+
+    fn look(&mut self, step: Option<&Step<'_>>, contacts: &[Seen<'_>]) -> Result<()> {
+        let observer = &self.observer;
+        let wanted: Vec<_> = contacts.iter().filter(|seen| self.wants(seen.place, seen.is_main)).collect();
+        let found = parallel::tasks(&wanted, |seen| observer.observe(seen.place, &seen.contact));
+        for (seen, found) in wanted.into_iter().zip(found) {
+            let (rows, fields) = found?;
+            self.rows.extend(rows);
+            if let Some(step) = step {
+                self.keep(step, &seen.contact, seen.place, &fields);
+            }
+            if seen.place.pass.is_none() {
+                self.fields = fields;
+            }
+        }
+        Ok(())
+    }
+
+    fn end_step(&mut self) -> Result<()> {
+        let rows = mem::take(&mut self.rows);
+        match &mut self.files {
+            Some(files) => {
+                files.of_step.take().map_or(Ok(()), FieldFile::write)?;
+                // A table begins with its first row.
+                if rows.is_empty() { Ok(()) } else { files.table.add(&rows) }
+            }
+            None => {
+                tables::checked(&rows)?;
+                self.records.extend(rows);
+                Ok(())
+            }
+        }
+    }
 }
 
 /// The observers of a case.
 pub(super) struct Observers {
     conductance: Option<Observed<ConductanceObserver>>,
     flow: Option<Observed<FlowObserver>>,
+    /// Index of the first position of a pass at which the left edges are flush.
+    flush: Option<usize>,
 }
 
 /// Results of the observers of a case.
@@ -256,14 +249,15 @@ pub(super) struct Observations {
 }
 
 impl Observers {
-    /// Creates the observers of a `case` with these bodies. Without a `writer` their rows stay in memory; with one they go to files,
-    /// after those of the steps that are `done`.
+    /// Creates the observers of a `case` with these bodies and `positions` of a pass, none for a static contact. Without a `writer`
+    /// their rows stay in memory; with one they go to files, after those of the steps that are `done`.
     ///
     /// # Errors
     /// The errors of the observers; [`Error::File`].
     pub(super) fn new(
         case: &Case,
         pair: &Pair,
+        positions: &[Position],
         (writer, done): (Option<&Writer>, Option<usize>),
     ) -> Result<Self> {
         let every = case.output.pressure_every;
@@ -275,13 +269,24 @@ impl Observers {
             flow: FlowObserver::of(case)
                 .map(|observer| Observed::new(observer, writer, done, every, is_motion))
                 .transpose()?,
+            flush: positions.iter().position(|position| position.offset == 0.0),
         })
     }
 
-    /// Whether an observer looks at a position of a pass.
-    pub(super) fn want(&self, index: usize, position: &Position) -> bool {
-        self.conductance.as_ref().is_some_and(|observed| observed.wants(index, position))
-            || self.flow.as_ref().is_some_and(|observed| observed.wants(index, position))
+    /// All of them.
+    fn each(&mut self) -> impl Iterator<Item = &mut dyn Look> {
+        let conductance = self.conductance.as_mut().map(|observed| observed as &mut dyn Look);
+        conductance.into_iter().chain(self.flow.as_mut().map(|observed| observed as &mut dyn Look))
+    }
+
+    /// Returns the indices of the positions of a pass that an observer looks at.
+    pub(super) fn wanted(&mut self, positions: usize) -> Vec<bool> {
+        let flush = self.flush;
+        let is_wanted = |index| {
+            let place = Place { pass: Some(1), step: index + 1 };
+            self.each().any(|each| each.wants(place, Some(index) == flush))
+        };
+        (0..positions).map(is_wanted).collect()
     }
 
     /// Looks at a contact that is solved in one step.
@@ -293,13 +298,8 @@ impl Observers {
             return Ok(());
         }
         let contact = ObservedContact::at_rest(solution);
-        if let Some(observed) = &mut self.conductance {
-            observed.contact(&contact)?;
-        }
-        if let Some(observed) = &mut self.flow {
-            observed.contact(&contact)?;
-        }
-        Ok(())
+        let seen = [Seen { contact, place: Place { pass: None, step: 1 }, is_main: true }];
+        self.each().try_for_each(|each| each.look(None, &seen).and_then(|()| each.end_step()))
     }
 
     /// Returns what they have found.
@@ -322,12 +322,28 @@ impl Observers {
 
 impl Output for Observers {
     fn step(&mut self, step: &Step<'_>) -> Result<()> {
-        if let Some(observed) = &mut self.conductance {
-            observed.step(step)?;
+        let (number, flush) = (step.number(), self.flush);
+        let mut contacts = step.contacts().map(|contact| {
+            let (place, is_main) = match step.pass() {
+                Some(_) => {
+                    let place = Place { pass: Some(number), step: contact.index + 1 };
+                    (place, Some(contact.index) == flush)
+                }
+                None => {
+                    let ends_loading = matches!(step, Step::Flow { is_last_load: true, .. });
+                    (Place { pass: None, step: number }, ends_loading || step.is_last())
+                }
+            };
+            Seen { contact, place, is_main }
+        });
+        loop {
+            // One for each thread: the memory of a position is that of its solver.
+            let some: Vec<_> = contacts.by_ref().take(rayon::current_num_threads()).collect();
+            if some.is_empty() {
+                break;
+            }
+            self.each().try_for_each(|each| each.look(Some(step), &some))?;
         }
-        if let Some(observed) = &mut self.flow {
-            observed.step(step)?;
-        }
-        Ok(())
+        self.each().try_for_each(Look::end_step)
     }
 }

@@ -1,18 +1,13 @@
 //! Warnings about what observers have found.
 
-use crate::conductance::Bracket;
-use crate::flow::Ends;
-use crate::motion::SweepRecord;
+use crate::conductance::{self, Bracket};
+use crate::flow::{self, Ends};
+use crate::motion::{Strategy, SweepRecord};
 use crate::study::case::Case;
-use crate::study::observed::{ConductanceRecord, FlowAxis, GapFlowRecord};
-use crate::units::{self, Dimension, format_number};
+use crate::study::observed::{ConductanceRecord, GapFlowRecord};
+use crate::surface::Axis;
+use crate::units::{self, Dimension, MetrePerSecond, format_number};
 
-/// A spot with fewer cells than this conducts with an error of some percent.
-const FEW_CELLS: f64 = 9.0;
-/// A constriction with fewer open cells than this across the flow is not resolved.
-const NARROW: usize = 3;
-/// Largest estimate of the error of the permeability without a warning.
-const ESTIMATE: f64 = 0.1;
 /// Largest pressure of the fluid without a warning, over the mean pressure of the contact.
 const FLUID_PRESSURE: f64 = 0.1;
 /// Largest flow that the moving bodies drag along without a warning, over that of the pressure difference.
@@ -30,23 +25,10 @@ pub(in crate::study) fn warnings(
 }
 
 fn of_conductance(rows: &[ConductanceRecord]) -> Vec<String> {
-    let mut warnings = Vec::new();
     let touching = || rows.iter().filter(|row| row.spots > 0.0);
     let fewest = touching().map(|row| row.median_spot_cells).fold(f64::INFINITY, f64::min);
-    if fewest < FEW_CELLS {
-        let cells =
-            if fewest == 1.0 { "one cell".to_owned() } else { format!("{} cells", format_number(fewest)) };
-        warnings.push(format!(
-            "the median spot of contact has {cells}: the conductance of such small spots is off by some percent, a finer grid resolves them"
-        ));
-    }
     let film = touching().map(|row| row.film_share).fold(0.0, f64::max);
-    if film > 0.5 {
-        let share = format_number((100.0 * film).round());
-        warnings
-            .push(format!("the film makes {share} % of the resistance: its number decides the conductance"));
-    }
-    warnings
+    conductance::doubts(fewest, film)
 }
 
 fn of_flow(case: &Case, rows: &[GapFlowRecord]) -> Vec<String> {
@@ -63,22 +45,11 @@ fn of_flow(case: &Case, rows: &[GapFlowRecord]) -> Vec<String> {
         ));
     }
     let open = || rows.iter().filter(|row| row.critical_cells > 0 && row.contact_area > 0.0);
-    let narrow = open().map(|row| row.critical_cells).min().filter(|cells| *cells < NARROW);
-    if let Some(cells) = narrow {
-        let cells = if cells == 1 { "one cell".to_owned() } else { format!("{cells} cells") };
-        warnings.push(format!("the critical constriction is {cells} wide: the leakage depends on the grid, a finer one resolves it"));
-    }
     let estimate = rows.iter().map(|row| row.estimate).fold(0.0, f64::max);
-    if estimate > ESTIMATE {
-        warnings.push(format!(
-            "the permeability is uncertain by about {} %: two ways to average the gap of neighbouring cells differ by so much, a finer grid \
-             reduces it",
-            format_number((100.0 * estimate).round()),
-        ));
-    }
+    warnings.extend(flow::doubts(open().map(|row| row.critical_cells).min(), estimate));
     let at_rim = |row: &GapFlowRecord| {
-        let axis = if row.along == FlowAxis::X { 0 } else { 1 };
-        spec.ends == Ends::Reservoirs && !case.contact.boundary.repeats(axis)
+        let (axis, boundary) = (usize::from(row.along == Axis::Y), case.contact.boundary);
+        spec.ends_along(axis, boundary) == Ends::Reservoirs && !boundary.repeats(axis)
     };
     if rows.iter().any(at_rim) {
         warnings.push(
@@ -94,13 +65,12 @@ fn of_flow(case: &Case, rows: &[GapFlowRecord]) -> Vec<String> {
 /// Returns a warning if the bodies drag along more fluid than a small part of the leakage.
 fn of_sliding(case: &Case, rows: &[GapFlowRecord]) -> Option<String> {
     let spec = case.flow.as_ref()?;
-    let speed =
-        case.motion.and_then(|motion| motion.speed).or(case.sliding.and_then(|sliding| sliding.speed))?;
+    let speed = dragging_speed(case)?;
     // 6 η U L/(ḡ² ΔP)
     let dragged = |row: &GapFlowRecord| {
         6.0 * spec.viscosity * speed * row.length / (row.mean_gap * row.mean_gap * spec.pressure)
     };
-    let along_x = rows.iter().filter(|row| row.along == FlowAxis::X && row.mean_gap > 0.0);
+    let along_x = rows.iter().filter(|row| row.along == Axis::X && row.mean_gap > 0.0);
     let dragged = along_x.map(dragged).fold(0.0, f64::max);
     (dragged > DRAGGED).then(|| {
         let times = if dragged.is_finite() { format_number(dragged) } else { "many".to_owned() };
@@ -111,19 +81,29 @@ fn of_sliding(case: &Case, rows: &[GapFlowRecord]) -> Option<String> {
     })
 }
 
+/// Returns the sum of the speeds at which the two bodies move past the contact: each drags along the fluid at its surface.
+fn dragging_speed(case: &Case) -> Option<MetrePerSecond> {
+    let Some(motion) = case.motion else { return case.sliding.and_then(|sliding| sliding.speed) };
+    match motion.strategy {
+        Strategy::Overlap => motion.speed,
+        Strategy::Shift { speed_lower, speed_upper } => Some(speed_lower.abs() + speed_upper.abs()),
+    }
+}
+
 /// Returns a warning if the conductance of a point of an elastic sweep lies outside Barber's bracket.
 pub(in crate::study) fn barber(
     case: &Case,
     points: &[SweepRecord],
     rows: &[ConductanceRecord],
 ) -> Option<String> {
+    // With friction a point may repeat a load with another creepage.
     let spec = case.conductance.filter(|spec| spec.film.is_none() && spec.gas.is_none())?;
     let is_elastic = points.iter().all(|point| point.plastic_area == 0.0);
     let is_coated = [&case.lower, &case.upper].iter().any(|body| body.material.coating.is_some());
     let composite = case.composite_conductivity(spec.kind)?.ok()?;
     let modulus =
         crate::material::Compliances::new(&case.lower.material, &case.upper.material).ok()?.modulus();
-    if !is_elastic || is_coated || rows.len() != points.len() {
+    if case.friction.is_some() || !is_elastic || is_coated || rows.len() != points.len() {
         return None;
     }
     let loads: Vec<_> = points.iter().map(|point| (point.load, point.approach)).collect();

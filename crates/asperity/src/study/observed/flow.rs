@@ -5,17 +5,8 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::motion::{Column, columns};
 use crate::study::tables::Record;
+use crate::surface::Axis;
 use crate::units::{CubicMetre, CubicMetrePerSecond, Metre, Newton, Pascal, SquareMetre};
-
-/// Axis along which the pressure of the fluid falls.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum FlowAxis {
-    /// Along x.
-    X,
-    /// Along y.
-    Y,
-}
 
 columns! {
     /// The flow through the gap of a contact under a gradient of pressure along one axis, a row of `flow.csv`; in `summary.json` of the
@@ -29,7 +20,7 @@ columns! {
         /// Position in the pass, increment, point (each from 1) or update (from 0).
         pub step: usize,
         /// Direction of the gradient of pressure: `x` or `y`.
-        pub along: FlowAxis,
+        pub along: Axis,
         /// Length of the contact along this axis.
         pub length: Metre,
         /// Load.

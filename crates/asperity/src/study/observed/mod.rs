@@ -5,7 +5,7 @@ mod flow;
 
 pub(in crate::study) use conductance::Quantities;
 pub use conductance::{ConductanceRecord, ElectricalRecord, ThermalRecord};
-pub use flow::{FlowAxis, GapFlowRecord};
+pub use flow::GapFlowRecord;
 
 /// Names of all observers.
 pub(super) const OBSERVERS: [&str; 2] = ["conductance", "flow"];

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use super::state::{ALTERED, ROWS};
-use super::{Results, has_every_position, is_kept};
+use super::{Results, has_every_position, is_nth};
 use crate::error::{Error, Result};
 use crate::io::atomic;
 use crate::io::fields::{Attribute, Fields};
@@ -235,7 +235,7 @@ fn kept_points(
         same_rows(&results.state_path(done), &tables::digest("", &points[..done]), &results.sweep_path())?;
     }
     let every = case.pointer("/output/pressure_every").and_then(Value::as_u64).unwrap_or(0) as usize;
-    for point in points.iter().map(|point| point.point).filter(|point| is_kept(*point, every)) {
+    for point in points.iter().map(|point| point.point).filter(|point| is_nth(*point, every)) {
         whole(&results.point_path(point), identity, None)?;
     }
     Ok(ExistingResults::Steps)

@@ -630,7 +630,7 @@ pub fn traction_name(step: usize) -> String {
     format!("traction_x_{step:05}")
 }
 
-/// Whether the fields of a point, from 1, are kept, with those of every n-th.
-pub(in crate::study) fn is_kept(point: usize, every: usize) -> bool {
-    every > 0 && (point - 1).is_multiple_of(every)
+/// Whether the first of some steps or points, that of number 1, and every n-th after it include a number; with n = 0 none.
+pub(in crate::study) fn is_nth(number: usize, n: usize) -> bool {
+    n > 0 && (number + n - 1).is_multiple_of(n)
 }

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use super::bodies::{add_bodies, add_volumes, set_caps};
 use super::state::{ROWS, increment, pass, update};
 use super::write::Writer;
-use super::{Results, cap_name, is_kept, pressure_name, temperature_name, traction_name};
+use super::{Results, cap_name, is_nth, pressure_name, temperature_name, traction_name};
 use crate::error::Result;
 use crate::grid::{CellValues, Field};
 use crate::io::fields::FieldFile;
@@ -53,7 +53,7 @@ impl Output for StepWriter {
                 self.add(number, file, &[], &state.updates[number..])
             }
             Step::Point { record, contact, .. } => {
-                if is_kept(number, self.fields_every) {
+                if is_nth(number, self.fields_every) {
                     self.write_point(number, contact)?;
                 }
                 let file = self.state(step, |_| ());

@@ -123,15 +123,16 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "`ends = \"periodic\"` in [flow]",
-        with: "a boundary that is free along an axis",
-        message: "ends = \"periodic\" needs a boundary that is periodic along both axes",
-        hint: "leave 'ends' out, or set `boundary = \"periodic\"` in [contact]",
+        with: "a boundary that is free along the flow",
+        message: "ends = \"periodic\" needs a boundary that is periodic along the flow",
+        hint: "leave 'ends' out, or choose another 'along' or another `boundary` in [contact]",
         at: "flow.ends",
         example: &[LINE, LEAKS],
         broken: |tables| {
             let boundary = tables.case.contact.boundary;
-            tables.case.flow.filter(|spec| spec.ends == Ends::Periodic)?;
-            tables.at("flow.ends").filter(|_| !(boundary.repeats(0) && boundary.repeats(1)))
+            let spec = tables.case.flow.filter(|spec| spec.ends == Some(Ends::Periodic))?;
+            let is_free = (0..2).any(|axis| spec.along.axes()[axis] && !boundary.repeats(axis));
+            tables.at("flow.ends").filter(|_| is_free)
         },
     },
 ];

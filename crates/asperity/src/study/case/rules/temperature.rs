@@ -103,9 +103,7 @@ pub(super) const RULES: &[Rule] = &[
         hint: "use \"free\" or \"periodic\", or set `every = 0`",
         at: "contact.boundary",
         example: &[
-            r#"lower.conductivity = "46 W/(m K)""#,
-            r#"lower.heat_capacity = "460 J/(kg K)""#,
-            r#"lower.density = "7850 kg/m3""#,
+            CONDUCTS,
             WEARS,
             UPPER_CONDUCTS,
             RUBS,
@@ -121,16 +119,7 @@ pub(super) const RULES: &[Rule] = &[
         message: "a flash temperature needs a speed",
         hint: "for example `speed = \"10 mm/s\"` in [sliding]",
         at: "temperature",
-        example: &[
-            r#"lower.conductivity = "46 W/(m K)""#,
-            r#"lower.heat_capacity = "460 J/(kg K)""#,
-            r#"lower.density = "7850 kg/m3""#,
-            WEARS,
-            UPPER_CONDUCTS,
-            RUBS,
-            SLIDES,
-            WARM,
-        ],
+        example: &[CONDUCTS, WEARS, UPPER_CONDUCTS, RUBS, SLIDES, WARM],
         broken: |tables| {
             tables.flash().filter(|_| tables.case.sliding.is_some_and(|sliding| sliding.speed.is_none()))
         },
