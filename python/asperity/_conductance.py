@@ -194,7 +194,7 @@ def conductance(
             if value is not None:
                 raise bad_input(key, f"'{key}' is given beside a contact, which has its own")
         pitch, boundary, gap = contact.pitch, contact.case["contact"]["boundary"], contact.gap
-        touching = np.asarray(contact.pressure > 0.0)
+        touching = contact.touching
     else:
         touching = _matrix("contact", contact, None) > 0.0
     if pitch is None:

@@ -45,7 +45,7 @@ class Contact(Comparable):
     approach : float
         Rigid-body approach of the two bodies, m.
     contact_area : float
-        Real contact area, the area of the cells with pressure, m².
+        Real contact area, m²: the cells with pressure, or with more than the largest tension where the bodies attract each other.
     apparent_area : float
         Area of all cells, m².
     max_pressure : float
@@ -87,9 +87,20 @@ class Contact(Comparable):
         Spin in rolling, 1/m.
     moment : float
         Moment about z in rolling, N m.
+    adhesive_load : float
+        Force of the tension on the open cells of bodies that attract each other, N.
+    min_pressure : float
+        Least pressure of such bodies, below 0 in tension, Pa.
+    adhesion_energy : float
+        Energy of their attraction, J.
+    energy_lost : float
+        Energy that they lost in jumps, J.
+    jumps : int
+        Number of jumps.
     fields : Fields
         The fields `pressure`, `gap`, `displacement`, `lower`, `upper`, `plastic`. Friction adds `traction_x`, `traction_y`,
-        `displacement_x`, `displacement_y`, `slip_x`, `slip_y` and `stick`. A map of the hardness adds `cap`.
+        `displacement_x`, `displacement_y`, `slip_x`, `slip_y` and `stick`. A map of the hardness adds `cap`. Adhesion adds
+        `contact`, 1 in contact and 0 elsewhere.
     sweep : Table
         A record for each point of a sweep, else empty. The numbers and fields of the contact are those of the last point.
     increments : Table
@@ -113,6 +124,9 @@ class Contact(Comparable):
         Closed form of the contact of two smooth forms (Hertz, Sneddon) at the same load, and the deviation of the computed contact
         from it: the keys `theory`, `theory_max_pressure`, `max_pressure_deviation` and others of `closed_form` in `summary.json`.
         `None` for other bodies, and if cells yield or wear.
+    adhesion : dict or None
+        Adhesion of the bodies in numbers: the keys `range`, `process_zone_cells`, `tabor`, `pull_off`, `work_of_separation` and
+        others of `adhesion` in `summary.json`. `None` without adhesion.
     directory : pathlib.Path or None
         The results directory, or `None` if the contact was computed without `out`.
     """
@@ -140,6 +154,11 @@ class Contact(Comparable):
     creepage: list[float]
     spin: float
     moment: float
+    adhesive_load: float
+    min_pressure: float
+    adhesion_energy: float
+    energy_lost: float
+    jumps: int
     fields: Fields
     sweep: Table
     increments: Table
@@ -150,6 +169,7 @@ class Contact(Comparable):
     case: dict[str, Any]
     flow: dict[str, Flow]
     closed_form: dict[str, Any] | None
+    adhesion: dict[str, Any] | None
     directory: pathlib.Path | None
 
     def __init__(
@@ -164,6 +184,7 @@ class Contact(Comparable):
         case: dict[str, Any],
         flow: dict[str, Flow],
         closed_form: dict[str, Any] | None = None,
+        adhesion: dict[str, Any] | None = None,
         directory: pathlib.Path | None = None,
     ) -> None:
         self.flow = flow
@@ -177,6 +198,7 @@ class Contact(Comparable):
         self.warnings = list(warnings)
         self.case = case
         self.closed_form = closed_form
+        self.adhesion = adhesion
         self.directory = directory
         self._names = list(record if record is not None else sweep[-1])
         self.__dict__.update(record if record is not None else sweep[-1])
@@ -223,9 +245,38 @@ class Contact(Comparable):
         return x, y
 
     @property
+    def touching(self) -> NDArray[np.bool_]:
+        """Whether each cell is in contact. With adhesion a cell in contact may be under tension."""
+        return np.asarray((self.fields["contact"].values if "contact" in self.fields else self.pressure) > 0.0)
+
+    @property
     def contact_fraction(self) -> float:
         """Real contact area over the area of all cells, 0 to 1."""
-        return float(np.count_nonzero(self.pressure > 0.0)) / self.pressure.size
+        return float(np.count_nonzero(self.touching)) / self.touching.size
+
+    @property
+    def curve(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Approach, m, and load, N, of the increments or of the points of a sweep: with adhesion, a force–distance curve.
+
+        Any other contact is one point of the curve.
+
+        Examples
+        --------
+        >>> import asperity as asp
+        >>> glass = asp.Material(young="70 GPa", poisson=0.2)
+        >>> tip, plane = asp.form.sphere("50 nm"), asp.form.flat((32, 32), pitch="1 nm")
+        >>> path = [{"approach": 0.5e-9, "increments": 4}, {"approach": -4e-9, "increments": 6}]
+        >>> c = asp.contact(
+        ...     plane, tip, glass, glass, approach="-4 nm", history=path, adhesion={"work": "50 mJ/m2", "range": "1 nm"}
+        ... )
+        >>> approach, load = c.curve
+        >>> bool(load.min() == c.adhesion["pull_off"] < 0.0)
+        True
+        """
+        table = self.sweep if len(self.sweep) else self.increments
+        if len(table) == 0:
+            return np.array([self.approach]), np.array([self.load])
+        return np.array(table["approach"]), np.array(table["load"])
 
     @property
     def lower(self) -> Surface:
@@ -449,6 +500,7 @@ def _solved(pair: tuple[Body, Body], keywords: Any, options: Mapping[str, Any]) 
             found["case"],
             {body: Flow(**volume) for body, volume in found.get("flow", {}).items()},
             found["closed_form"],
+            found["adhesion"],
         )
     out = path("out", options["out"])
     with Teller(options["progress"]) as tell:
@@ -480,5 +532,6 @@ def stored(directory: str, core: Any) -> Contact:
         core.case(),
         of_results(core, None),
         summary.get("closed_form"),
+        summary.get("adhesion"),
         pathlib.Path(directory),
     )

@@ -182,7 +182,7 @@ def flow(
     if isinstance(source, Contact):
         if pitch is not None:
             raise bad_input("pitch", "'pitch' is given beside a contact, which has its own")
-        gap, size = np.where(source.pressure > 0.0, 0.0, source.gap), source.pitch
+        gap, size = np.where(source.touching, 0.0, source.gap), source.pitch
     else:
         if pitch is None:
             raise bad_input("pitch", "'pitch' is missing: how far apart are the cells of the gap?")

@@ -172,6 +172,10 @@ def contact(contact: Contact) -> str:
         dx, dy = contact.pitch
         cells = numbers["plastic_cells"] if "plastic_cells" in numbers else round(numbers["plastic_area"] / (dx * dy))
         rows.append(("plastic", f"{cells} cells, {_quantity(contact.plastic_volume, 'm³')}"))
+    if contact.adhesion is not None:
+        rows.append(("adhesive load", _quantity(contact.adhesive_load, "N")))
+        if contact.adhesion["pull_off"] is not None:
+            rows.append(("pull-off", _quantity(contact.adhesion["pull_off"], "N")))
     force = numbers.get("tangential_force")
     if force is not None and any(force):
         rows.append(("tangential force", f"{_quantity(float(np.hypot(*force)), 'N')} ({numbers['force_ratio']:.3g} of the load)"))

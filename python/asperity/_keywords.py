@@ -39,6 +39,8 @@ class Common(TypedDict, total=False):
         "The coefficient, or a table with `coefficient`, `coupling`, `shear_strength` and `junction_growth`. In a motion and in "
         "wear in place the upper body slides. A static contact also takes `force`, `displacement` or `sliding`, and `increments`; "
         "steady rolling takes `creepage`, `creepages` or `rolling_force`, and `spin`."]
+    adhesion: Annotated[keys.Adhesion | None, "",
+        "Attraction between the bodies: `work`, `range`, `potential` and `history`. Loads of a `history` of stages may then pull."]
     conductance: Annotated[keys.Conductance | None, "",
         "Conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`. Bodies need a `conductivity` or `resistivity`."]
     flow: Annotated[keys.GapFlow | None, "", "Flow of a fluid through the gap: `viscosity`, `pressure` and others."]

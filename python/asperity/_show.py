@@ -51,6 +51,7 @@ _NAMES = {
     "heights": "height",
     "plastic": "plastic interference",
     "stick": "stick",
+    "contact": "contact",
     "cap": "largest pressure of a cell",
     "section_von_mises": "von Mises stress",
 }
@@ -103,7 +104,11 @@ def look(name: str, values: NDArray[np.float64]) -> Look:
     if finite.size == 0:
         return Look("viridis", 0.0, 1.0)
     low, high = float(finite.min()), float(finite.max())
-    if re.match(r"(mean_)?pressure|plastic|stick|cap|(section_)?von_mises", name):
+    if name == "pressure" and low < 0.0:
+        # A tension would be pale beside a pressure that is much larger.
+        end = max(min(high, -4.0 * low), -low)
+        return Look("RdBu_r", -end, end)
+    if re.match(r"(mean_)?pressure|plastic|stick|contact|cap|(section_)?von_mises", name):
         return Look("viridis", 0.0, high or 1.0, None if "von_mises" in name else 0.0)
     if name == "gap":
         # In contact it is 0 within the residual of the solver, or negative by the plastic interference.

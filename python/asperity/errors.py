@@ -54,6 +54,7 @@ __all__ = [
     "OutOfRange",
     "OwnUnit",
     "PeriodicFullContact",
+    "PullOff",
     "RanksDiffer",
     "ResultsExist",
     "SurfaceChanged",
@@ -194,6 +195,10 @@ class NotConverged(Failed):
 
 class PeriodicFullContact(Failed):
     """At this approach a periodic contact has no solution: `approach`, `mean_gap`, m."""
+
+
+class PullOff(Failed):
+    """The `load` pulls the bodies apart: adhesion holds at most `least`, the pull-off force, N."""
 
 
 class LoadNotReached(Failed):

@@ -11,7 +11,7 @@ from typing import Literal, TypedDict
 
 from ._units import Pair, Quantity
 
-__all__ = ["Acceleration", "Conductance", "Film", "Friction", "GapFlow", "Plasticity", "Stage", "Subsurface", "Temperature", "Thermal", "Wear"]
+__all__ = ["Acceleration", "Adhesion", "Conductance", "Film", "Friction", "GapFlow", "Plasticity", "Stage", "Subsurface", "Temperature", "Thermal", "Wear"]
 
 
 class _Law(TypedDict):
@@ -71,9 +71,9 @@ class Stage(TypedDict, total=False):
     Attributes
     ----------
     load : float or str
-        Normal force, above 0, N.
+        Normal force, above 0, N. With adhesion it may pull, below 0.
     mean_pressure : float or str
-        Load over the area of all cells, above 0, Pa.
+        Load over the area of all cells, above 0, Pa. With adhesion it may pull, below 0.
     approach : float or str
         Approach of the bodies, m.
     force : float, str or pair of them
@@ -159,6 +159,30 @@ class Subsurface(_Depth, total=False):
     section: Quantity
     columns: Sequence[Sequence[Quantity]]
     step: int
+
+
+class _Attraction(TypedDict):
+    work: Quantity
+    range: Quantity
+
+
+class Adhesion(_Attraction, total=False):
+    """Keys of ``adhesion``: the attraction between the bodies.
+
+    Attributes
+    ----------
+    work : float or str
+        Work of adhesion, above 0, J/m². Required.
+    range : float or str
+        Range of the attraction, above 0, m, or ``"grid"``: the shortest range that the grid resolves. Required.
+    potential : {"exponential", "dugdale"}
+        Tension as a function of the gap: ``"exponential"`` (by default), or constant up to the range.
+    history : {"none", "path"}
+        In a motion, whether the bodies come from afar at each position (``"none"``, by default), or from the position before.
+    """
+
+    potential: Literal["exponential", "dugdale"]
+    history: Literal["none", "path"]
 
 
 class Conductance(TypedDict, total=False):

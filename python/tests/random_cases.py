@@ -111,7 +111,28 @@ class RandomCase:
             tables["output"] = output
         if rng.random() < 0.3:
             self._passage(tables, bodies)
+        # Drawn apart, so that the other options of a seed do not depend on it.
+        self._adhesion(tables, random.Random(f"adhesion {self.seed}"))
         return tables
+
+    def _adhesion(self, tables: Table, rng: random.Random) -> None:
+        """Attraction of the bodies of some static contacts, whose process zone has a cell or more."""
+        if self.course not in ("press", "sweep", "history") or self.slides or rng.random() < 0.6:
+            return
+        pitch, extents = max(self.pitch), [n * d for n, d in zip(self.shape[0], self.pitch)]
+        work = self.modulus * pitch * self._slope() ** 2 * 10 ** rng.uniform(-1.2, 0.3)
+        shortest = math.sqrt(1.5 * math.pi * work * pitch / self.modulus)
+        length = shortest * rng.uniform(0.9, 1.8)
+        if length > 0.09 * min(extents):
+            return
+        tables["adhesion"] = {"work": work, "range": rng.choice(["grid", length, length])}
+        if rng.random() < 0.2:
+            tables["adhesion"]["potential"] = "dugdale"
+        last = tables.get("history", [{}])[-1]
+        if self.control in last and rng.random() < 0.5:
+            # Some of these loads pull the bodies apart.
+            pull = 0.2 * work / shortest * 10 ** rng.uniform(-2, 0)
+            last[self.control] = -{"load": pull * self._area(), "mean_pressure": pull, "approach": 3 * self.sq}[self.control]
 
     def _passage(self, tables: Table, bodies: list[Table]) -> None:
         """What the contacts let through: heat or current, and a fluid."""

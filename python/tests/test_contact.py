@@ -263,3 +263,47 @@ def test_smooth_forms_have_their_closed_form_beside_them(tmp_path: pathlib.Path)
     assert written.closed_form == contact.closed_form
     soft = asp.Material(young="210 GPa", poisson=0.3, hardness="0.5 GPa")
     assert asp.contact(plane, ball, soft, steel, load="10 N").closed_form is None
+
+
+def sticking(**options: object) -> asp.Contact:
+    """A soft plane and a stiff tip that come together and are drawn apart."""
+    polymer, silica = asp.Material("1 GPa", 0.4), asp.Material("70 GPa", 0.17)
+    tip, plane = asp.form.sphere("40 nm"), asp.form.flat((24, 24), pitch="1 nm")
+    adhesion: asp.keys.Adhesion = {"work": "80 mJ/m2", "range": "0.6 nm"}
+    return asp.contact(plane, tip, polymer, silica, adhesion=adhesion, **options)  # type: ignore[arg-type]
+
+
+def test_a_force_distance_curve_has_its_pull_off(tmp_path: pathlib.Path) -> None:
+    path = [{"approach": "0.5 nm", "increments": 5}, {"approach": "-5 nm", "increments": 8}]
+    c = sticking(approach="-4 nm", history=path)
+    approach, load = c.curve
+    assert len(load) == len(c.increments) == 14 and (approach == c.increments["approach"]).all()
+    assert c.adhesion is not None and c.adhesion["pull_off"] == load[np.argmax(approach) :].min() < 0.0
+    modulus = 1 / ((1 - 0.4**2) / 1e9 + (1 - 0.17**2) / 70e9)
+    assert c.adhesion["tabor"] == pytest.approx((40e-9 * 0.08**2 / (modulus**2 * 0.6e-9**3)) ** (1 / 3), rel=0.1)
+    # Between those of long and of short attraction, DMT and JKR, as far as the coarse grid allows.
+    assert 1.4 < -c.adhesion["pull_off"] / (np.pi * 0.08 * 40e-9) < 2.1
+    assert c.adhesion["work_of_separation"] > 0.0 and c.max_pressure == 0.0 and c.contact_fraction == 0.0
+    assert "pull-off" in c._repr_html_()
+    written = sticking(approach="-4 nm", history=path, out=tmp_path / "out")
+    assert written == c and asp.open(tmp_path / "out").adhesion == c.adhesion
+
+
+def test_cells_under_tension_are_in_contact() -> None:
+    c = sticking(approach="0.2 nm")
+    assert set(c.fields) == {"pressure", "contact", "gap", "displacement", "lower", "upper", "plastic"}
+    assert c.contact_fraction == pytest.approx(c.contact_area / c.apparent_area)
+    assert np.count_nonzero(c.touching) > np.count_nonzero(c.pressure > 0.0) > 0
+    assert c.min_pressure == c.pressure.min() < 0.0 < c.adhesive_load and c.jumps == 0
+    approach, load = c.curve
+    assert (approach.tolist(), load.tolist()) == ([c.approach], [c.load])
+
+
+def test_a_load_that_pulls_too_hard_tells_the_pull_off() -> None:
+    with pytest.raises(errors.AtIncrement) as raised:
+        sticking(load="5 nN", history=[{"load": "-40 nN"}])
+    cause = raised.value.cause
+    assert isinstance(cause, errors.PullOff) and cause.load == -40e-9 and -21e-9 < cause.least < -14e-9
+    with pytest.raises(errors.CaseError, match="nothing holds the bodies together"):
+        steel = asp.Material("210 GPa", 0.3)
+        asp.contact(asp.form.flat((8, 8), "1 um"), asp.form.sphere("1 mm"), steel, steel, load=1.0, history=[{"load": -1.0}])

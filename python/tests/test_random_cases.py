@@ -130,25 +130,49 @@ def hold_rest(case: RandomCase, results: Results) -> None:
     area = case.pitch[0] * case.pitch[1]
     plastic = fields.get("plastic", np.zeros_like(pressure))
     load = area * pressure.sum()
-    assert load == pytest.approx(static["load"], rel=1e-9)
-    assert (pressure >= 0).all()
+    assert load == pytest.approx(static["load"], rel=1e-9, abs=1e-9 * area * np.abs(pressure).sum())
+    adhesion = results.summary.get("adhesion")
+    assert (adhesion is None) == ("adhesion" not in case.tables) == ("contact" not in fields)
+    touches = fields["contact"] > 0 if adhesion else pressure > 0
+    if adhesion:
+        hold_adhesion(case, results, touches)
+    else:
+        assert (pressure >= 0).all()
     height = fields["upper"] - fields["lower"]
     scale = np.ptp(height) + np.abs(displacement).max() + abs(attributes["approach"])
     assert np.abs(height + displacement - attributes["approach"] - gap).max() <= 1e-9 * scale
     cap = fields.get("cap", np.minimum(_hardness(fields, attributes, "lower"), _hardness(fields, attributes, "upper")))
     assert (pressure <= cap * (1 + 1e-9)).all()
-    deformed = [np.std(displacement), 1e-4 * np.abs(displacement).max(), 1e-4 * case.pitch[0] * pressure.max() / case.modulus]
+    deformed = [np.std(displacement), 1e-4 * np.abs(displacement).max(), 1e-4 * case.pitch[0] * np.abs(pressure).max() / case.modulus]
     small = 300 * case.tolerance * max(*deformed, 1e-15 * scale)
     if case.slides:
         small *= 10
     touching = gap + plastic
     assert touching.min() >= -small, (touching.min(), small)
-    assert np.abs(touching[pressure > 0]).max(initial=0) <= small, (np.abs(touching[pressure > 0]).max(), small)
+    assert np.abs(touching[touches]).max(initial=0) <= small, (np.abs(touching[touches]).max(), small)
     assert area * plastic.sum() == pytest.approx(static["plastic_volume"], rel=1e-6, abs=area * small)
     coupled = case.slides and not case.similar and case.tables["friction"].get("coupling", "full") == "full"
     if not (case.coated or case.mixed or coupled or case.flows):
         independent = _displacement(pressure / case.modulus, case.pitch, case.boundary[0] == "periodic")
         assert np.abs(independent - displacement).max() <= 1e-5 * np.abs(independent).max() + small
+
+
+def hold_adhesion(case: RandomCase, results: Results, touches: np.ndarray) -> None:
+    """Open cells bear the tension at their gap, others no more than the largest; the numbers are those of the fields."""
+    fields, _ = results.fields["fields.h5"]
+    static = results.summary.get("static") or results.summary["sweep"][-1]
+    numbers, area = results.summary["adhesion"], case.pitch[0] * case.pitch[1]
+    largest, length = numbers["max_tension"], numbers["range"]
+    assert largest == pytest.approx(case.tables["adhesion"]["work"] / length, rel=1e-12)
+    pressure, gap = fields["pressure"], np.maximum(fields["gap"], 0)
+    assert (pressure >= -largest * (1 + 1e-9)).all()
+    if case.tables["adhesion"].get("potential") != "dugdale":
+        tension = largest * np.exp(-gap / length)
+        slack = 1e3 * case.tolerance * max(np.std(fields["displacement"]) / length, 1e-3) * largest
+        assert np.abs(pressure + tension)[~touches].max(initial=0) <= slack
+        assert static["adhesive_load"] == pytest.approx(area * tension[~touches].sum(), rel=1e-3, abs=1e-9 * area * largest)
+    assert static["min_pressure"] == pytest.approx(pressure.min(), rel=1e-12)
+    assert static["contact_area"] == pytest.approx(area * np.count_nonzero(touches), rel=1e-9)
 
 
 def hold_passage(results: Results) -> None:
@@ -168,7 +192,7 @@ def hold_passage(results: Results) -> None:
             assert float(row["effective_medium"]) >= 0 and gap > 0
     if "static" in results.summary:
         fields, _ = results.fields["fields.h5"]
-        touching, area = fields["pressure"] > 0, float(results.summary["static"]["contact_area"])
+        touching, area = fields.get("contact", fields["pressure"]) > 0, float(results.summary["static"]["contact_area"])
         if "flux" in fields and results.summary["conductance"][0]["gas_share"] == 0:
             assert (fields["flux"][~touching] == 0).all()
         for axis in "xy":
@@ -307,7 +331,7 @@ def hold_python(case: RandomCase, folder: pathlib.Path, results: Results) -> Non
     repr(opened), opened._repr_html_(), opened.to_xarray()
     tables = case.tables
     lower, upper = _body(tables["lower"], folder), _body(tables["upper"], folder)
-    shared = {key: tables.get(key) for key in ("friction", "temperature", "conductance", "flow") if key in tables}
+    shared = {key: tables.get(key) for key in ("friction", "temperature", "conductance", "flow", "adhesion") if key in tables}
     output = tables.get("output", {})
     output = {key: value for key, value in output.items() if key != "paraview"}
     if case.moves:

@@ -5,7 +5,9 @@ use std::fmt::Write as _;
 use asperity::Choice;
 use asperity::motion::{FilmLaw, LoadControl, OffsetY, Path, PlasticUpdate, Point, Stage};
 use asperity::solver::{Control, Creep, Friction, Rolling, Tangential};
-use asperity::study::case::{Body, Boundary, CounterBody, LoadingPath, Mount, Side, StrategyKind, WearKey};
+use asperity::study::case::{
+    AdhesionRange, AdhesionSpec, Body, Boundary, CounterBody, LoadingPath, Mount, Side, StrategyKind, WearKey,
+};
 use asperity::study::{Bodies, Case, Demand, Estimate, MountedSurface, Plan, SurfaceInput, bodies, estimate};
 use asperity::units::{self, Dimension, bytes};
 
@@ -43,13 +45,13 @@ fn text(case: &Case, bodies: &Bodies, estimate: &Estimate, demand: &Demand) -> S
         _ => None,
     };
     let theory = estimate.closed_form.as_ref().map(|form| ("theory", closed_form::expected(form)));
+    let adhesion = case.adhesion.map(|spec| ("adhesion", adhesion(&spec, estimate)));
     let stress = estimate.subsurface.as_ref().map(|plan| ("stress", stress(case, plan)));
     let passage = passage::asked(case);
     let mut page = format!("{}\n\n", case.title);
     let laws = laws(case, demand);
-    for (name, value) in
-        rows.into_iter().chain(theory).chain(friction).chain(history).chain(laws).chain(stress).chain(passage)
-    {
+    let besides = theory.into_iter().chain(friction).chain(history).chain(adhesion);
+    for (name, value) in rows.into_iter().chain(besides).chain(laws).chain(stress).chain(passage) {
         let _ = writeln!(page, "{name:<8} {value}");
     }
     page
@@ -120,6 +122,32 @@ fn pair(case: &Case, estimate: &Estimate) -> String {
         most => format!("{} … {}", pressure(estimate.hardness), pressure(most)),
     };
     format!("{modulus}, pressure up to {up_to}; {who} plastically")
+}
+
+fn adhesion(spec: &AdhesionSpec, estimate: &Estimate) -> String {
+    let work = units::format(spec.work, Dimension::SurfaceEnergy);
+    let mut text = format!("work {work}, {}", spec.potential.word());
+    let Some(numbers) = &estimate.adhesion else { return text };
+    let length = |value| units::format(value, Dimension::Length);
+    let of_the_grid = if spec.range == AdhesionRange::Grid { " from the grid" } else { "" };
+    let _ = write!(
+        text,
+        ", range {}{of_the_grid}, tension up to {}; process zone {}, {:.2} cells",
+        length(numbers.range),
+        units::format(numbers.max_tension, Dimension::Pressure),
+        length(numbers.process_zone),
+        numbers.process_zone_cells
+    );
+    if let Some(tabor) = numbers.tabor {
+        let _ = write!(text, "; Tabor's parameter {}", units::format_number(tabor));
+    }
+    if let Some(parameter) = numbers.pastewka_robbins {
+        let _ = write!(text, "; Pastewka and Robbins {} (sticky below 1)", units::format_number(parameter));
+    }
+    if let Some(energy) = numbers.full_contact_energy {
+        let _ = write!(text, "; full contact stores {} of the work", units::format_number(energy));
+    }
+    text
 }
 
 fn contact(case: &Case, estimate: &Estimate) -> String {

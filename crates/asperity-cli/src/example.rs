@@ -21,7 +21,7 @@ struct ExampleFiles {
 const STUDY: &str = "load.toml";
 
 /// The examples that the command writes.
-const KITS: [ExampleFiles; 9] = [
+const KITS: [ExampleFiles; 11] = [
     ExampleFiles {
         name: "quickstart",
         about: "two rough steel surfaces run in: 64 × 64 cells, 5 passes",
@@ -55,6 +55,16 @@ const KITS: [ExampleFiles; 9] = [
         name: "rolling",
         about: "a ball rolls ten times over ground steel, which flows below its surface and shakes down",
         files: &[("case.toml", include_bytes!("../examples/rolling/case.toml"))],
+    },
+    ExampleFiles {
+        name: "pull-off",
+        about: "an AFM tip on a rough polymer: the force-distance curve of two bodies that attract each other",
+        files: &[("case.toml", include_bytes!("../examples/pull-off/case.toml"))],
+    },
+    ExampleFiles {
+        name: "contact-challenge",
+        about: "the Contact-Mechanics Challenge, adhesive and rough, on 512 × 512 cells",
+        files: &[("case.toml", include_bytes!("../examples/contact-challenge/case.toml"))],
     },
     ExampleFiles {
         name: "seal",
@@ -117,7 +127,7 @@ fn kit(name: &str) -> Outcome<&'static ExampleFiles> {
 
 fn list() -> String {
     KITS.iter().fold(String::new(), |mut list, kit| {
-        let _ = writeln!(list, "{:<12} {}", kit.name, kit.about);
+        let _ = writeln!(list, "{:<17} {}", kit.name, kit.about);
         list
     })
 }

@@ -138,6 +138,7 @@ fn code(error: &Error) -> u8 {
         | Error::LoadNotReached { .. }
         | Error::BeyondPass { .. }
         | Error::PeriodicFullContact { .. }
+        | Error::PullOff { .. }
         | Error::NotFinite { .. } => 1,
         Error::AtPosition { source, .. }
         | Error::AtPoint { source, .. }
@@ -316,6 +317,13 @@ fn hint(error: &Error) -> Option<String> {
             "give a force below {}, a displacement, or `sliding = [1, 0]` for bodies that slide",
             units::format(*limit, Dimension::Force)
         )),
+        Error::PullOff { least, .. } => Some(match *least < 0.0 {
+            true => format!(
+                "give a load above {}, or an `approach`, at which the bodies part",
+                units::format(*least, Dimension::Force)
+            ),
+            false => "press the bodies together first, or give an `approach`".to_owned(),
+        }),
         Error::NotConverged { .. } => {
             Some("raise `tolerance` in [contact], or try another `method` there".to_owned())
         }

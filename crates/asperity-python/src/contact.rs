@@ -86,6 +86,7 @@ pub(crate) fn rest<'py>(
         increments,
         updates,
         fields,
+        adhesion,
         closed_form,
         flow_result,
         conductance,
@@ -105,6 +106,7 @@ pub(crate) fn rest<'py>(
     contact.set_item("conductance", record(py, &conductance)?)?;
     contact.set_item("gap_flow", record(py, &gap_flow)?)?;
     contact.set_item("closed_form", record(py, &closed_form)?)?;
+    contact.set_item("adhesion", record(py, &adhesion)?)?;
     contact.set_item("warnings", warnings)?;
     contact.set_item("pitch", fields.grid.pitch)?;
     contact.set_item("approach", fields.approach)?;

@@ -1,6 +1,7 @@
 "use strict";
 // Curves: uPlot draws axes and zooms, series are drawn here; the nearest point is read, all points saved as CSV.
 
+const SHADE = "rgba(0,114,178,0.16)";
 const SERIES = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", null];
 
 class ChartView {
@@ -49,7 +50,9 @@ class ChartView {
       } }, ...words);
       return button;
     };
-    this.legend.replaceChildren(...(colours ? [element("span", {}, `${colours}:`)] : []), ...named.map(entry));
+    const { shaded } = this.chart;
+    const area = shaded && shaded.areas.length ? [element("span", {}, element("i", { class: "box", style: `background:${SHADE}` }), shaded.name)] : [];
+    this.legend.replaceChildren(...(colours ? [element("span", {}, `${colours}:`)] : []), ...named.map(entry), ...area);
   }
 
   redraw() {
@@ -93,6 +96,7 @@ class ChartView {
       hooks: {
         setCursor: [(u) => this.read(u, points)],
         setSelect: [(u) => this.zoom(u)],
+        drawClear: [(u) => { if (chart.shaded) drawShaded(u, chart); }],
         draw: [(u) => drawWords(u, chart, ink)],
       },
     };
@@ -292,6 +296,22 @@ function arrows(c, points, ratio) {
     c.lineTo(mx + 0.5 * a * uy, my - 0.5 * a * ux);
     c.fill();
   }
+}
+
+/** Areas under the curves, each within a line of points. */
+function drawShaded(u, chart) {
+  const c = u.ctx;
+  c.save();
+  c.beginPath();
+  c.rect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height);
+  c.clip();
+  c.fillStyle = SHADE;
+  for (const area of chart.shaded.areas) {
+    c.beginPath();
+    for (const [x, y] of area) c.lineTo(u.valToPos(plotted(x, chart.x), "x", true), u.valToPos(plotted(y, chart.y), "y", true));
+    c.fill();
+  }
+  c.restore();
 }
 
 function drawWords(u, chart, ink) {

@@ -120,6 +120,7 @@ class Scrubber {
     const row = this.row === null ? busiest(pressure) + corner[1] : Math.min(Math.max(this.row, 0), lower[1]);
     const rects = this.moves ? [{ from: [frame.offset, 0], size: upper, colour: "#d02020", dashed: true }] : [];
     const classes = layer.kind === "class" ? layer.classes.map((name, k) => [["var(--blank)", "rgb(0,114,178)", "rgb(213,94,0)"][k], name])
+      : layer.kind === "diverging" ? [["rgb(67,147,195)", "tension"], ["rgb(214,96,77)", "compression"]]
       : layer.kind === "positive" ? [["var(--blank)", layer.name === "pressure" ? "no contact" : "zero"]]
         : layer.name === "displacement" ? []
         : layer.kind === "between" ? [["var(--missing)", "no contact"]]

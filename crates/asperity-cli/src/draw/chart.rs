@@ -11,6 +11,8 @@ use super::text::{LARGE, MEDIUM, SMALL};
 /// Okabe and Ito's colours, told apart by colour-blind eyes.
 const PALETTE: [Rgb; 7] =
     [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [230, 159, 0], [86, 180, 233], [0, 0, 0]];
+/// Shaded areas.
+const SHADE: Rgb = [222, 235, 246];
 /// Width of a chart alone and of a sheet of them, pt.
 const WIDTHS: [f64; 2] = [360.0, 482.0];
 
@@ -108,12 +110,14 @@ pub(crate) struct Chart {
     pub(crate) series: Vec<Series>,
     /// Words beside points of the left axis.
     pub(crate) words: Vec<([f64; 2], String)>,
+    /// Areas under the curves with their name, each within a line of points.
+    pub(crate) shaded: Option<(String, Vec<Vec<[f64; 2]>>)>,
 }
 
 impl Chart {
     /// A chart with one y axis and without words.
     pub(crate) fn new(title: impl Into<String>, x: Axis, y: Axis, series: Vec<Series>) -> Self {
-        Self { title: title.into(), x, y, right: None, series, words: Vec::new() }
+        Self { title: title.into(), x, y, right: None, series, words: Vec::new(), shaded: None }
     }
 
     /// Whether every number on it is the same but for what a solver's tolerance leaves: a load that is held.
@@ -203,6 +207,11 @@ impl Charts {
         if names.iter().filter(|name| !name.is_empty()).count() < 2 {
             legend = Legend::default();
         }
+        for (name, areas) in self.charts.iter().filter_map(|chart| chart.shaded.as_ref()) {
+            if !areas.is_empty() {
+                legend.add(Key::Box(SHADE), name.clone());
+            }
+        }
         (names, legend)
     }
 }
@@ -241,6 +250,10 @@ impl<'a> Drawn<'a> {
     fn draw(&self, scene: &mut Scene, at: Rect, names: &[&str]) {
         let chart = self.chart;
         let left = Frame { at, x: &self.x, y: &self.y, down: false };
+        for area in chart.shaded.iter().flat_map(|(_, areas)| areas) {
+            let corners: Vec<_> = area.iter().filter_map(|point| left.place(*point)).collect();
+            scene.clipped(at, |scene| scene.polygon(&corners, SHADE));
+        }
         left.mesh(scene);
         let mut nothing = true;
         for series in &chart.series {

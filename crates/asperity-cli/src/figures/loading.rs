@@ -13,7 +13,7 @@ pub(crate) fn curves(increments: &[IncrementRecord]) -> Vec<Curves> {
 /// Force over displacement in the plane, or where nothing acts there, load over approach.
 fn chart(increments: &[IncrementRecord]) -> Charts {
     // What rounding leaves of a force that is not there does not count.
-    let acts = |i: &IncrementRecord| i.tangential_force_x.hypot(i.tangential_force_y) > 1e-8 * i.load;
+    let acts = |i: &IncrementRecord| i.tangential_force_x.hypot(i.tangential_force_y) > 1e-8 * i.load.abs();
     if increments.iter().any(acts) { pushing(increments) } else { pressing(increments) }
 }
 

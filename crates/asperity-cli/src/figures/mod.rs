@@ -2,6 +2,7 @@
 
 mod course;
 mod flow;
+mod force_distance;
 mod friction;
 mod loading;
 mod motion;
@@ -29,6 +30,7 @@ use crate::report::Outcome;
 
 pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, has_new_upper};
 pub(crate) use flow::{FlowSection, flow_sections, of_increments as of_flow_increments};
+pub(crate) use force_distance::curves as of_force_distance;
 pub(crate) use friction::stick;
 pub(crate) use loading::curves as of_loading;
 pub(crate) use passage::{FLOW, FLUX, curves as passage_curves, flow_map, flux_map};
@@ -36,7 +38,7 @@ pub(crate) use pressure::histogram;
 pub(crate) use rest::{approach, open_gap, profile as profile_at_rest};
 pub(crate) use rolling::curves as of_rolling;
 pub(crate) use sliding::curves as of_sliding;
-pub(crate) use stored::{Cap, StoredArray, in_frame_of};
+pub(crate) use stored::{Cap, StoredArray, ends_with_tension, in_frame_of};
 pub(crate) use subsurface::{columns as stress_columns, contact as contact_of_section};
 pub(crate) use surfaces::{as_measured, changed, curves as of_surfaces};
 pub(crate) use sweep::curves as of_sweep;

@@ -12,7 +12,7 @@ use asperity::{Field, Grid};
 use super::pressure;
 use super::profile::{OverlapFields, Profile};
 use super::sheet::Sheet;
-use super::stored::{Cap, StoredArray};
+use super::stored::{Cap, StoredArray, touched};
 use super::surfaces;
 use super::{course, rolling};
 use crate::draw::{Axis, Chart, Charts, Colours, Maps, Mark, Series, Unit, range_of_heights};
@@ -340,6 +340,7 @@ fn section(results: &Results, pressure: &StoredArray, step: &StepRecord) -> Outc
     let mut plastic = &below - &above - &displacement + step.approach;
     plastic.zip_mut_with(&pressure.field, |w, p| *w = if *p > 0.0 { w.max(0.0) } else { 0.0 });
     let facing = OverlapFields {
+        touching: &touched(&pressure.field),
         lower: &below,
         upper: &above,
         pressure: &pressure.field,

@@ -8,20 +8,31 @@ use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
 /// Classes of a histogram.
 const CLASSES: usize = 40;
 
-/// The shares of the contact area in classes of pressure, with the cap where there is one.
+/// The shares of the contact area in classes of pressure, with the cap where there is one: of cells with a pressure.
 pub(crate) fn histogram<'a>(fields: impl IntoIterator<Item = &'a Field>, cap: &Cap) -> Charts {
-    let pressures: Vec<f64> =
-        fields.into_iter().flat_map(|f| f.iter().copied().filter(|p| *p > 0.0)).collect();
-    let largest = pressures.iter().copied().fold(0.0, f64::max);
+    distribution(fields.into_iter().flat_map(|f| f.iter().copied().filter(|p| p.abs() > 0.0)).collect(), cap)
+}
+
+/// The shares of the contact area in classes of pressure, of the cells that are `touching`: above 0.
+pub(crate) fn histogram_on(pressure: &Field, touching: &Field, cap: &Cap) -> Charts {
+    let cells = pressure.iter().zip(touching).filter(|(_, touching)| **touching > 0.0);
+    distribution(cells.map(|(p, _)| *p).collect(), cap)
+}
+
+fn distribution(pressures: Vec<f64>, cap: &Cap) -> Charts {
+    // Cells in contact may be under tension.
+    let [least, largest] = [f64::min, f64::max].map(|pick| pressures.iter().copied().fold(0.0, pick));
     let mut counts = [0usize; CLASSES];
     for p in &pressures {
-        counts[((p / largest * CLASSES as f64) as usize).min(CLASSES - 1)] += 1;
+        counts[(((p - least) / (largest - least) * CLASSES as f64) as usize).min(CLASSES - 1)] += 1;
     }
-    let width = largest / CLASSES as f64;
+    let width = (largest - least) / CLASSES as f64;
     let share = |count: usize| 100.0 * count as f64 / pressures.len() as f64;
     let bars: Vec<[f64; 2]> = match pressures.is_empty() {
         true => Vec::new(),
-        false => counts.iter().enumerate().map(|(i, n)| [(i as f64 + 0.5) * width, share(*n)]).collect(),
+        false => {
+            counts.iter().enumerate().map(|(i, n)| [least + (i as f64 + 0.5) * width, share(*n)]).collect()
+        }
     };
     let highest = bars.iter().map(|bar| bar[1]).fold(0.0, f64::max);
     let mut series = vec![Series::new("cells in contact", bars, Mark::Bars)];
@@ -31,6 +42,6 @@ pub(crate) fn histogram<'a>(fields: impl IntoIterator<Item = &'a Field>, cap: &C
     {
         series.push(Series::new("hardness", vec![[*cap, 0.0], [*cap, highest]], Mark::Dashed));
     }
-    let x = Axis { range: Some([0.0, 1.03 * largest]), ..Axis::linear("pressure", Unit::Pressure) };
+    let x = Axis { range: Some([1.03 * least, 1.03 * largest]), ..Axis::linear("pressure", Unit::Pressure) };
     Chart::new("", x, Axis::linear("share of the contact area", Unit::Of("%")), series).into()
 }

@@ -21,6 +21,8 @@ pub(super) struct OverlapFields<'a> {
     /// The upper body's underside.
     pub(super) upper: &'a Field,
     pub(super) pressure: &'a Field,
+    /// Above 0 in contact.
+    pub(super) touching: &'a Field,
     /// Elastic displacement of both bodies, positive where it opens the gap.
     pub(super) displacement: &'a Field,
     /// What both bodies have taken up plastically.
@@ -47,12 +49,13 @@ impl Profile {
     /// The section through the cell of the largest pressure, of several that in the midst of the most; none without
     /// contact.
     pub(super) fn of(facing: &OverlapFields, case: &Case) -> Outcome<Option<Self>> {
-        let Some([ix, iy]) = most_loaded(facing.pressure).filter(|_| facing.approach.is_finite()) else {
+        let Some([ix, iy]) = most_loaded(facing).filter(|_| facing.approach.is_finite()) else {
             return Ok(None);
         };
         let row = facing.pressure.column(iy);
-        let first = (0..ix).rev().find(|i| row[*i] <= 0.0).map_or(0, |i| i + 1);
-        let end = (ix..row.len()).find(|i| row[*i] <= 0.0).unwrap_or(row.len());
+        let touching = facing.touching.column(iy);
+        let first = (0..ix).rev().find(|i| touching[*i] <= 0.0).map_or(0, |i| i + 1);
+        let end = (ix..row.len()).find(|i| touching[*i] <= 0.0).unwrap_or(row.len());
         let around = (AROUND * (end - first)).max(MIN_AROUND);
         let shown = first.saturating_sub(around)..(end + around).min(row.len());
         // Which body flows depends on the cell where one of them has a map of its hardness.
@@ -82,7 +85,7 @@ impl Profile {
                 along(&|i| above(i) + u(i) - lower_displacement(i) + (1.0 - plastic) * w(i)),
             ],
             // Where they touch there is none, and no rounding of one.
-            gap: along(&|i| if row[i] > 0.0 { 0.0 } else { above(i) - below(i) + u(i) + w(i) }),
+            gap: along(&|i| if touching[i] > 0.0 { 0.0 } else { above(i) - below(i) + u(i) + w(i) }),
             pressure: along(&|i| row[i]),
         }))
     }
@@ -118,15 +121,16 @@ impl Profile {
 }
 
 /// The cell of the largest pressure; of several, such as all at the hardness, that whose surroundings bear the most.
-fn most_loaded(pressure: &Field) -> Option<[usize; 2]> {
+fn most_loaded(OverlapFields { pressure, touching, .. }: &OverlapFields) -> Option<[usize; 2]> {
     const AROUND: usize = 2;
-    let largest = pressure.iter().copied().fold(0.0, f64::max);
+    let cells = || pressure.indexed_iter().zip(*touching).filter(|(_, touching)| **touching > 0.0);
+    let largest = cells().map(|((_, p), _)| *p).fold(f64::NEG_INFINITY, f64::max);
     let around = |&[i, j]: &[usize; 2]| {
         let ends = |at: usize, n: usize| at.saturating_sub(AROUND)..(at + AROUND + 1).min(n);
         let cells = ndarray::s![ends(i, pressure.nrows()), ends(j, pressure.ncols())];
         pressure.slice(cells).sum()
     };
-    let loaded = pressure.indexed_iter().filter(|(_, p)| **p > 0.0 && **p >= largest * (1.0 - 1e-6));
+    let loaded = cells().map(|(cell, _)| cell).filter(|(_, p)| **p >= largest - 1e-6 * largest.abs());
     loaded.map(|((i, j), _)| [i, j]).max_by(|a, b| around(a).total_cmp(&around(b)))
 }
 

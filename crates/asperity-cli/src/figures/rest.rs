@@ -8,7 +8,7 @@ use asperity::units::{Dimension, format};
 use super::profile::{OverlapFields, Profile};
 use super::sheet::Sheet;
 use super::stored::{Cap, StoredArray};
-use super::{course, flow, friction, loading, pressure, surfaces};
+use super::{course, flow, force_distance, friction, loading, pressure, surfaces};
 use crate::draw::{Charts, Colours, Maps, Unit, range_of_heights};
 use crate::report::Outcome;
 
@@ -17,7 +17,7 @@ pub(super) fn draw(results: &Results, sheet: &mut Sheet) -> Outcome<String> {
     let fields = results.static_fields()?;
     let p = StoredArray::read(&fields, "pressure")?;
     let load = p.field.sum() * p.grid.pitch[0] * p.grid.pitch[1];
-    let of = format!("load {}", format(load, Dimension::Force));
+    let of = format!("load {}", format(load, Dimension::Force).replace('-', "−"));
 
     bodies(&fields, sheet, &of)?;
     contact(&fields, &p, sheet, &of)?;
@@ -32,7 +32,11 @@ pub(super) fn draw(results: &Results, sheet: &mut Sheet) -> Outcome<String> {
         .into_iter()
         .try_for_each(|curves| sheet.add_curves(curves, &of))?;
     if increments.len() > 1 {
-        let curves = loading::curves(&increments).into_iter().chain(flow::of_increments(&increments));
+        let curves = match force_distance::curves(&increments) {
+            Some(curves) => vec![curves],
+            None => loading::curves(&increments),
+        };
+        let curves = curves.into_iter().chain(flow::of_increments(&increments));
         curves.into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))?;
     }
     Ok(of)
@@ -58,18 +62,19 @@ fn bodies(fields: &Fields, sheet: &mut Sheet, of: &str) -> Outcome<()> {
 fn contact(fields: &Fields, p: &StoredArray, sheet: &mut Sheet, of: &str) -> Outcome<()> {
     let cap = Cap::read(fields)?;
     sheet.add("pressure", "pressure", of, || Ok(Maps::new(vec![p.pressure("")])))?;
+    let touching = StoredArray::touching(fields, p)?;
     sheet.add("pressure_histogram", "distribution of the pressure over the contact", of, || {
-        Ok(pressure::histogram([&p.field], &cap))
+        Ok(pressure::histogram_on(&p.field, &touching, &cap))
     })?;
-    let contact = p.contact(&cap);
+    let contact = p.contact_on(&touching, &cap);
     sheet.add("contact", "contact", of, || {
         Ok(Maps::new(vec![contact.map("", "", Unit::Number, cap.colours())]))
     })?;
     let plastic = StoredArray::read(fields, "plastic")?;
-    let open = open_gap(StoredArray::read(fields, "gap")?, &plastic.field, p);
+    let open = open_gap(StoredArray::read(fields, "gap")?, &plastic.field, &touching);
     sheet.add("gap", "deformed gap", of, || {
         let map = open.map("", "gap", Unit::Length, Colours::Gap);
-        Ok(Maps::new(vec![map.outlined(&p.field, "edge of the contact")]))
+        Ok(Maps::new(vec![map.outlined(&touching, "edge of the contact")]))
     })?;
     if cap.is_finite() {
         sheet.add("plastic", "plastic interference", of, || {
@@ -88,6 +93,7 @@ pub(crate) fn profile(fields: &Fields, case: &Case) -> Outcome<Option<Charts>> {
         lower: &lower.field,
         upper: &upper.field,
         pressure: &pressure.field,
+        touching: &StoredArray::touching(fields, &pressure)?,
         displacement: &displacement.field,
         plastic: &plastic.field,
         approach: approach(fields)?,
@@ -115,9 +121,9 @@ fn topographies<'a>(lower: &'a StoredArray, upper: &'a StoredArray) -> Maps<'a> 
 }
 
 /// Open where the bodies are apart, 0 where they touch, negative where they touch and have yielded.
-pub(crate) fn open_gap(mut gap: StoredArray, plastic: &Field, pressure: &StoredArray) -> StoredArray {
-    ndarray::Zip::from(&mut gap.field).and(&pressure.field).and(plastic).for_each(|gap, p, w| {
-        *gap = if *p > 0.0 { -w.max(0.0) } else { (*gap + w).max(0.0) };
+pub(crate) fn open_gap(mut gap: StoredArray, plastic: &Field, touching: &Field) -> StoredArray {
+    ndarray::Zip::from(&mut gap.field).and(touching).and(plastic).for_each(|gap, touching, w| {
+        *gap = if *touching > 0.0 { -w.max(0.0) } else { (*gap + w).max(0.0) };
     });
     gap
 }

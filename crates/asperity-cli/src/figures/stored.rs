@@ -3,6 +3,7 @@
 use asperity::io::fields::{Attribute, Fields};
 use asperity::units::CELSIUS;
 use asperity::{Field, Grid};
+use ndarray::Zip;
 
 use crate::draw::{Colours, Map, Quantity, Relief, Unit};
 use crate::report::{Failure, Outcome};
@@ -49,6 +50,11 @@ impl StoredArray {
     }
 
     pub(super) fn pressure(&self, title: impl Into<String>) -> Map<'_> {
+        if let Some(range) = range_with_tension(&self.field) {
+            return self
+                .map(title, "pressure, tension below 0", Unit::Pressure, Colours::Signed)
+                .range(range);
+        }
         self.map(title, "pressure", Unit::Pressure, Colours::Pressure)
             .missing("outside the overlap")
             .blank("no contact")
@@ -62,21 +68,57 @@ impl StoredArray {
         Relief::of_heights(&self.field, &self.grid)
     }
 
-    /// Where the cells of a pressure are elastic (1) and plastic (2).
+    /// Where the cells of a pressure are elastic (1) and plastic (2). Those without contact have no pressure.
     pub(crate) fn contact(&self, cap: &Cap) -> Self {
-        let class = |p: f64, cap: f64| match p {
+        self.contact_on(&touched(&self.field), cap)
+    }
+
+    /// Where the cells of a pressure are elastic (1) and plastic (2), of those in contact: `touching` above 0.
+    pub(crate) fn contact_on(&self, touching: &Field, cap: &Cap) -> Self {
+        let class = |p: f64, touching: f64, cap: f64| match p {
             p if p >= cap * (1.0 - 1e-6) => 2.0,
-            p if p > 0.0 => 1.0,
             p if p.is_nan() => f64::NAN,
+            _ if touching > 0.0 => 1.0,
             _ => 0.0,
         };
         let mut classes = self.field.clone();
+        let cells = Zip::from(&mut classes).and(touching);
         match cap {
-            Cap::Field(caps) => classes.zip_mut_with(caps, |p, cap| *p = class(*p, *cap)),
-            Cap::Number(cap) => classes.mapv_inplace(|p| class(p, *cap)),
+            Cap::Field(caps) => cells.and(caps).for_each(|p, touching, cap| *p = class(*p, *touching, *cap)),
+            Cap::Number(cap) => cells.for_each(|p, touching| *p = class(*p, *touching, *cap)),
         }
         self.with(classes)
     }
+
+    /// Values above 0 on the cells in contact under this pressure: the field `contact` of bodies that attract each other at rest, which
+    /// pull across the gap. Others have no pressure there.
+    pub(crate) fn touching(fields: &Fields, pressure: &Self) -> Outcome<Field> {
+        match fields.names()?.iter().any(|name| name == "contact") {
+            true => Ok(Self::read(fields, "contact")?.field),
+            false => Ok(touched(&pressure.field)),
+        }
+    }
+}
+
+/// Values above 0 on the cells with a pressure or a tension.
+pub(super) fn touched(pressure: &Field) -> Field {
+    pressure.mapv(f64::abs)
+}
+
+/// Largest pressure at the end of the colours, as a multiple of the largest tension, which would be pale beside a much larger one.
+const MAX_RATIO: f64 = 4.0;
+
+/// The ends of the colours of pressures with tension among them, the same above 0 as below; none without tension.
+pub(crate) fn range_with_tension(pressure: &Field) -> Option<[f64; 2]> {
+    let finite = || pressure.iter().copied().filter(|p| p.is_finite());
+    let [low, high] = [finite().fold(0.0, f64::min), finite().fold(0.0, f64::max)];
+    ends_with_tension([low, high])
+}
+
+/// The ends of the colours of pressures from `low` to `high`; none without tension.
+pub(crate) fn ends_with_tension([low, high]: [f64; 2]) -> Option<[f64; 2]> {
+    let end = high.min(-MAX_RATIO * low).max(-low);
+    (low < 0.0).then_some([-end, end])
 }
 
 /// A field whose first column is the lower body's `first`, on that body's grid; what does not face the upper body is

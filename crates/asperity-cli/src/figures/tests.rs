@@ -164,6 +164,64 @@ fn bodies_that_run_in_are_drawn_over_the_passes_done_and_the_distance() {
     assert!(read("topographies").contains("after pass 200"));
 }
 
+/// A soft ball that sticks to a plane, comes near, and is drawn off.
+const STICKING: &str = "\
+lower = { young = 1e9, poisson = 0.4, topography = { form = \"flat\", shape = [24, 24], pitch = 1e-9 } }
+upper = { young = \"inf\", poisson = 0.3, topography = { form = \"sphere\", radius = 40e-9, shape = [24, 24], pitch = 1e-9 } }
+adhesion = { work = 0.08, range = 0.6e-9 }
+contact = { approach = -4e-9 }
+history = [{ approach = 0.5e-9, increments = 5 }, { approach = APART, increments = 6 }]
+";
+
+#[test]
+fn bodies_that_attract_each_other_have_their_own_figures() {
+    let stored = |apart: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        let text = STICKING.replace("APART", apart);
+        let case = Case::parse(&text, Path::new("case.toml"), folder.path()).unwrap();
+        let directory = folder.path().join("results");
+        study::run(&case, asperity::study::SurfaceInput::default(), &directory, Existing::Keep, &()).unwrap();
+        (Results::open(&directory).unwrap(), folder)
+    };
+    let (results, _folder) = stored("0.1e-9");
+    let format = crate::draw::Format::Svg;
+    let wanted = FigureOptions { paper: Paper { format, ..Paper::default() }, ..FigureOptions::default() };
+    let paths = draw(&results, &wanted, &|| false).unwrap();
+    let read = |name: &str| {
+        let path = paths.iter().find(|path| path.file_stem().is_some_and(|stem| stem == name));
+        std::fs::read_to_string(path.unwrap_or_else(|| panic!("no {name}"))).unwrap()
+    };
+    let curve = read("force_distance");
+    for words in ["distance −δ (nm)", "load (nN)", "approach", "retreat", "hysteresis"] {
+        assert!(curve.contains(words), "no {words}");
+    }
+    assert!(read("pressure").contains("pressure, tension below 0"));
+    assert!(!paths.iter().any(|path| path.ends_with("loading.svg")));
+
+    // Cells in contact are counted, of which some are under tension, and none of the open ones.
+    let fields = results.static_fields().unwrap();
+    let pressure = StoredArray::read(&fields, "pressure").unwrap();
+    let touching = StoredArray::touching(&fields, &pressure).unwrap();
+    let count = |field: &Field| field.iter().filter(|value| **value > 0.0).count();
+    let contact = pressure.contact_on(&touching, &Cap::read(&fields).unwrap());
+    let last = results.increments().unwrap().pop().unwrap();
+    assert_eq!((last.contact_area / 1e-18).round() as usize, count(&contact.field));
+    assert!(count(&contact.field) > count(&pressure.field), "no cell in contact is under tension");
+    let gap = StoredArray::read(&fields, "gap").unwrap();
+    let open = rest::open_gap(gap, &Field::zeros(touching.raw_dim()), &touching);
+    assert_eq!(count(&open.field), touching.len() - count(&touching));
+    let section = profile_at_rest(&fields, &results.case().unwrap()).unwrap().unwrap();
+    let points = |chart: usize| &section.charts[chart].series[0].points;
+    assert!(points(2).iter().any(|[_, p]| *p < 0.0) && points(1).iter().any(|[_, gap]| *gap == 0.0));
+
+    // Drawn apart for good, nothing touches, and the pull-off is marked.
+    let (results, _folder) = stored("-5e-9");
+    let paths = draw(&results, &wanted, &|| false).unwrap();
+    let path = paths.iter().find(|path| path.ends_with("force_distance.svg")).unwrap();
+    assert!(std::fs::read_to_string(path).unwrap().contains("pull-off −"));
+    assert!(paths.iter().all(|path| !path.ends_with("profile.svg")));
+}
+
 #[test]
 fn curves_below_the_surface_are_figures_of_their_own() {
     let body = |keys: &str, form: &str| {

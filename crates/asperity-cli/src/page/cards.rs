@@ -234,6 +234,31 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> Vec<Card> {
         let about = format!("Tangential force over load; {stick} % of the contact sticks.");
         cards.push(Card::new("traction coefficient", format_number(shear.force_ratio), about));
     }
+    if let Some(adhesion) = &record.adhesion {
+        let numbers = found.summary.as_ref().and_then(|summary| summary.adhesion);
+        let pull_off = numbers.and_then(|numbers| numbers.pull_off);
+        let mut of_adhesion: Vec<Card> = pull_off
+            .map(|load| Card::of("pull-off", "pull_off", format(load, Dimension::Force)))
+            .into_iter()
+            .collect();
+        if let Some(work) = numbers.and_then(|numbers| numbers.work_of_separation) {
+            of_adhesion.push(Card::of(
+                "work of separation",
+                "work_of_separation",
+                format(work, Dimension::Energy),
+            ));
+        }
+        if of_adhesion.is_empty() {
+            let load = format(adhesion.adhesive_load, Dimension::Force);
+            of_adhesion.push(Card::of("adhesive load", "adhesive_load", load));
+        }
+        if let Some(tabor) = numbers.and_then(|numbers| numbers.tabor) {
+            let about = "Below 0.1 the attraction is long, above 5 it is short beside the deformation.";
+            of_adhesion.push(Card::new("Tabor's parameter", format_number(tabor), about));
+        }
+        // The bodies may be apart at the end, where pressures say little.
+        cards.splice(0..0, of_adhesion);
+    }
     if let Some(last) = found.updates.last() {
         let deepest = last.max_wear_lower.max(last.max_wear_upper);
         let distance = format(last.distance, Dimension::Length);

@@ -117,10 +117,15 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
 fn blocks(frames: &[Frame]) -> String {
     match frames.iter().map(|frame| packed::block(frame.pressure())).max().unwrap_or(1) {
         1 => String::new(),
-        block => format!(
-            "<p class=\"remark\">Shown in blocks of {block} × {block} cells, of each the largest pressure, gaps by their mean. \
-             The files hold all.</p>"
-        ),
+        block => {
+            let shown = match frames.iter().any(Frame::pulls) {
+                true => "pressures and gaps by their mean",
+                false => "of each the largest pressure, gaps by their mean",
+            };
+            format!(
+                "<p class=\"remark\">Shown in blocks of {block} × {block} cells, {shown}. The files hold all.</p>"
+            )
+        }
     }
 }
 
@@ -190,7 +195,11 @@ fn affordable(found: &PageData, fields: &Fields, kept: &[usize]) -> (Vec<usize>,
     let samples = evenly(kept.len(), 6);
     let size = |at: &usize| {
         let stored = StoredArray::read(fields, &pressure_name(kept[*at])).ok()?;
-        Some(QuantisedField::positive(&stored.field, stored.grid.pitch).size())
+        let packed = match stored.field.iter().any(|p| *p < 0.0) {
+            true => QuantisedField::even(&stored.field, stored.grid.pitch),
+            false => QuantisedField::positive(&stored.field, stored.grid.pitch),
+        };
+        Some(packed.size())
     };
     let sizes: Vec<usize> = samples.iter().filter_map(size).collect();
     // What is elastic and what is plastic takes some more, and so do words.
@@ -253,7 +262,7 @@ fn cut_by_the_edge(pressure: &StoredArray, columns: usize) -> usize {
     let of_column = |lower: usize| {
         let own = (lower + columns - first) % columns;
         let cells = pressure.field.outer_iter().nth(own);
-        cells.map_or(0, |cells| cells.iter().filter(|p| **p > 0.0).count())
+        cells.map_or(0, |cells| cells.iter().filter(|p| p.abs() > 0.0).count())
     };
     of_column(0) + of_column(columns - 1)
 }
@@ -346,7 +355,8 @@ fn at_rest(fields: &Fields) -> Outcome<Vec<(&'static str, StoredArray)>> {
     let pressure = read("pressure")?;
     let mut maps = Vec::new();
     let cap = Cap::read(fields)?;
-    let contact = pressure.contact(&cap);
+    let touching = StoredArray::touching(fields, &pressure)?;
+    let contact = pressure.contact_on(&touching, &cap);
     if has("traction_x") && has("stick") {
         let size = |x: &str, y: &str| -> Outcome<StoredArray> {
             let (x, y) = (read(x)?, read(y)?);
@@ -362,7 +372,7 @@ fn at_rest(fields: &Fields) -> Outcome<Vec<(&'static str, StoredArray)>> {
         let gap = read("gap")?;
         let none = || gap.with(Field::zeros(gap.field.raw_dim()));
         let plastic = if has("plastic") { read("plastic")? } else { none() };
-        maps.push(("gap", figures::open_gap(gap, &plastic.field, &pressure)));
+        maps.push(("gap", figures::open_gap(gap, &plastic.field, &touching)));
         maps.push(("plastic", plastic));
     }
     if has("displacement") {
@@ -381,7 +391,13 @@ impl Frame {
         &self.fields[0].1.field
     }
 
-    fn packed(self) -> PageFrame {
+    /// Whether there is tension among the pressures.
+    fn pulls(&self) -> bool {
+        self.pressure().iter().any(|p| *p < 0.0)
+    }
+
+    /// Packs the fields; those of pressures with their signs, if there is tension in any frame.
+    fn packed(self, pulls: bool) -> PageFrame {
         let about = json!({
             "group": self.group,
             "label": self.label,
@@ -398,6 +414,7 @@ impl Frame {
         )| {
             let layer = LAYERS.iter().find(|layer| layer.name == name)?;
             let packed = match layer.kind {
+                Kind::Positive if pulls && name == "pressure" => QuantisedField::even(&field, pitch),
                 Kind::Positive => QuantisedField::positive(&field, pitch),
                 Kind::Signed | Kind::Between => QuantisedField::even(&field, pitch),
                 Kind::Classes(_) => QuantisedField::classes(&field, pitch),
@@ -409,7 +426,8 @@ impl Frame {
 }
 
 fn all_packed(frames: Vec<Frame>) -> Vec<PageFrame> {
-    frames.into_par_iter().map(Frame::packed).collect()
+    let pulls = frames.iter().any(Frame::pulls);
+    frames.into_par_iter().map(|frame| frame.packed(pulls)).collect()
 }
 
 /// The data of the section.
@@ -429,13 +447,18 @@ fn shown(frames: &[PageFrame], groups: Vec<Value>) -> Value {
             of_group(group).fold(begin, |[low, high]: [f64; 2], map| [low.min(map.low), high.max(map.high)])
         };
         let [low, high] = span(None);
-        let ranges: Vec<[f64; 2]> = (0..groups.len()).map(|group| span(Some(group))).collect();
+        let mut ranges: Vec<[f64; 2]> = (0..groups.len()).map(|group| span(Some(group))).collect();
+        let pulls = layer.name == "pressure" && low < 0.0;
+        if pulls {
+            ranges.iter_mut().for_each(|range| *range = figures::ends_with_tension(*range).unwrap_or(*range));
+        }
         // A pressure that is nowhere is shown, plastic interference that is nowhere is not.
         let always = matches!(layer.name, "pressure" | "contact");
         if maps().next().is_none() || (!always && low == 0.0 && high == 0.0) {
             continue;
         }
         let (kind, classes) = match layer.kind {
+            Kind::Positive if pulls => ("diverging", Vec::new()),
             Kind::Positive => ("positive", Vec::new()),
             Kind::Signed => ("signed", Vec::new()),
             Kind::Between => ("between", Vec::new()),

@@ -29,7 +29,8 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
         html += &curves::html(curves, charts);
         data["passes"] = of_passes(found);
     }
-    if found.increments.len() > 1 {
+    // The section on adhesion has the force–distance curve.
+    if found.increments.len() > 1 && figures::of_force_distance(&found.increments).is_none() {
         html += &curves::html(figures::of_loading(&found.increments), charts);
     }
     if found.updates.len() > 1 {

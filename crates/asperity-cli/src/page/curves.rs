@@ -81,6 +81,7 @@ fn of_chart(name: &str, title: &str, chart: &Chart) -> Value {
         "right": chart.right.as_ref().map(|right| axis(right, largest(&mut points(true).map(|p| p[1])))),
         "series": series,
         "words": chart.words,
+        "shaded": chart.shaded.as_ref().map(|(name, areas)| json!({ "name": name, "areas": areas })),
     })
 }
 

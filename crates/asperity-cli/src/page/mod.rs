@@ -3,6 +3,7 @@
 //! A section is HTML, which reads and prints by itself, and data, which the page's own programs draw: maps in levels
 //! ([`packed`]) and curves, those of the figures ([`curves`]). Nothing on the page asks for anything from outside.
 
+mod adhesion;
 mod below;
 mod bodies;
 mod cards;
@@ -97,8 +98,9 @@ fn page(results: &Results) -> asperity::Result<(String, Vec<String>)> {
         "diverging": palette(Colours::Signed),
     }});
     let mut charts = Vec::new();
-    let sections: [Section; 7] = [
+    let sections: [Section; 8] = [
         ("contact", "Contact", contact::section(&mut found, &mut data, &mut charts)),
+        ("adhesion", "Adhesion", adhesion::section(&found, &mut charts)),
         ("passage", "Heat, current, fluid", passage::section(&mut found, &mut data, &mut charts)),
         ("below", "Below the surface", below::section(&mut found, &mut data, &mut charts)),
         ("flow", "Plastic flow", flow::section(&mut found, &mut data, &mut charts)),

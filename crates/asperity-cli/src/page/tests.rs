@@ -34,6 +34,15 @@ contact = { load = 5 }
 plasticity = { depth = 30e-6, layers = 6, increments = 3 }
 ";
 
+/// A soft ball that sticks to a plane, and is drawn off it.
+const STICKING: &str = "\
+lower = { young = 1e9, poisson = 0.4, topography = { form = \"flat\", shape = [24, 24], pitch = 1e-9 } }
+upper = { young = \"inf\", poisson = 0.3, topography = { form = \"sphere\", radius = 40e-9, shape = [24, 24], pitch = 1e-9 } }
+adhesion = { work = 0.08, range = 0.6e-9 }
+contact = { approach = -4e-9 }
+history = [{ approach = 0.5e-9, increments = 5 }, { approach = -5e-9, increments = 6 }, { approach = 0.2e-9 }]
+";
+
 /// A folder with the results of a case in it.
 struct Computed {
     folder: TempDir,
@@ -92,13 +101,40 @@ fn every_number_of_the_summary_is_on_the_page() {
     let rubbed =
         format!("{AT_REST}friction = {{ coefficient = 0.3 }}\nhistory = [{{ force = [1e-3, 0] }}]\n");
     let swept = AT_REST.replace("load = 5e-3", "loads = [1e-3, 2e-3, 5e-3]");
-    for (text, key, least) in
-        [(MOVING, "passes", 40), (AT_REST, "static", 12), (&rubbed, "static", 20), (&swept, "sweep", 40)]
-    {
+    for (text, key, least) in [
+        (MOVING, "passes", 40),
+        (AT_REST, "static", 12),
+        (&rubbed, "static", 20),
+        (&swept, "sweep", 40),
+        (STICKING, "static", 17),
+        (STICKING, "adhesion", 8),
+    ] {
         let computed = Computed::of(text);
         let found = look_for(&computed.summary()[key], key, &computed.page());
         assert!(found >= least, "{found} numbers of {key}");
     }
+}
+
+#[test]
+fn bodies_that_attract_each_other_have_a_section_with_their_curve() {
+    let computed = Computed::of(STICKING);
+    let (page, data) = (computed.page(), computed.data());
+    assert!(
+        page.contains("<section id=\"adhesion\"") && page.contains("They attract each other with"),
+        "{page}"
+    );
+    assert!(page.contains("<dt>pull-off</dt>") && page.contains("The retreat takes a pull of up to"));
+    let charts = data["charts"].as_array().unwrap();
+    let named = |name: &str| charts.iter().filter(|chart| chart["name"] == name).count();
+    assert_eq!((named("force_distance"), named("loading")), (1, 0));
+    let curve = charts.iter().find(|chart| chart["name"] == "force_distance").unwrap();
+    assert_eq!(curve["shaded"]["name"], "hysteresis");
+    assert_eq!(curve["shaded"]["areas"].as_array().unwrap().len(), 1);
+    let layer = &data["contact"]["layers"][0];
+    assert_eq!((&layer["name"], &layer["kind"]), (&"pressure".into(), &"diverging".into()));
+    let [low, high] = [0, 1].map(|end| layer["ranges"][0][end].as_f64().unwrap());
+    assert!(low < 0.0 && low == -high);
+    assert!(!Computed::of(AT_REST).page().contains("id=\"adhesion\""));
 }
 
 #[test]

@@ -29,8 +29,11 @@ pub(super) fn section(found: &PageData) -> String {
         rows.push(("largest residual η".to_owned(), format!("{largest:.1e}, tolerance {tolerance:.0e}")));
     }
     let reached = found.passes.last().map(|pass| pass.mean_load).or(at_rest.map(|record| record.load));
-    if let (Prescribed::Load(wanted), Some(reached)) = (found.case.contact.prescribed, reached) {
-        let off = (reached - wanted).abs() / wanted;
+    // The last stage that prescribes a load or an approach decides.
+    let last = found.case.history.iter().rev().find_map(|stage| stage.normal);
+    let prescribed = last.unwrap_or(found.case.contact.prescribed);
+    if let (Prescribed::Load(wanted), Some(reached)) = (prescribed, reached) {
+        let off = (reached - wanted).abs() / if wanted == 0.0 { 1.0 } else { wanted.abs() };
         let [wanted, reached] = [wanted, reached].map(|load| format(load, Dimension::Force));
         let text = match off {
             0.0 => format!("{reached}, exactly the prescribed load"),

@@ -141,7 +141,7 @@ fn of_points(points: &[SweepRecord]) -> String {
 fn of_rest(found: &PageData, record: &StaticRecord) -> String {
     if record.contact_area == 0.0 {
         let gap = format(record.mean_gap, Dimension::Length);
-        return format!("The bodies do not touch: their mean gap is {gap}.");
+        return format!("The bodies do not touch: their mean gap is {gap}.{}", of_adhesion(found, record));
     }
     let share = format_number(100.0 * record.contact_area / record.apparent_area);
     let mut text = format!(
@@ -151,6 +151,7 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> String {
         format(record.max_pressure, Dimension::Pressure),
         format(record.approach, Dimension::Length)
     );
+    text += &of_adhesion(found, record);
     if let Some(theory) = found.summary.as_ref().and_then(|summary| summary.closed_form.as_ref()) {
         let (values, deviations) = (closed_form::computed(theory), closed_form::deviations(theory));
         text += &format!(
@@ -176,6 +177,31 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> String {
         let deepest = format(last.max_wear_lower.max(last.max_wear_upper), Dimension::Length);
         let distance = format(last.distance, Dimension::Length);
         text += &format!(" After {distance} of sliding the wear is up to {deepest} deep.");
+    }
+    text
+}
+
+/// The attraction of the bodies, and what a retreat shows.
+fn of_adhesion(found: &PageData, record: &StaticRecord) -> String {
+    let Some(adhesion) = &record.adhesion else { return String::new() };
+    let numbers = found.summary.as_ref().and_then(|summary| summary.adhesion);
+    let mut text = format!(" They attract each other with {} across the gap.", force(adhesion.adhesive_load));
+    if let Some((pull_off, work)) =
+        numbers.and_then(|numbers| numbers.pull_off.zip(numbers.work_of_separation))
+    {
+        text += &match pull_off < 0.0 {
+            true => format!(
+                " The retreat takes a pull of up to {}, and {} of work.",
+                force(-pull_off),
+                format(work, Dimension::Energy)
+            ),
+            false => " The retreat takes no pull.".to_owned(),
+        };
+    }
+    if adhesion.jumps > 0 {
+        let jumps =
+            if adhesion.jumps == 1 { "a jump".to_owned() } else { format!("{} jumps", adhesion.jumps) };
+        text += &format!(" {} is lost in {jumps}.", format(adhesion.energy_lost, Dimension::Energy));
     }
     text
 }

@@ -132,7 +132,7 @@ impl Watch for Display {
         };
         self.show([solved as f64 + 0.99 * way, positions as f64]);
         let load =
-            if load > 0.0 { format!(", load {}", format(load, Dimension::Force)) } else { String::new() };
+            if load != 0.0 { format!(", load {}", format(load, Dimension::Force)) } else { String::new() };
         self.bar.set_message(format!("{place}, {:.0} %{load}", 100.0 * way));
     }
 

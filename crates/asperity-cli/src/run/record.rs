@@ -1,7 +1,7 @@
 //! Summary of a contact at the end of a run: a line for each number.
 
 use asperity::motion::{FlowRecord, StaticRecord};
-use asperity::study::{Case, ClosedFormRecord, Outcome, SubsurfaceRecord, Summary};
+use asperity::study::{AdhesionSummary, Case, ClosedFormRecord, Outcome, SubsurfaceRecord, Summary};
 use asperity::units::{Dimension, format, format_number};
 
 use super::rows::planes;
@@ -21,13 +21,33 @@ pub fn text(case: &Case, summary: &Summary) -> String {
         |rows: Vec<(String, String)>| rows.iter().map(|(name, value)| line(name, value)).collect::<String>();
     let conductance =
         summary.conductance.last().map_or(String::new(), |row| passes(passage::conductance(row)));
+    let adhesion = summary.adhesion.as_ref().map_or(String::new(), adhesion_lines);
     let leakage: String = summary.flow.iter().map(|row| passes(passage::flow(row))).collect();
     contact
+        + &adhesion
         + &theory
         + &flow
         + &conductance
         + &leakage
         + &summary.subsurface.iter().map(stress_line).collect::<String>()
+}
+
+/// Describes the adhesion of the bodies, and what a retreat shows.
+fn adhesion_lines(numbers: &AdhesionSummary) -> String {
+    let mut rows = Vec::new();
+    if let Some(load) = numbers.pull_off {
+        rows.push(("pull-off", format(load, Dimension::Force)));
+    }
+    if let Some(work) = numbers.work_of_separation {
+        rows.push((
+            "separation",
+            format!("{} of work under loads that pull", format(work, Dimension::Energy)),
+        ));
+    }
+    if let Some(tabor) = numbers.tabor {
+        rows.push(("Tabor's parameter", format_number(tabor)));
+    }
+    rows.iter().map(|(name, value)| line(name, value)).collect()
 }
 
 /// Describes the closed form of the contact, and the deviation of the computed contact from it.
@@ -96,6 +116,18 @@ fn static_table(record: &StaticRecord, planes: &str) -> String {
         ("mean gap", format(record.mean_gap, Dimension::Length)),
         ("elastic energy", format(record.elastic_energy, Dimension::Energy)),
     ];
+    if let Some(adhesion) = &record.adhesion {
+        rows.extend([
+            ("least pressure", format(adhesion.min_pressure, Dimension::Pressure)),
+            ("adhesive load", format(adhesion.adhesive_load, Dimension::Force)),
+            ("adhesion energy", format(adhesion.adhesion_energy, Dimension::Energy)),
+        ]);
+        if adhesion.jumps > 0 {
+            let lost = format(adhesion.energy_lost, Dimension::Energy);
+            let jumps = if adhesion.jumps == 1 { "jump" } else { "jumps" };
+            rows.push(("energy lost", format!("{lost} in {} {jumps}", adhesion.jumps)));
+        }
+    }
     if record.plastic_cells > 0 {
         rows.push(("plastic cells", record.plastic_cells.to_string()));
         rows.push(("plastic volume", format(record.plastic_volume, Dimension::Volume)));

@@ -68,6 +68,13 @@ impl Rows {
             let work = flow.plastic_work_lower + flow.plastic_work_upper;
             ranked.push((Rank::Always, Cell::of("work", "plastic_work_lower", work)));
         }
+        if let Some(adhesion) = &pass.adhesion {
+            let load = Cell::of("adhesive", "mean_adhesive_load", adhesion.mean_adhesive_load);
+            ranked.push((Rank::Always, load));
+            if adhesion.adhesive_drag > 0.0 {
+                ranked.push((Rank::Always, Cell::of("drag", "adhesive_drag", adhesion.adhesive_drag)));
+            }
+        }
         ranked.push((Rank::Roughness, Cell::of("Sq lower", "sq_lower_interior", pass.sq_lower_interior)));
         ranked
             .push((Rank::UpperRoughness, Cell::of("Sq upper", "sq_upper_interior", pass.sq_upper_interior)));
@@ -164,7 +171,10 @@ impl Rows {
             if self.yields {
                 cells.push(Cell::of("plastic", "plastic_volume", point.plastic_volume));
             }
-            cells.push(Cell::of("stiff", "stiffness", point.stiffness));
+            cells.push(match point.adhesion {
+                Some(adhesion) => Cell::of("adhesive", "adhesive_load", adhesion.adhesive_load),
+                None => Cell::of("stiff", "stiffness", point.stiffness),
+            });
         }
         let above = match (first, self.slides) {
             (true, true) => {

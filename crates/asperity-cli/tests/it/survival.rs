@@ -363,7 +363,7 @@ fn an_error_is_some_lines_whatever_the_input() {
 // ---- kills -----------------------------------------------------------------------------------------------
 
 /// Every kind of computation, small.
-pub(crate) fn computations() -> [(&'static str, String); 9] {
+pub(crate) fn computations() -> [(&'static str, String); 10] {
     let runs_in = "conductivity = 46, heat_capacity = 460, density = 7850, wear = { coefficient = 1e-17, under_film = 1e-18 }, \
                    film = { law = \"arrhenius\", max_thickness = 1e-8, rate = 1e-5, at_temperature = 400, at_stress = 3e9, \
                    activation_energy = 1e-19, activation_volume = 4e-30, removal = 1e-9 }, topography";
@@ -394,6 +394,13 @@ pub(crate) fn computations() -> [(&'static str, String); 9] {
             ball("[output]\npressure_every = 2\n")
                 .replace("load = ", "loads = [\"5 mN\", \"40 mN\", \"9 mN\", ")
                 .replace("\"20 mN\"\n", "\"20 mN\"]\n"),
+        ),
+        (
+            "sticking",
+            ball(
+                "[adhesion]\nwork = \"1 J/m2\"\nrange = \"8 nm\"\n[[history]]\nload = \"-0.2 mN\"\nincrements = 4\n\
+                 [[history]]\napproach = \"-40 nm\"\nincrements = 6\n[[history]]\napproach = \"20 nm\"\nincrements = 4\n",
+            ),
         ),
         (
             "loading",

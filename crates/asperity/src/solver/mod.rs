@@ -200,6 +200,14 @@ impl Solution {
         })
     }
 
+    /// Returns 1 for each cell in contact, above its lower bound, and 0 for the others.
+    pub fn contact_field(&self) -> Field {
+        let mut contact = self.pressure.clone();
+        let cells = contact.iter_mut().enumerate();
+        cells.for_each(|(cell, p)| *p = f64::from(u8::from(self.bounds.touches(cell, *p))));
+        contact
+    }
+
     fn count(&self, is: impl Fn(usize, Pascal) -> bool) -> usize {
         self.pressure.iter().enumerate().filter(|(cell, p)| is(*cell, **p)).count()
     }

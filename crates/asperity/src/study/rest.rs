@@ -325,12 +325,16 @@ fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field
             (solution.normal, Some((solution.shear, solution.displacement, solution.stick)))
         }
     };
+    let contact = pair.adhesion().map(|_| normal.contact_field());
     // The heights are those of the prepared bodies, whatever the loading history did to them.
     drop(normal.initial_gap);
     let gap = pair.initial_gap(&pair.at_rest()) + &normal.displacement - normal.approach;
     let mut fields = Vec::new();
     let mut add = |name, unit, values| fields.push(NamedField { name, unit, values });
     add("pressure", "Pa", normal.pressure);
+    if let Some(contact) = contact {
+        add("contact", "1", contact);
+    }
     add("displacement", "m", normal.displacement);
     add("gap", "m", gap);
     add("lower", "m", pair.lower.heights);

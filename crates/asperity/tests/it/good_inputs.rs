@@ -3,14 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use asperity::Grid;
+use asperity::adhesion::Potential;
 use asperity::material::Coating;
 use asperity::motion::{LoadControl, PlasticUpdate, Point, Stage, Strategy};
 use asperity::solver::{self, Coupling, Creep, Friction, Loading, Rolling, Tangential};
 use asperity::study;
 use asperity::study::bodies;
 use asperity::study::case::{
-    Boundary, Case, ControlKind, Edge, Hardness, InPlane, Layer, LoadingPath, Method, Mount, Prescribed,
-    Side, Source,
+    AdhesionRange, Boundary, Case, ControlKind, Edge, Hardness, InPlane, Layer, LoadingPath, Method, Mount,
+    Prescribed, Side, Source,
 };
 use asperity::study::demand;
 use asperity::surface::{
@@ -30,6 +31,33 @@ fn a_coating_is_read_and_written_back_and_nothing_is_written_where_there_is_none
     let plain = load("smallest");
     assert!(!plain.is_coated());
     assert!(serde_json::to_value(&plain).unwrap()["lower"].get("coating").is_none());
+}
+
+#[test]
+fn adhesion_and_loads_that_pull_are_read_and_written_back() {
+    let case = load("sticking");
+    let adhesion = case.adhesion.unwrap();
+    assert_eq!((adhesion.work, adhesion.range), (0.05, AdhesionRange::Grid));
+    assert_eq!(adhesion.potential, Potential::Dugdale);
+    let stages: Vec<_> = case.history.iter().map(|stage| stage.normal.unwrap()).collect();
+    assert_eq!(stages, [Prescribed::Load(-1e-9), Prescribed::MeanPressure(0.0), Prescribed::Approach(-1e-8)]);
+    let written = serde_json::to_value(&case).unwrap();
+    assert_eq!(written["adhesion"]["work"], 0.05);
+    assert_eq!(written["adhesion"]["range"], "grid");
+    assert!(
+        serde_json::to_value(load("smallest")).unwrap().get("adhesion").is_none_or(|value| value.is_null())
+    );
+}
+
+#[test]
+fn a_range_that_is_long_beside_the_grid_is_refused_on_that_grid() {
+    let text = include_str!("../inputs/good/sticking.toml").replace("range = \"grid\"", "range = \"1.7 nm\"");
+    let case = Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap();
+    let bodies = bodies(&case, study::SurfaceInput::default()).unwrap();
+    let Err(asperity::Error::Case(error)) = study::estimate(&case, &bodies) else { panic!("it is accepted") };
+    assert_eq!(error.key, "adhesion.range");
+    let expected = "the attraction has a range of 1.7 nm, more than a tenth of the grid, 1.6 nm";
+    assert_eq!(error.message, expected);
 }
 
 #[test]

@@ -99,6 +99,9 @@ const PICTURES: f64 = 60e6;
 const ANIMATION: f64 = 12e6;
 /// Number of fields of a static contact that are drawn at a time.
 const DRAWN: f64 = 7.0;
+/// Numbers of each cell for adhesion: the directions of a step of Newton's iteration, usually 25 or less and 60 at most, and the fields
+/// of two states.
+const ATTRACTED: f64 = 40.0;
 /// Bytes of a number.
 const NUMBER: f64 = 8.0;
 
@@ -184,6 +187,9 @@ impl Sizes<'_> {
         // increments, and the tangential iteration.
         let coupled = 1.5 * padded + 3.0 * nx * (padded_y * ny + 2.0) + 34.0 * nx * ny;
         let mut solver = NUMBER * if self.is_coupled() { normal + coupled } else { normal };
+        if case.adhesion.is_some() {
+            solver += NUMBER * ATTRACTED * nx * ny;
+        }
         let positions = super::positions(case, [self.lower, self.upper]);
         if let Ok(Some(plan)) = Plan::new(case, [&self.lower, &self.upper], &positions) {
             solver += plan.memory();
@@ -320,7 +326,8 @@ impl Sizes<'_> {
             let convolutions = contacts * cost.convolutions * digits;
             [convolutions, boundary * cost.work * convolutions * all]
         };
-        let normal = Cost { convolutions: method * size * NORMAL.convolutions, ..NORMAL };
+        let normal = if case.adhesion.is_some() { ADHESIVE } else { NORMAL };
+        let normal = Cost { convolutions: method * size * normal.convolutions, ..normal };
         let unlike = self.compliances().is_some_and(|compliances| compliances.dundurs().abs() > 1e-3);
         let rolling = if unlike { ROLLING_UNLIKE } else { ROLLING };
         let [convolutions, mut effort] = match (case.motion, &case.friction) {
@@ -357,7 +364,9 @@ impl Sizes<'_> {
                 Some(LoadingPath::Sweep(points)) => {
                     let rolls = points.iter().filter(|point| point.rolling.is_some()).count() as f64;
                     let [a, b] = [of(rolling, rolls), of(normal, points.len() as f64 - rolls)];
-                    let stiffness = STIFFNESS * boundary * digits * points.len() as f64 * all;
+                    // The stiffness with adhesion is not computed.
+                    let each = if case.adhesion.is_some() { 0.0 } else { STIFFNESS };
+                    let stiffness = each * boundary * digits * points.len() as f64 * all;
                     [a[0] + b[0], a[1] + b[1] + stiffness]
                 }
                 None => of(normal, 1.0),
@@ -527,6 +536,8 @@ struct Cost {
 // Each is measured (docs/performance.md).
 /// A normal contact.
 const NORMAL: Cost = Cost { convolutions: 15.8, work: 2.2 };
+/// A normal contact of bodies that attract each other, with Tabor's parameter from 0.1 to 1.
+const ADHESIVE: Cost = Cost { convolutions: 45.0, work: 3.5 };
 /// A contact in gross slip whose shear displaces the surface normally.
 const SLIDING: Cost = Cost { convolutions: 36.0, work: 6.5 };
 /// An increment with friction of identical bodies, whose pressure does not depend on the shear.

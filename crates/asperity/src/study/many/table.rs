@@ -218,8 +218,8 @@ fn is_damage(error: &io::Error) -> bool {
 }
 
 /// Returns the numbers of a summary: the record of a static contact, or the last point of a sweep, or the last pass of a
-/// motion. Then those of wear in place, of running-in, of the residual plastic flow, of the last most stressed point, and of the last
-/// conductance and flow through the gap.
+/// motion. Then those of wear in place, of running-in, of the residual plastic flow, of adhesion, of the last most stressed point, and of
+/// the last conductance and flow through the gap.
 fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     let mut numbers = Vec::new();
     match &summary.outcome {
@@ -235,6 +235,9 @@ fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     }
     if let Some(flow) = &summary.plasticity {
         add(&mut numbers, "", flow);
+    }
+    if let Some(adhesion) = &summary.adhesion {
+        add(&mut numbers, "", adhesion);
     }
     if let Some(stress) = summary.subsurface.last() {
         add(&mut numbers, "subsurface_", stress);
@@ -297,6 +300,33 @@ mod tests {
     use serde_json::json;
 
     use super::*;
+
+    #[test]
+    fn a_contact_of_bodies_that_stick_has_the_numbers_of_its_adhesion() {
+        let record = |key: &str, mut record: Value| {
+            let contact = json!({
+                "load": -1e-9, "approach": 1e-9, "contact_area": 1e-16, "apparent_area": 1e-15, "max_pressure": 1e6, "mean_gap": 1e-9,
+                "elastic_energy": 1e-18, "plastic_cells": 0, "plastic_volume": 0.0, "iterations": 9, "convolutions": 12.0,
+                "residual": 1e-7, "adhesive_load": 2e-9, "min_pressure": -1e7, "adhesion_energy": -1e-17, "energy_lost": 0.0,
+                "jumps": 0,
+            });
+            record[key] = contact;
+            record
+        };
+        let adhesion = json!({
+            "range": 1e-9, "max_tension": 5e7, "process_zone": 2e-9, "process_zone_cells": 2.0, "tabor": 0.7,
+            "pastewka_robbins": null, "full_contact_energy": null, "pull_off": -3e-9, "work_of_separation": 1e-17,
+        });
+        let summary =
+            json!({ "version": "", "case": {}, "warnings": [], "wall_time_s": 1.0, "adhesion": adhesion });
+        let summary: Summary = serde_json::from_value(record("static", summary)).unwrap();
+        let numbers = numbers(&summary);
+        let of = |name: &str| numbers.iter().find(|(column, _)| column == name).map(|(_, number)| *number);
+        assert_eq!([of("adhesive_load"), of("pull_off"), of("tabor")], [Some(2e-9), Some(-3e-9), Some(0.7)]);
+        assert_eq!(of("pastewka_robbins"), None);
+        let without: Vec<_> = numbers.iter().filter(|(name, _)| unit_of_column(name).is_none()).collect();
+        assert!(without.is_empty(), "no unit of {without:?}");
+    }
 
     #[test]
     fn a_motion_of_bodies_that_flow_has_the_numbers_of_its_plastic_flow() {

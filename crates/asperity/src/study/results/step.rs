@@ -182,6 +182,10 @@ impl StepWriter {
             file.add_field(name, unit, &solution.grid, [0.0, 0.0], field);
         };
         add("pressure", "Pa", &solution.pressure);
+        // The pressure alone does not say which cells are in contact.
+        if contact.record.adhesion.is_some() {
+            add("contact", "1", &solution.contact_field());
+        }
         add("gap", "m", &solution.gap());
         if solution.bounds.upper().min().is_finite() {
             add("plastic", "m", &contact.plastic);
