@@ -7,6 +7,8 @@
 /// A row depends only on which of the neighbours are free, so there are 64 different rows.
 pub(crate) struct SparseInverse {
     shape: [usize; 2],
+    /// Whether the neighbours of the first cells along each axis are the last ones.
+    wraps: [bool; 2],
     /// The row of G for each pattern of free neighbours.
     rows: [[f32; MEMBERS]; 1 << NEIGHBOURS],
 }
@@ -19,13 +21,18 @@ pub(crate) const ROWS_ABOVE: usize = 2;
 const MEMBERS: usize = NEIGHBOURS + 1;
 /// The nearest neighbours that come before a cell in memory.
 const CAUSAL: [(isize, isize); NEIGHBOURS] = [(-1, -1), (-1, 0), (-1, 1), (0, -1), (-2, 0), (0, -2)];
+/// Bit of the pattern of a cell whose row lies on both sides of a border along y.
+const ACROSS: u8 = 1 << NEIGHBOURS;
+/// Grids with fewer cells along an axis do not wrap along it.
+const MIN_PERIOD: usize = 8;
 /// One more than the largest distance between two entries along each axis.
 const REACH: [usize; 2] = [3, 4];
 
 impl SparseInverse {
     /// Creates the inverse on a grid of `shape` of the positive definite matrix with the coefficients
-    /// `influence(i, j)` at the offsets ±i, ±j.
-    pub(crate) fn new(shape: [usize; 2], influence: impl Fn(usize, usize) -> f64) -> Self {
+    /// `influence(i, j)` at the offsets ±i, ±j. The grid is periodic along the axes that it `wraps`.
+    pub(crate) fn new(shape: [usize; 2], wraps: [bool; 2], influence: impl Fn(usize, usize) -> f64) -> Self {
+        let wraps = [0, 1].map(|axis| wraps[axis] && shape[axis] >= MIN_PERIOD);
         // On small grids some neighbours never occur.
         let coefficients: [[f64; REACH[1]]; REACH[0]] = std::array::from_fn(|i| {
             std::array::from_fn(|j| if i < shape[0] && j < shape[1] { influence(i, j) } else { 0.0 })
@@ -47,32 +54,54 @@ impl SparseInverse {
             members.iter().zip(solved).for_each(|(&k, y)| row[k] = (y * scale) as f32);
             row
         });
-        Self { shape, rows }
+        Self { shape, wraps, rows }
+    }
+
+    /// Whether the rows before the first one are the last ones.
+    pub(crate) fn wraps_rows(&self) -> bool {
+        self.wraps[0]
     }
 
     /// Returns the pattern of the cell `[ix, iy]`. Bit k is set if neighbour k `is_free`, by its flat index.
     #[inline]
     pub(crate) fn pattern(&self, [ix, iy]: [usize; 2], is_free: impl Fn(usize) -> bool) -> u8 {
-        let ny = self.shape[1];
-        let free = |(di, dj): (isize, isize)| {
-            let (i, j) = (ix.wrapping_add_signed(di), iy.wrapping_add_signed(dj));
+        let [nx, ny] = self.shape;
+        let mut across = 0;
+        let mut free = |(di, dj): (isize, isize)| {
+            let (mut i, mut j) = (ix.wrapping_add_signed(di), iy.wrapping_add_signed(dj));
             // Neighbours come before the cell, so negative indices have wrapped.
-            i <= ix && j < ny && is_free(i * ny + j)
+            if i > ix && self.wraps[0] {
+                i = i.wrapping_add(nx);
+            }
+            if j >= ny && self.wraps[1] {
+                j = if dj < 0 { j.wrapping_add(ny) } else { j - ny };
+                across = ACROSS;
+            }
+            i < nx && j < ny && is_free(i * ny + j)
         };
-        (0..NEIGHBOURS).fold(0, |pattern, k| pattern | u8::from(free(CAUSAL[k])) << k)
+        let pattern = (0..NEIGHBOURS).fold(0, |pattern, k| pattern | u8::from(free(CAUSAL[k])) << k);
+        pattern | across
     }
 
     /// Adds GᵀG r to `z` for the free `cells` of some rows, each with its pattern.
     ///
     /// In addition to these rows, `r` and `z` have the [`ROWS_ABOVE`] rows before them, and cells count from the
-    /// first cell of these. Before the first row of a grid they are zero. `r` is zero for cells that are not
-    /// free.
+    /// first cell of these. Before the first row of a grid they are the last rows if it wraps along x, otherwise
+    /// zero. `r` is zero for cells that are not free.
     pub(crate) fn add(&self, cells: impl Iterator<Item = (usize, u8)>, r: &[f32], z: &mut [f32]) {
-        let back = CAUSAL.map(|(di, dj)| (-di * self.shape[1] as isize - dj) as usize);
+        let ny = self.shape[1];
+        let back = CAUSAL.map(|(di, dj)| (-di * ny as isize - dj) as usize);
         for (cell, pattern) in cells {
-            let row = &self.rows[pattern as usize];
+            let row = &self.rows[usize::from(pattern & !ACROSS)];
             // Missing neighbours have the coefficient 0, so their index does not matter.
-            let neighbours = back.map(|distance| cell - distance);
+            let mut neighbours = back.map(|distance| cell - distance);
+            if pattern & ACROSS != 0 {
+                let (ix, iy) = (cell / ny, cell % ny);
+                neighbours = CAUSAL.map(|(di, dj)| {
+                    let j = (iy as isize + dj).rem_euclid(ny as isize);
+                    ix.wrapping_add_signed(di) * ny + j as usize
+                });
+            }
             let mut product = row[NEIGHBOURS] * r[cell];
             neighbours.iter().zip(row).for_each(|(&neighbour, g)| product += g * r[neighbour]);
             z[cell] += row[NEIGHBOURS] * product;

@@ -13,6 +13,8 @@ use crate::solver::sets::Sets;
 
 /// Fine cells per coarse cell, along each axis.
 const COARSENING: usize = 16;
+/// Nodes beyond each end of a free axis. Without them the cyclic stiffness would couple opposite borders.
+const MARGIN: usize = 2;
 /// Fraction of free cells added in the weight, so that it stays finite in sparsely covered coarse cells; see
 /// [`CoarseCorrection`].
 const MIN_COVER: f32 = 0.2;
@@ -51,8 +53,11 @@ impl CoarseCorrection {
     pub(super) fn new(operator: &dyn Operator, halo: &Halo) -> Self {
         let slab = operator.slab();
         let grid = slab.whole_grid();
-        let shape = grid.shape.map(|n| ((n + COARSENING / 2) / COARSENING).max(1));
-        let factor = [0, 1].map(|axis| grid.shape[axis] as f64 / shape[axis] as f64);
+        let inner = grid.shape.map(|n| ((n + COARSENING / 2) / COARSENING).max(1));
+        let factor = [0, 1].map(|axis| grid.shape[axis] as f64 / inner[axis] as f64);
+        let margin = operator.boundary().wraps().map(|wraps| if wraps { 0 } else { MARGIN });
+        let shape = [0, 1].map(|axis| inner[axis] + 2 * margin[axis]);
+        let extent = [0, 1].map(|axis| shape[axis] as f64 * factor[axis] * grid.pitch[axis]);
         let cells = factor[0] * factor[1];
         let longest = grid.extent()[0].max(grid.extent()[1]);
         let stiffness = |qx: f64, qy: f64| 1.0 / operator.harmonic_displacement(qx, qy);
@@ -64,10 +69,10 @@ impl CoarseCorrection {
                 (0, 0) => match operator.boundary().0 {
                     [Edge::Periodic, Edge::Periodic] => 0.0,
                     // A uniform pressure on a free square of side L sinks a half-space by 0.95 L p/E* in the mean,
-                    [Edge::Free, Edge::Free] => stiffness(2.0 / (0.95 * grid.area().sqrt()), 0.0),
+                    [Edge::Free, Edge::Free] => stiffness(2.0 / (0.95 * (extent[0] * extent[1]).sqrt()), 0.0),
                     // on an endless strip of width L by 3/π L p/E* against the distance L.
-                    [Edge::Free, Edge::Periodic] => stiffness(2.0 * FRAC_PI_3 / grid.extent()[0], 0.0),
-                    [Edge::Periodic, Edge::Free] => stiffness(0.0, 2.0 * FRAC_PI_3 / grid.extent()[1]),
+                    [Edge::Free, Edge::Periodic] => stiffness(2.0 * FRAC_PI_3 / extent[0], 0.0),
+                    [Edge::Periodic, Edge::Free] => stiffness(0.0, 2.0 * FRAC_PI_3 / extent[1]),
                 },
                 _ => stiffness(qx, qy),
             };
@@ -79,7 +84,7 @@ impl CoarseCorrection {
             mean_stiffness: (mean / cells) as f32,
             open: 1.0,
             cells: cells as f32,
-            bilinear: Bilinear::new(slab, halo, shape),
+            bilinear: Bilinear::new(slab, halo, inner, margin),
             weight: SingleField::zeros(shape),
             restricted: SingleField::zeros(shape),
             solved: SingleField::zeros(shape),
@@ -144,6 +149,8 @@ impl CoarseCorrection {
 struct Bilinear {
     /// For each row (column) of cells, the node before it and the fraction of the distance to the next node, 0 … 1.
     along: [Vec<(usize, f32)>; 2],
+    /// Rows of cells between two rows of nodes.
+    cells: f64,
     slab: Slab,
     /// The rows of this rank, the only ones that are restricted.
     own: Range<usize>,
@@ -159,25 +166,27 @@ struct NodeRows {
 }
 
 impl NodeRows {
-    /// Returns the rows of nodes around the rows of cells with positions `along`, on a grid with `all` rows of nodes.
-    fn new(along: &[(usize, f32)], rows: usize, all: usize) -> Self {
+    /// Returns the rows of nodes around the rows of cells with positions `along`, with so many `cells` between two of
+    /// `all` rows of nodes.
+    fn new(along: &[(usize, f32)], cells: f64, all: usize) -> Self {
         // The nodes before the first row to those after the last one; all nodes if these overlap cyclically.
-        let count = ((along.len() * all).div_ceil(rows) + 2).min(all);
+        let count = ((along.len() as f64 / cells).ceil() as usize + 2).min(all);
         Self { first: along[0].0, count }
     }
 }
 
 impl Bilinear {
-    /// Creates the interpolation between `coarse` nodes and the rows of a `halo` of a slab.
-    fn new(slab: Slab, halo: &Halo, coarse: [usize; 2]) -> Self {
+    /// Creates the interpolation between `coarse` nodes on the grid, with a `margin` of further nodes beyond each end,
+    /// and the rows of a `halo` of a slab.
+    fn new(slab: Slab, halo: &Halo, coarse: [usize; 2], margin: [usize; 2]) -> Self {
         let fine = slab.whole_grid().shape;
-        let mut along = [0, 1].map(|axis| nodes(fine[axis], coarse[axis]));
-        let reached =
-            slab.parts().all().map(|rows| NodeRows::new(&along[0][rows], fine[0], coarse[0])).collect();
+        let mut along = [0, 1].map(|axis| nodes(fine[axis], coarse[axis], margin[axis]));
+        let (cells, all) = (fine[0] as f64 / coarse[0] as f64, coarse[0] + 2 * margin[0]);
+        let reached = slab.parts().all().map(|rows| NodeRows::new(&along[0][rows], cells, all)).collect();
         let own = halo.own_rows();
         let first = slab.rows().start - own.start;
         along[0] = along[0][first..first + halo.shape()[0]].to_vec();
-        Self { along, slab, own, reached }
+        Self { along, cells, slab, own, reached }
     }
 
     /// Calls `f` with each free cell of `rows` and its value interpolated from `nodes`.
@@ -259,8 +268,7 @@ impl Bilinear {
         shape: [usize; 2],
     ) -> (usize, SingleField) {
         let [all, columns] = shape;
-        let NodeRows { first, count } =
-            NodeRows::new(&self.along[0][rows.clone()], self.slab.whole_grid().shape[0], all);
+        let NodeRows { first, count } = NodeRows::new(&self.along[0][rows.clone()], self.cells, all);
         let mut part = SingleField::zeros([count, columns]);
         let mut line = vec![0.0; columns + 1];
         for row in rows {
@@ -295,14 +303,16 @@ impl Bilinear {
     }
 }
 
-/// Returns, for each of `fine` cells, the (cyclic) one of `coarse` nodes before it, and the weight of the next node.
-fn nodes(fine: usize, coarse: usize) -> Vec<(usize, f32)> {
+/// Returns, for each of `fine` cells, the (cyclic) node before it, and the weight of the next node. There are `coarse`
+/// nodes on the cells, and a `margin` of further ones beyond each end.
+fn nodes(fine: usize, coarse: usize, margin: usize) -> Vec<(usize, f32)> {
     let factor = fine as f64 / coarse as f64;
+    let all = (coarse + 2 * margin) as isize;
     (0..fine)
         .map(|i| {
-            let position = (i as f64 + 0.5) / factor - 0.5;
+            let position = (i as f64 + 0.5) / factor - 0.5 + margin as f64;
             let node = position.floor();
-            ((node as isize).rem_euclid(coarse as isize) as usize, (position - node) as f32)
+            ((node as isize).rem_euclid(all) as usize, (position - node) as f32)
         })
         .collect()
 }

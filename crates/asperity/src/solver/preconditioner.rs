@@ -64,7 +64,8 @@ impl Preconditioner {
         let count = bands.rows().len();
         Self {
             around: (!slab.is_whole()).then(|| SlabWithNeighbours::new(halo.shape())),
-            sparse: sparse_inverse(operator, halo.shape()),
+            // Ranks do not exchange rows across the border of the whole grid.
+            sparse: sparse_inverse(operator, halo.shape(), slab.is_whole()),
             coarse: CoarseCorrection::new(operator, &halo),
             slab,
             halo,
@@ -137,6 +138,8 @@ impl Preconditioner {
         coarse.solve(sets, r);
         let bands = sets.bands();
         let before = ROWS_ABOVE * bands.columns();
+        let all = z.len() / bands.columns();
+        let last_rows = all.saturating_sub(ROWS_ABOVE)..all;
         let parts = bands.rows().zip(bands.cut_mut(z)).zip(sets.in_bands()).zip(&*patterns).zip(&mut *above);
         parallel::each(
             parts,
@@ -151,6 +154,9 @@ impl Preconditioner {
                 }
                 let reached = rows.start.saturating_sub(ROWS_ABOVE)..rows.end;
                 let missing = (ROWS_ABOVE + reached.start - rows.start) * bands.columns();
+                if rows.start == 0 && sparse.wraps_rows() {
+                    coarse.without_smooth_part(sets, last_rows.clone(), r, local);
+                }
                 coarse.without_smooth_part(sets, reached, r, &mut local[missing..]);
                 let cells = free.cells().map(|cell| before + cell).zip(patterns.iter().copied());
                 sparse.add(cells, local, image);
@@ -158,8 +164,10 @@ impl Preconditioner {
                 z.copy_from_slice(&image[before..]);
             },
         );
-        for (band, above) in above.iter().enumerate().skip(1) {
-            let first = bands.first(band);
+        let wraps = sparse.wraps_rows();
+        for (band, above) in above.iter().enumerate().skip(usize::from(!wraps)) {
+            // The rows above the first band are the last ones of a periodic grid.
+            let first = if band == 0 { z.len() } else { bands.first(band) };
             z[first - before..first].iter_mut().zip(above).for_each(|(z, above)| *z += above);
         }
         coarse.join(sets, r, z)
@@ -188,13 +196,14 @@ fn scales(operator: &dyn Operator) -> Option<Vec<f32>> {
     }
 }
 
-/// Creates the sparse inverse of the operator's influence matrix on `rows` of its grid. Periodic coefficients are
-/// relative to the far field.
-fn sparse_inverse(operator: &dyn Operator, rows: [usize; 2]) -> SparseInverse {
+/// Creates the sparse inverse of the operator's influence matrix on `rows` of its grid, `all` of them or those of a
+/// rank. Periodic coefficients are relative to the far field.
+fn sparse_inverse(operator: &dyn Operator, rows: [usize; 2], all: bool) -> SparseInverse {
     let shape = operator.slab().whole_grid().shape;
     let periodic = operator.boundary().leaves_mean_free();
     let far = if periodic { operator.influence(shape[0] / 2, shape[1] / 2) } else { 0.0 };
-    SparseInverse::new(rows, |i, j| operator.influence(i, j) - far)
+    let [wraps_x, wraps_y] = operator.boundary().wraps();
+    SparseInverse::new(rows, [wraps_x && all, wraps_y], |i, j| operator.influence(i, j) - far)
 }
 
 #[cfg(test)]
@@ -271,12 +280,47 @@ mod tests {
         }
     }
 
+    /// The image of a unit residual on one cell if all cells are free.
+    fn image(operator: &dyn Operator, cell: usize) -> Vec<f32> {
+        let grid = *operator.grid();
+        let sets = sets(grid.shape, |_| true);
+        let (mut unit, mut z) = (vec![0.0; grid.cells()], vec![0.0; grid.cells()]);
+        unit[cell] = 1.0;
+        let mut preconditioner = Preconditioner::new(operator);
+        preconditioner.adapt(&sets);
+        preconditioner.apply(&sets, &unit, &mut z);
+        z
+    }
+
+    #[test]
+    fn it_wraps_round_periodic_borders() {
+        let grid = Grid::new([48, 64], [1.0, 0.9]).unwrap();
+        let operator = PeriodicFft::new(grid, 1.0);
+        // Coarse nodes are 16 cells apart.
+        let (corner, middle) = (image(&operator, 0), image(&operator, 16 * 64 + 32));
+        for (cell, z) in corner.iter().enumerate() {
+            let shifted = middle[(cell / 64 + 16) % 48 * 64 + (cell % 64 + 32) % 64];
+            assert!((z - shifted).abs() < 1e-5 * corner[0], "{cell}: {z} and {shifted}");
+        }
+    }
+
+    #[test]
+    fn it_does_not_wrap_round_free_borders() {
+        let grid = Grid::new([64, 64], [1.0, 1.0]).unwrap();
+        let corner = image(&DirectSum::new(grid, 1.0), 0);
+        // The other corners are as far as the cells beyond the next nodes.
+        let near = corner[8 * 64 + 8].abs();
+        for far in [63, 63 * 64, 63 * 64 + 63] {
+            assert!(corner[far].abs() < 0.2 * near, "{far}: {} and {near}", corner[far]);
+        }
+    }
+
     #[test]
     fn the_sparse_inverse_is_exact_where_the_free_cells_are_isolated_pairs() {
         let grid = Grid::new([1, 2], [1.0, 1.0]).unwrap();
         let operator = DirectSum::new(grid, 1.0);
         let sets = sets(grid.shape, |_| true);
-        let sparse = sparse_inverse(&operator, grid.shape);
+        let sparse = sparse_inverse(&operator, grid.shape, true);
         let (c, d) = (operator.influence(0, 0), operator.influence(0, 1));
         let above = ROWS_ABOVE * grid.shape[1];
         let patterns = [0, 1].map(|iy| sparse.pattern([0, iy], |cell| sets.is_free(cell)));

@@ -30,7 +30,7 @@ impl Preconditioner {
         let unit = influence(0, 0);
         let above = ROWS_ABOVE * shape[1];
         Self {
-            sparse: SparseInverse::new(shape, |i, j| influence(i, j) / unit),
+            sparse: SparseInverse::new(shape, [false; 2], |i, j| influence(i, j) / unit),
             touching: vec![false; cells],
             patterns: Vec::new(),
             columns: shape[1],
