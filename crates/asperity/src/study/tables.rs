@@ -351,6 +351,7 @@ mod tests {
             largest_spot_cells: 1,
             max_pressure: 4e9,
             heat: None,
+            adhesion: None,
             flow: None,
             plastic_cells: 0,
             plastic_volume: 0.0,
@@ -364,6 +365,7 @@ mod tests {
     fn pass() -> PassRecord {
         PassRecord {
             running: None,
+            adhesion: None,
             flow: None,
             pass: 1,
             approach: 1e-7,
