@@ -17,8 +17,8 @@ from . import errors, form, generate, keys, reference
 from ._core import __version__
 from ._conductance import Conductance, conductance
 from ._contact import Contact, contact, slide
-from ._flow import Flow
 from ._gap_flow import GapFlow, flow
+from ._plastic_flow import PlasticFlow
 from ._progress import Progress
 from ._run import Run, open, run
 from ._stress import Extreme, Stress, SubsurfaceStress, stress
@@ -61,13 +61,13 @@ __all__ = [
     "Extreme",
     "Field",
     "Fields",
-    "Flow",
     "GapFlow",
     "GreenwoodWilliamson",
     "Material",
     "Parameter",
     "Parameters",
     "Pass",
+    "PlasticFlow",
     "Plasticity",
     "Profile",
     "Progress",

@@ -9,15 +9,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _core
-from ._contact import Contact
 from ._keywords import Boundary
 from ._optional import need
 from ._same import Comparable
+from ._solved import Solved
 from ._units import Pair, Quantity, lengths, number, quantity
 from .errors import bad_input
 
 if TYPE_CHECKING:
     from xarray import DataArray
+
+    from ._contact import Contact
 
 Kind = Literal["thermal", "electrical"]
 """Whether heat or current passes."""
@@ -28,7 +30,7 @@ _UNITS = {"thermal": ("W/K", "W/(m² K)", "K/W"), "electrical": ("S", "S/m²", "
 class Conductance(Comparable):
     """Conductance of a contact.
 
-    Returned by :func:`asperity.conductance`.
+    Returned by :func:`asperity.conductance` and :meth:`Contact.conductance`.
 
     Attributes
     ----------
@@ -189,7 +191,7 @@ def conductance(
     """
     if kind not in _UNITS:
         raise bad_input("kind", f"'kind' is {kind!r}, expected \"thermal\" or \"electrical\"")
-    if isinstance(contact, Contact):
+    if isinstance(contact, Solved):
         for key, value in (("pitch", pitch), ("boundary", boundary), ("gap", gap)):
             if value is not None:
                 raise bad_input(key, f"'{key}' is given beside a contact, which has its own")

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _case, _core, fields
-from ._flow import Flow, of_results
+from . import _case, _conductance, _core, _gap_flow, fields
 from ._keywords import ContactKeywords, SlideKeywords, takes
+from ._plastic_flow import PlasticFlow, of_results
 from ._progress import Teller
-from ._same import Comparable
 from ._show import unit_of
+from ._solved import Solved
 from ._table import by_direction, records, Table, Units
-from ._units import path
+from ._units import path, Quantity
 from .body import Body, Handed, bodies
 from .errors import bad_input, warn
 from .fields import Fields
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 
-class Contact(Comparable):
+class Contact(Solved):
     """A computed static contact.
 
     :func:`contact`, :func:`slide` and :func:`open` return contacts. The numbers of a contact are attributes with the names of
@@ -118,8 +118,8 @@ class Contact(Comparable):
         Warnings about doubtful input and results.
     case : dict
         The resolved case, SI.
-    flow : dict
-        Plastic state of elasto-plastic bodies, a :class:`Flow` for ``"lower"`` and for ``"upper"``.
+    plastic_flow : dict
+        Plastic state of elasto-plastic bodies, a :class:`PlasticFlow` for ``"lower"`` and for ``"upper"``.
     closed_form : dict or None
         Closed form of the contact of two smooth forms (Hertz, Sneddon) at the same load, and the deviation of the computed contact
         from it: the keys `theory`, `theory_max_pressure`, `max_pressure_deviation` and others of `closed_form` in `summary.json`.
@@ -167,7 +167,7 @@ class Contact(Comparable):
     leakages: dict[str, Table]
     warnings: list[str]
     case: dict[str, Any]
-    flow: dict[str, Flow]
+    plastic_flow: dict[str, PlasticFlow]
     closed_form: dict[str, Any] | None
     adhesion: dict[str, Any] | None
     directory: pathlib.Path | None
@@ -182,12 +182,12 @@ class Contact(Comparable):
         found: Fields,
         warnings: list[str],
         case: dict[str, Any],
-        flow: dict[str, Flow],
+        plastic_flow: dict[str, PlasticFlow],
         closed_form: dict[str, Any] | None = None,
         adhesion: dict[str, Any] | None = None,
         directory: pathlib.Path | None = None,
     ) -> None:
-        self.flow = flow
+        self.plastic_flow = plastic_flow
         self.fields = found
         self.increments = records(increments, _core.INCREMENT_COLUMNS)
         self.updates = records(updates, ["update", "distance"])
@@ -287,6 +287,97 @@ class Contact(Comparable):
     def upper(self) -> Surface:
         """The prepared underside of the upper body. A body with it is mounted ``"as-is"``."""
         return Surface(self.fields["upper"].values, self.pitch)
+
+    def conductance(
+        self,
+        *,
+        conductivity: Quantity | Sequence[Quantity],
+        kind: _conductance.Kind = "thermal",
+        film: Quantity | None = None,
+        gas: Quantity | None = None,
+        jump: Quantity | None = None,
+        tolerance: float = 1e-6,
+        threads: int | None = None,
+    ) -> _conductance.Conductance:
+        """Compute the thermal or electrical conductance of this contact.
+
+        Cells in contact, gap, pitch and boundary are those of the contact. The bodies are half-spaces without coatings: for coated bodies
+        use the keyword `conductance` of :func:`contact`.
+
+        Parameters
+        ----------
+        conductivity, kind, film, gas, jump, tolerance, threads
+            As in :func:`asperity.conductance`.
+
+        Returns
+        -------
+        Conductance
+
+        Raises
+        ------
+        asperity.errors.BadInput, asperity.errors.NotConverged
+            For the same reasons as :func:`asperity.conductance`.
+
+        Examples
+        --------
+        >>> import asperity as asp
+        >>> steel = asp.Material(young="210 GPa", poisson=0.3)
+        >>> c = asp.contact(asp.form.flat((64, 64), pitch="6 um"), asp.form.sphere("10 mm"), steel, steel, load="10 N")
+        >>> f"{c.conductance(conductivity='46 W/(m K)').conductance:.3g} W/K"
+        '0.00797 W/K'
+        """
+        return _conductance.conductance(
+            self, conductivity=conductivity, kind=kind, film=film, gas=gas, jump=jump, tolerance=tolerance, threads=threads
+        )
+
+    def flow(
+        self,
+        *,
+        viscosity: Quantity | None = None,
+        pressure: Quantity | None = None,
+        outlet: Quantity | None = None,
+        ends: _gap_flow.Ends | None = None,
+        sides: _gap_flow.Sides | None = None,
+        faces: _gap_flow.Faces = "linear",
+        threads: int | None = None,
+    ) -> _gap_flow.GapFlow:
+        """Compute the flow of a fluid through the gap of this contact.
+
+        Gap and pitch are those of the contact. So are the ends and sides by default: along a free axis reservoirs and walls.
+
+        Parameters
+        ----------
+        viscosity, pressure, outlet, ends, sides, faces, threads
+            As in :func:`asperity.flow`.
+
+        Returns
+        -------
+        GapFlow
+
+        Raises
+        ------
+        asperity.errors.BadInput, asperity.errors.Memory
+            For the same reasons as :func:`asperity.flow`.
+
+        Examples
+        --------
+        >>> import asperity as asp
+        >>> steel = asp.Material(young="210 GPa", poisson=0.3)
+        >>> rough = asp.generate.self_affine((64, 64), "1 um", hurst=0.8, sq="0.2 um", shortest="8 um", seed=1)
+        >>> c = asp.contact(asp.form.flat(), rough, steel, steel, mean_pressure="50 MPa", boundary="periodic")
+        >>> f"{c.flow(viscosity='80 mPa s', pressure='1 bar').leakage[0]:.2g} m³/s"
+        '5e-15 m³/s'
+        """
+        return _gap_flow.flow(
+            self,
+            viscosity=viscosity,
+            pressure=pressure,
+            outlet=outlet,
+            ends=ends,
+            sides=sides,
+            faces=faces,
+            threads=threads,
+        )
 
     def to_xarray(self) -> Dataset:
         """Return all fields as an xarray Dataset, with the numbers as attributes.
@@ -498,7 +589,7 @@ def _solved(pair: tuple[Body, Body], keywords: Any, options: Mapping[str, Any]) 
             arrays,
             found["warnings"],
             found["case"],
-            {body: Flow(**volume) for body, volume in found.get("flow", {}).items()},
+            {body: PlasticFlow(**volume) for body, volume in found.get("flow", {}).items()},
             found["closed_form"],
             found["adhesion"],
         )

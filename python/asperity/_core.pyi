@@ -198,9 +198,10 @@ def format(value: SupportsFloat | SupportsIndex, dimension: str) -> str:
     A quantity as people write it.
     """
 
-def flow(gap: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], ends: str, sides: str, faces: str, fluid: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex | None] | None, threads: SupportsIndex) -> tuple[list[tuple[str, float]], float | None, list[tuple[list[tuple[str, float]], list[float], list[int] | None, float | None, Incomplete, list[Incomplete], Incomplete]]]:
+def flow(gap: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], ends: SupportsLenAndGetItem[str], sides: SupportsLenAndGetItem[str], faces: str, fluid: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex | None] | None, threads: SupportsIndex) -> tuple[list[tuple[str, float]], float | None, list[tuple[list[tuple[str, float]], list[float], list[int] | None, float | None, Incomplete, list[Incomplete], Incomplete]]]:
     """
-    Solves for the flow through a gap along both axes. Returns numbers of the gap, the coupling of both directions, and the flow along each.
+    Solves for the flow through a gap along both axes; a fluid has a viscosity, a drop of its pressure, and the absolute pressure of the
+    outlet of a gas. Ends and sides are those of the flow along each axis. Returns numbers of the gap, the coupling of both directions, and the flow along each.
     """
 
 def height_differences(heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], axis: str) -> list[tuple[float, float]]:

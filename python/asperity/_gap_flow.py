@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _core
-from ._contact import Contact
 from ._same import Comparable
+from ._solved import Solved
 from ._units import Pair, Quantity, lengths, quantity, written
 from .errors import bad_input
+
+if TYPE_CHECKING:
+    from ._contact import Contact
 
 Ends = Literal["periodic", "reservoirs"]
 """What lies beyond the ends of the gap along the pressure gradient."""
@@ -25,6 +28,8 @@ Faces = Literal["linear", "harmonic"]
 
 class GapFlow(Comparable):
     """The flow of a fluid through a gap, under a pressure gradient along x and under one along y.
+
+    Returned by :func:`asperity.flow` and :meth:`Contact.flow`.
 
     An attribute with one value for each direction of the gradient is an array ``[along x, along y]``. Without an open path along an
     axis its numbers are 0.
@@ -126,8 +131,8 @@ def flow(
     viscosity: Quantity | None = None,
     pressure: Quantity | None = None,
     outlet: Quantity | None = None,
-    ends: Ends = "periodic",
-    sides: Sides = "periodic",
+    ends: Ends | None = None,
+    sides: Sides | None = None,
     faces: Faces = "linear",
     threads: int | None = None,
 ) -> GapFlow:
@@ -148,10 +153,11 @@ def flow(
         Drop of the pressure over the length of the gap, Pa; needed for the leakage.
     outlet : float or str, optional
         Absolute pressure at the outlet of an ideal gas of constant temperature, Pa. Without it the fluid is a liquid.
-    ends : str
-        ``"periodic"``: a mean gradient on a gap that repeats itself; or ``"reservoirs"`` at both ends.
-    sides : str
-        ``"periodic"`` or ``"closed"``.
+    ends : str, optional
+        ``"periodic"``: a mean gradient on a gap that repeats itself; or ``"reservoirs"`` at both ends. By default they are periodic; for
+        a contact, along its periodic axes alone.
+    sides : str, optional
+        ``"periodic"`` or ``"closed"``. By default they are periodic; for a contact, along its periodic axes alone.
     faces : str
         Conductance between two cells: ``"linear"``, for a gap that is linear between their centres, or ``"harmonic"``.
     threads : int, optional
@@ -179,10 +185,13 @@ def flow(
     >>> f"{f.flow_factor[0]:.3f}", f"{f.leakage[0]:.2e} m³/s"
     ('1.054', '9.05e-14 m³/s')
     """
-    if isinstance(source, Contact):
+    repeats = [True, True]
+    if isinstance(source, Solved):
         if pitch is not None:
             raise bad_input("pitch", "'pitch' is given beside a contact, which has its own")
         gap, size = np.where(source.touching, 0.0, source.gap), source.pitch
+        boundary = source.case["contact"]["boundary"]
+        repeats = [edge == "periodic" for edge in ([boundary] * 2 if isinstance(boundary, str) else boundary)]
     else:
         if pitch is None:
             raise bad_input("pitch", "'pitch' is missing: how far apart are the cells of the gap?")
@@ -190,10 +199,12 @@ def flow(
     for key, word, words in (
         ("ends", ends, ("periodic", "reservoirs")), ("sides", sides, ("periodic", "closed")), ("faces", faces, ("linear", "harmonic")),
     ):  # fmt: skip
-        if word not in words:
+        if word not in words and not (word is None and key != "faces"):
             raise bad_input(key, f"'{key}' is {word!r}, expected \"{words[0]}\" or \"{words[1]}\"")
     fluid = _fluid(viscosity, pressure, outlet)
-    return GapFlow(_core.flow((gap, size), ends, sides, faces, fluid, _case.threads(threads)))
+    all_ends = [ends or ("periodic" if repeats[axis] else "reservoirs") for axis in (0, 1)]
+    all_sides = [sides or ("periodic" if repeats[1 - axis] else "closed") for axis in (0, 1)]
+    return GapFlow(_core.flow((gap, size), all_ends, all_sides, faces, fluid, _case.threads(threads)))
 
 
 def _gap(source: Any) -> NDArray[np.float64]:

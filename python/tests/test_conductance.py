@@ -90,6 +90,22 @@ def test_a_contact_brings_all_along():
     assert with_gas.conductance > found.conductance and 0 < with_gas.gas_share < 1
     with pytest.raises(asp.errors.BadInput, match="beside a contact"):
         asp.conductance(c, conductivity=46, pitch=1e-6)
+    assert c.conductance(conductivity=46) == found
+    options = {"conductivity": ["46 W/(m K)", math.inf], "film": 1e-8, "gas": 0.026, "jump": 3e-7, "tolerance": 1e-8, "threads": 1}
+    assert c.conductance(**options) == asp.conductance(c, **options)
+    current = c.conductance(conductivity="59 MS/m", kind="electrical")
+    assert current.kind == "electrical" and current.conductance == pytest.approx(found.conductance * 59e6 / 46, rel=1e-9)
+    with pytest.raises(asp.errors.BadInput, match="'jump' is given without 'gas'"):
+        c.conductance(conductivity=46, jump=1e-7)
+
+
+@pytest.mark.parametrize("boundary", ["free", ["periodic", "free"]])
+def test_a_method_takes_the_boundary_of_its_contact(boundary):
+    steel = asp.Material("210 GPa", 0.3)
+    plane, ball = asp.form.flat((32, 32), pitch="6 um"), asp.form.sphere("10 mm")
+    c = asp.contact(plane, ball, steel, steel, load="5 N", boundary=boundary)
+    alone = asp.conductance(c.pressure, pitch="6 um", conductivity=46, boundary=boundary)
+    assert c.conductance(conductivity=46) == alone
 
 
 def test_the_flux_is_an_xarray():

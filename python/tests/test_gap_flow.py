@@ -77,6 +77,27 @@ def test_a_contact_brings_its_gap():
     assert 0.0 < f.flow_factor[0] < 1.0 and f.permeability[0, 0] == pytest.approx(f.permeability[1, 1], rel=1e-6)
     with pytest.raises(asp.errors.BadInput, match="'pitch' is given beside a contact"):
         asp.flow(contact, pitch=1e-6)
+    oil = {"viscosity": "80 mPa s", "pressure": "1 bar", "faces": "harmonic", "threads": 1}
+    assert contact.flow() == f and contact.flow(**oil) == asp.flow(contact, **oil)
+    with pytest.raises(asp.errors.BadInput, match="'pressure' is missing"):
+        contact.flow(viscosity=1.0)
+
+
+@pytest.mark.parametrize("boundary", ["free", ["periodic", "free"], ["free", "periodic"]])
+def test_a_contact_has_the_ends_of_its_boundary_and_the_leakage_of_its_case(boundary):
+    steel = asp.Material("210 GPa", 0.3)
+    rough = asp.generate.self_affine((24, 20), "1 um", hurst=0.8, sq="0.1 um", seed=3)
+    oil = {"viscosity": "80 mPa s", "pressure": "1 bar"}
+    c = asp.contact(asp.form.flat(), rough, steel, steel, load="0.05 N", boundary=boundary, flow=oil)
+    f = c.flow(**oil)
+    x, y = [boundary] * 2 if isinstance(boundary, str) else boundary
+    leakage = [c.leakages[axis]["leakage"][0] for axis in "xy"]
+    assert f.leakage == pytest.approx(leakage, rel=1e-9) and min(leakage) > 0.0
+    for axis, (along, across) in enumerate([(x, y), (y, x)]):
+        ends = "periodic" if along == "periodic" else "reservoirs"
+        sides = "periodic" if across == "periodic" else "closed"
+        own = asp.flow(c, ends=ends, sides=sides, **oil)
+        assert f.leakage[axis] == own.leakage[axis] and (f.pressure[axis] == own.pressure[axis]).all()
 
 
 def test_answers_are_the_same_on_any_number_of_threads():
