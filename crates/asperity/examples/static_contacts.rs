@@ -52,7 +52,7 @@ fn measure(
     let grid = Grid::new([side, side], [1.0, 1.0])?;
     let operators = Operators::new(grid, 1.0, boundary);
     let params = Params::default().with_method(Method::ActiveSet);
-    let (mut convolutions, mut iterations, mut seconds, mut area) = (0.0, 0, 0.0, 0.0);
+    let (mut convolutions, mut near, mut iterations, mut seconds, mut area) = (0.0, 0.0, 0, 0.0, 0.0);
     for seed in 0..seeds {
         let form = SelfAffine {
             hurst: 0.8,
@@ -70,6 +70,7 @@ fn measure(
             least = least.min(processor_time() - start);
             if repeat == 0 {
                 convolutions += found.stats.convolutions / seeds as f64;
+                near += found.stats.near_applications / seeds as f64;
                 iterations += found.stats.iterations;
                 area += found.contact_cells() as f64 / grid.cells() as f64 / seeds as f64;
             }
@@ -77,7 +78,7 @@ fn measure(
         seconds += least;
     }
     println!(
-        "{side} {} {mean} area {:.1} % convolutions {convolutions:.2} iterations {:.1} ms {:.2}",
+        "{side} {} {mean} area {:.1} % convolutions {convolutions:.2} near {near:.1} iterations {:.1} ms {:.2}",
         if boundary == Boundary::FREE { "free" } else { "periodic" },
         100.0 * area,
         iterations as f64 / seeds as f64,

@@ -3,12 +3,14 @@
 use std::sync::{Arc, OnceLock};
 
 use crate::grid::{Field, SingleField};
-use crate::math::{Convolution, Kernel, TensorConvolution, TensorKernel};
+use crate::math::{Convolution, Kernel, NearConvolution, NearKernel, TensorConvolution, TensorKernel};
 
 /// A kernel D in double precision, and on first use S in single precision. Convolutions of several shapes may share it.
 pub(crate) struct Mixed<D, S> {
     double: Arc<D>,
     single: OnceLock<Arc<S>>,
+    /// The near copy of the kernel of one field, if there is one.
+    near: OnceLock<Option<Arc<NearKernel>>>,
 }
 
 /// A kernel of one field in two precisions.
@@ -20,7 +22,7 @@ pub(crate) type MixedTensorKernel = Mixed<TensorKernel<f64>, TensorKernel<f32>>;
 impl<D, S> Mixed<D, S> {
     /// Creates the `kernel` in both precisions.
     pub(crate) fn new(kernel: D) -> Arc<Self> {
-        Arc::new(Self { double: Arc::new(kernel), single: OnceLock::new() })
+        Arc::new(Self { double: Arc::new(kernel), single: OnceLock::new(), near: OnceLock::new() })
     }
 
     /// Returns the kernel for transforms in double precision.
@@ -31,6 +33,13 @@ impl<D, S> Mixed<D, S> {
     /// Returns the kernel for transforms in single precision.
     pub(super) fn single(&self, to_single: impl FnOnce(&D) -> S) -> Arc<S> {
         Arc::clone(self.single.get_or_init(|| Arc::new(to_single(&self.double))))
+    }
+}
+
+impl MixedKernel {
+    /// Returns the near copy of the kernel, designed on first use; none if no copy is near enough.
+    fn near(&self) -> Option<&Arc<NearKernel>> {
+        self.near.get_or_init(|| NearKernel::new(&self.double).map(Arc::new)).as_ref()
     }
 }
 
@@ -71,30 +80,44 @@ pub(crate) struct MixedConvolution {
     pub(crate) kernel: Arc<MixedKernel>,
     shape: [usize; 2],
     latest: LastUsed<Convolution<f64>, Convolution<f32>>,
+    near: Option<NearConvolution>,
 }
 
 impl MixedConvolution {
     /// Creates the convolution of fields of `shape` with `kernel`; see [`Convolution::new`].
     pub(crate) fn new(kernel: Arc<MixedKernel>, shape: [usize; 2]) -> Self {
-        Self { kernel, shape, latest: LastUsed::None }
+        Self { kernel, shape, latest: LastUsed::None, near: None }
     }
 
     /// Computes the convolution `output` of `input`, to 1e-15 of the largest output.
     pub(crate) fn apply(&mut self, input: &Field, output: &mut Field) {
-        let Self { kernel, shape, latest } = self;
+        let Self { kernel, shape, latest, .. } = self;
         latest.double(|| Convolution::new(kernel.double(), *shape)).apply(input, output);
     }
 
     /// Computes the convolution `output` of `input` in half the time, to 3e-7 of the largest output.
     pub(crate) fn apply_single(&mut self, input: &SingleField, output: &mut SingleField) {
-        let Self { kernel, shape, latest } = self;
+        let Self { kernel, shape, latest, .. } = self;
         let new = || Convolution::new(kernel.single(Kernel::to_single), *shape);
         latest.single(new).apply(input, output);
+    }
+
+    /// Returns the near copy of the kernel, if there is one.
+    pub(crate) fn near_copy(&self) -> Option<&Arc<NearKernel>> {
+        self.kernel.near()
+    }
+
+    /// Computes the `output` of the near copy, or of the convolution if there is none.
+    pub(crate) fn apply_near(&mut self, input: &SingleField, output: &mut SingleField) {
+        let Some(near) = self.kernel.near() else { return self.apply_single(input, output) };
+        let shape = self.shape;
+        self.near.get_or_insert_with(|| NearConvolution::new(Arc::clone(near), shape)).apply(input, output);
     }
 
     /// Releases the scratch memory.
     pub(crate) fn release(&mut self) {
         self.latest = LastUsed::None;
+        self.near = None;
     }
 }
 

@@ -62,6 +62,11 @@ impl SparseInverse {
         self.wraps[0]
     }
 
+    /// Returns the row that is `back` rows before a first row `ix` across a periodic border.
+    pub(crate) fn row_before(&self, ix: usize, back: usize) -> Option<usize> {
+        self.wraps[0].then(|| ix + self.shape[0] - back)
+    }
+
     /// Returns the pattern of the cell `[ix, iy]`. Bit k is set if neighbour k `is_free`, by its flat index.
     #[inline]
     pub(crate) fn pattern(&self, [ix, iy]: [usize; 2], is_free: impl Fn(usize) -> bool) -> u8 {
@@ -81,6 +86,36 @@ impl SparseInverse {
         };
         let pattern = (0..NEIGHBOURS).fold(0, |pattern, k| pattern | u8::from(free(CAUSAL[k])) << k);
         pattern | across
+    }
+
+    /// Computes the patterns of the cells of a row, for cells that are free or not: `patterns[iy]`, except for the first
+    /// two cells and the last one. `own` and `above` are whether the cells of the row and of the two rows before it are
+    /// free, the nearer one first; empty without such a row.
+    pub(crate) fn inner_patterns<T>(
+        own: &[T],
+        above: [&[T]; 2],
+        is_free: impl Fn(&T) -> bool,
+        patterns: &mut [u8],
+    ) {
+        let inner = 2..own.len().saturating_sub(1);
+        let mut add = |row: &[T], shift: isize, bit: u8| {
+            if row.is_empty() || inner.is_empty() {
+                return;
+            }
+            let from = &row[inner.start.wrapping_add_signed(shift)..inner.end.wrapping_add_signed(shift)];
+            patterns[inner.clone()]
+                .iter_mut()
+                .zip(from)
+                .for_each(|(p, set)| *p |= u8::from(is_free(set)) << bit);
+        };
+        for (bit, (di, dj)) in CAUSAL.into_iter().enumerate() {
+            let row = match di {
+                0 => own,
+                -1 => above[0],
+                _ => above[1],
+            };
+            add(row, dj, bit as u8);
+        }
     }
 
     /// Adds GᵀG r to `z` for the free `cells` of some rows, each with its pattern.

@@ -40,6 +40,17 @@ impl<'o, P: DerefMut<Target = dyn Operator + 'o>> Compliant<P> {
         let mean = compliance.mean(grid.cells());
         Ok(Self { grid, operator, compliance, mean })
     }
+
+    /// Adds κ p to a displacement in single precision.
+    fn add_to(&self, pressure: &SingleField, displacement: &mut SingleField) {
+        match &self.compliance {
+            CellValues::Uniform(compliance) => displacement.scaled_add(*compliance as f32, pressure),
+            CellValues::Field(compliance) => {
+                let add = |u: &mut f32, p: &f32, compliance: &f64| *u += *compliance as f32 * p;
+                ndarray::Zip::from(displacement).and(pressure).and(compliance).for_each(add);
+            }
+        }
+    }
 }
 
 impl<'o, P: DerefMut<Target = dyn Operator + 'o> + Send> Operator for Compliant<P> {
@@ -93,13 +104,16 @@ impl<'o, P: DerefMut<Target = dyn Operator + 'o> + Send> Operator for Compliant<
 
     fn apply_single(&mut self, pressure: &SingleField, displacement: &mut SingleField) {
         self.operator.apply_single(pressure, displacement);
-        match &self.compliance {
-            CellValues::Uniform(compliance) => displacement.scaled_add(*compliance as f32, pressure),
-            CellValues::Field(compliance) => {
-                let add = |u: &mut f32, p: &f32, compliance: &f64| *u += *compliance as f32 * p;
-                ndarray::Zip::from(displacement).and(pressure).and(compliance).for_each(add);
-            }
-        }
+        self.add_to(pressure, displacement);
+    }
+
+    fn has_near_copy(&self) -> bool {
+        self.operator.has_near_copy()
+    }
+
+    fn apply_near(&mut self, pressure: &SingleField, displacement: &mut SingleField) {
+        self.operator.apply_near(pressure, displacement);
+        self.add_to(pressure, displacement);
     }
 
     fn release(&mut self) {

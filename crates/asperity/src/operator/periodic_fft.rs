@@ -85,6 +85,14 @@ impl Operator for PeriodicFft {
         self.convolution.apply_single(pressure, displacement);
     }
 
+    fn has_near_copy(&self) -> bool {
+        self.convolution.near_copy().is_some()
+    }
+
+    fn apply_near(&mut self, pressure: &SingleField, displacement: &mut SingleField) {
+        self.convolution.apply_near(pressure, displacement);
+    }
+
     fn release(&mut self) {
         self.convolution.release();
     }

@@ -3,10 +3,10 @@
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::ranks::{Largest, Slab};
-use crate::solver::active_set::{self, Answer};
+use crate::solver::active_set::{self, Answer, Stage};
 use crate::solver::site::Site;
 use crate::solver::watch::InnerWatch;
-use crate::solver::{Residual, Settings, attraction};
+use crate::solver::{Residual, Settings, Stats, attraction};
 
 /// Tolerance of the coarse grids, relative to std(u). If smaller, the scale is the displacement of a cell by its own
 /// pressure at the largest upper bound, which φ never exceeds.
@@ -32,11 +32,20 @@ pub(super) fn solve(
     max_convolutions: usize,
 ) -> Result<Answer> {
     if start.is_some() {
-        return active_set::solve(sites, settings, start, COMPLIANCE_FACTOR, tolerance, max_convolutions);
+        return active_set::solve(
+            sites,
+            settings,
+            start,
+            COMPLIANCE_FACTOR,
+            tolerance,
+            max_convolutions,
+            Stage::Warm,
+        );
     }
     let (guess, spent) = first_guess(sites, settings, tolerance)?;
-    let mut found = active_set::solve(sites, settings, guess, 1.0, tolerance, max_convolutions)?;
-    found.stats.convolutions += spent;
+    let mut found = active_set::solve(sites, settings, guess, 1.0, tolerance, max_convolutions, Stage::Cold)?;
+    found.stats.convolutions += spent.convolutions;
+    found.stats.near_applications += spent.near_applications;
     Ok(found)
 }
 
@@ -46,10 +55,10 @@ fn first_guess(
     sites: &[&dyn Site],
     settings: &Settings,
     tolerance: &dyn Fn(&Residual) -> f64,
-) -> Result<(Option<Vec<Field>>, f64)> {
+) -> Result<(Option<Vec<Field>>, Stats)> {
     let large = |site: &&dyn Site| site.slab().whole_grid().shape.iter().all(|n| *n >= MIN_CELLS);
     if !sites.iter().any(large) {
-        return Ok((None, 0.0));
+        return Ok((None, Stats::default()));
     }
     let kept: Vec<Box<dyn Site>> = sites.iter().map(|site| site.coarse()).collect();
     let coarse: Vec<&dyn Site> = kept.iter().map(Box::as_ref).collect();
@@ -57,6 +66,11 @@ fn first_guess(
         |sites: &[&dyn Site]| sites.iter().map(|site| site.slab().whole_grid().cells()).sum::<usize>() as f64;
     let slab = coarse[0].slab();
     let share = cells(&coarse) / cells(sites);
+    let shared = |spent: Stats| Stats {
+        convolutions: share * spent.convolutions,
+        near_applications: share * spent.near_applications,
+        ..spent
+    };
     let within = InnerWatch(settings.watch);
     let mut coarse_settings =
         Settings { cell_area: coarse[0].grid().cell_area(), watch: &within, ..*settings };
@@ -66,7 +80,7 @@ fn first_guess(
         [bearable + bounds.upper().sum(cells), attracted + attraction(&bounds, cells)]
     }));
     if coarse_settings.pressure_sum().is_some_and(|wanted| bearable <= wanted) {
-        return Ok((None, 0.0));
+        return Ok((None, Stats::default()));
     }
     coarse_settings.attraction = attraction;
     let (guess, spent) = first_guess(&coarse, &coarse_settings, tolerance)?;
@@ -75,16 +89,26 @@ fn first_guess(
     let saturation = coarse_settings.self_influence * most;
     let loose =
         |state: &Residual| tolerance(state).max(COARSE_TOLERANCE * (saturation / state.scale).min(1.0));
-    match active_set::solve(&coarse, &coarse_settings, guess, 1.0, &loose, MAX_COARSE_CONVOLUTIONS) {
+    match active_set::solve(
+        &coarse,
+        &coarse_settings,
+        guess,
+        1.0,
+        &loose,
+        MAX_COARSE_CONVOLUTIONS,
+        Stage::Guess,
+    ) {
         Ok(found) => {
             let coarse = found.fields.iter().zip(sites);
             let prolonged =
                 coarse.map(|((pressure, _), site)| prolong(pressure, slab.rows().start, &site.slab()));
-            let spent = share * (spent + found.stats.convolutions);
-            Ok((Some(prolonged.collect()), spent))
+            Ok((Some(prolonged.collect()), shared(spent.and(&found.stats))))
         }
         // Without a solution on the coarse grids there is no guess.
-        Err(Error::NotConverged { .. }) => Ok((None, share * (spent + MAX_COARSE_CONVOLUTIONS as f64))),
+        Err(Error::NotConverged { .. }) => {
+            let most = Stats { convolutions: MAX_COARSE_CONVOLUTIONS as f64, ..Stats::default() };
+            Ok((None, shared(spent.and(&most))))
+        }
         Err(other) => Err(other),
     }
 }

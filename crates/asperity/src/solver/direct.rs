@@ -42,7 +42,7 @@ pub(super) fn solve(
     let stats = Stats {
         iterations: pivoting.factorisations,
         convolutions: pivoting.convolutions as f64,
-        restarts: 0,
+        ..Stats::default()
     };
     let mean = pivoting.stiffening * answer.pressure.sum();
     let displacement = answer.displacement.mapv(|u| u - mean);

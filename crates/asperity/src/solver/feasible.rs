@@ -245,9 +245,17 @@ pub(super) fn offset_for_sum(
 mod tests {
     use super::*;
     use crate::solver::Control;
+    use crate::solver::active_set::NearCopies;
 
     fn settings(sum: f64, attraction: f64) -> Settings<'static> {
-        Settings { control: Control::Load(sum), self_influence: 1.0, cell_area: 1.0, attraction, watch: &() }
+        Settings {
+            control: Control::Load(sum),
+            self_influence: 1.0,
+            cell_area: 1.0,
+            attraction,
+            watch: &(),
+            near_copies: NearCopies::Large,
+        }
     }
 
     #[test]

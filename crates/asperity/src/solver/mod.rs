@@ -9,6 +9,8 @@ mod direct;
 mod equilibrium;
 mod feasible;
 mod friction;
+#[cfg(test)]
+mod near_copies;
 mod polonsky_keer;
 mod preconditioner;
 mod residual;
@@ -21,6 +23,7 @@ mod together;
 mod uniform;
 mod watch;
 
+use active_set::NearCopies;
 pub use adhesive::solve_adhesive;
 pub(crate) use adhesive::solve_adhesive_watched;
 pub use bounds::Bounds;
@@ -138,6 +141,9 @@ pub struct Stats {
     pub iterations: usize,
     /// Operator calls; a call on a coarser grid counts by its fraction of cells.
     pub convolutions: f64,
+    /// Applications of the near copy of the operator, see [`Operator::apply_near`]; those on a coarser grid count by
+    /// its fraction of cells. They are not counted as convolutions.
+    pub near_applications: f64,
     /// Number of returns to the last feasible pressure for lack of progress.
     pub restarts: usize,
 }
@@ -148,6 +154,7 @@ impl Stats {
         Self {
             iterations: self.iterations + other.iterations,
             convolutions: self.convolutions + other.convolutions,
+            near_applications: self.near_applications + other.near_applications,
             restarts: self.restarts + other.restarts,
         }
     }
@@ -274,6 +281,8 @@ struct Settings<'a> {
     /// The sum Σ |p| of all cells with negative lower bounds, at these bounds.
     attraction: Pascal,
     watch: &'a dyn Watch,
+    /// Contacts that are solved with near copies of their operators.
+    near_copies: NearCopies,
 }
 
 impl Settings<'_> {
@@ -348,6 +357,19 @@ pub(crate) fn solve_normal_watched(
     params: &Params,
     watch: &dyn Watch,
 ) -> Result<Solution> {
+    solve_normal_by(operator, initial_gap, bounds, control, start, params, (watch, NearCopies::Large))
+}
+
+/// [`solve_normal_watched`] with a choice of the contacts that are solved with near copies.
+fn solve_normal_by(
+    operator: &mut dyn Operator,
+    initial_gap: &Field,
+    bounds: &Bounds,
+    control: Control,
+    start: Option<&Field>,
+    params: &Params,
+    (watch, near_copies): (&dyn Watch, NearCopies),
+) -> Result<Solution> {
     let grid = *operator.grid();
     let shape = (grid.shape[0], grid.shape[1]);
     assert_eq!(initial_gap.dim(), shape, "shape of the initial gap");
@@ -356,7 +378,8 @@ pub(crate) fn solve_normal_watched(
     validate(operator, &slab, initial_gap, bounds, control, params)?;
     let self_influence = self_influence(operator);
     let [attraction] = slab.merged([attraction(bounds, grid.cells())]);
-    let settings = Settings { control, self_influence, cell_area: grid.cell_area(), attraction, watch };
+    let cell_area = grid.cell_area();
+    let settings = Settings { control, self_influence, cell_area, attraction, watch, near_copies };
     let problem = Problem { initial_gap, bounds, settings, slab: &slab };
     let answer = match far_datum(&problem) {
         None => solve_as_given(operator, &problem, start, params)?,

@@ -7,7 +7,10 @@ use crate::math::{Bands, ROWS_ABOVE, SparseInverse, parallel};
 use crate::operator::Operator;
 use crate::ranks::{Halo, Merged, Slab};
 use crate::solver::coarse_correction::CoarseCorrection;
-use crate::solver::sets::Sets;
+use crate::solver::sets::{Set, Sets};
+
+/// The patterns of a row are computed for all cells if more than one in this many is free.
+const DENSE: usize = 16;
 
 /// The local part (I − T) A r of the residual on a band and the rows above it, and its image under S.
 #[derive(Default)]
@@ -99,11 +102,30 @@ impl Preconditioner {
         parallel::map(parts, |((rows, patterns), free)| {
             patterns.clear();
             patterns.reserve_exact(free.cells().len());
+            let columns = bands.columns();
+            let mut dense = Vec::new();
             for ix in rows {
                 let (cells, first) = sets.row(ix);
-                let pattern =
-                    |cell: &u32| sparse.pattern([ix, *cell as usize - first], |cell| sets.is_free(cell));
-                patterns.extend(cells.iter().map(pattern));
+                let column = |cell: &u32| *cell as usize - first;
+                let pattern = |iy: usize| sparse.pattern([ix, iy], |cell| sets.is_free(cell));
+                if DENSE * cells.len() < columns {
+                    patterns.extend(cells.iter().map(|cell| pattern(column(cell))));
+                    continue;
+                }
+                // If many cells are free, it is faster to compute the patterns of all.
+                let row = |back: usize| match ix.checked_sub(back).or_else(|| sparse.row_before(ix, back)) {
+                    Some(row) => &sets.of()[row * columns..][..columns],
+                    None => &[],
+                };
+                dense.clear();
+                dense.resize(columns, 0);
+                SparseInverse::inner_patterns(row(0), [row(1), row(2)], |set| *set == Set::Free, &mut dense);
+                for iy in [0, 1, columns - 1] {
+                    if iy < columns {
+                        dense[iy] = pattern(iy);
+                    }
+                }
+                patterns.extend(cells.iter().map(|cell| dense[column(cell)]));
             }
         });
     }

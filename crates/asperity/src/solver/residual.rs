@@ -157,22 +157,43 @@ pub(super) struct ResidualSums {
 impl ResidualSums {
     /// Computes the sums of some cells at an approach.
     pub(super) fn of(cells: impl Iterator<Item = Cell>, approach: Metre, self_influence: f64) -> Self {
-        let mut this = Self::default();
-        // Deviations from one of the displacements, not from zero, avoid cancellation.
-        let (mut datum, mut sum, mut squares) = (None, 0.0, 0.0);
-        for Cell { pressure: p, displacement: u, touch, bounds } in cells {
-            let w = approach - touch;
-            let phi = self_influence * (p - bounds.clamp(p + w / self_influence));
-            this.largest = this.largest.max(phi.abs());
-            this.max_pressure = this.max_pressure.max(p.abs());
-            this.max_displacement = this.max_displacement.max(u.abs());
-            this.cells += 1.0;
-            let deviation = u - *datum.get_or_insert(u);
-            sum += deviation;
-            squares += deviation * deviation;
+        let mut cells = cells.peekable();
+        let datum = cells.peek().map_or(0.0, |cell| cell.displacement);
+        let mut lanes = Lanes::new(datum, approach, self_influence);
+        cells.for_each(|cell| lanes.add([cell]));
+        lanes.sums()
+    }
+
+    /// [`Self::of`] for the cells with these pressures, approaches h + u and gaps h, with a function for their bounds.
+    /// It is faster.
+    pub(super) fn of_fields(
+        [pressure, touch, gap]: [&[f64]; 3],
+        bounds: impl Fn(usize) -> Interval,
+        approach: Metre,
+        self_influence: f64,
+    ) -> Self {
+        let cell = |cell: usize, p: f64, touch: f64, h: f64| Cell {
+            pressure: p,
+            displacement: touch - h,
+            touch,
+            bounds: bounds(cell),
+        };
+        let datum = touch.first().zip(gap.first()).map_or(0.0, |(touch, h)| touch - h);
+        let ((p, p_rest), (t, t_rest), (h, h_rest)) = (chunks(pressure), chunks(touch), chunks(gap));
+        let mut lanes = Lanes::<LANES>::new(datum, approach, self_influence);
+        for (number, ((p, t), h)) in p.iter().zip(t).zip(h).enumerate() {
+            lanes.add(std::array::from_fn(|lane| cell(number * LANES + lane, p[lane], t[lane], h[lane])));
         }
-        let mean = sum / this.cells;
-        Self { mean: datum.unwrap_or(0.0) + mean, squares: squares - sum * mean, ..this }
+        let mut last = Lanes::new(datum, approach, self_influence);
+        let first = p.len() * LANES;
+        for (number, ((p, t), h)) in p_rest.iter().zip(t_rest).zip(h_rest).enumerate() {
+            last.add([cell(first + number, *p, *t, *h)]);
+        }
+        match (p.is_empty(), p_rest.is_empty()) {
+            (_, true) => lanes.sums(),
+            (true, _) => last.sums(),
+            _ => lanes.sums().and(last.sums()),
+        }
     }
 
     /// Returns the residual of the cells at the approach of the sums.
@@ -183,6 +204,80 @@ impl ResidualSums {
         // A NaN is no solution, although a maximum would ignore it.
         let eta = if self.largest == 0.0 && !self.squares.is_nan() { 0.0 } else { self.largest / scale };
         Residual { eta, approach, scale }
+    }
+}
+
+/// Number of cells whose sums are separate, so that none waits for another.
+const LANES: usize = 4;
+
+/// Splits values into groups of [`LANES`], and the rest.
+fn chunks(values: &[f64]) -> (&[[f64; LANES]], &[f64]) {
+    values.as_chunks()
+}
+
+/// Sums and maxima over every Nth cell, each beginning with another cell.
+struct Lanes<const N: usize> {
+    /// Deviations from one of the displacements, not from zero, avoid cancellation.
+    datum: Metre,
+    approach: Metre,
+    self_influence: f64,
+    stiffness: f64,
+    largest: [f64; N],
+    max_pressure: [f64; N],
+    max_displacement: [f64; N],
+    sum: [f64; N],
+    squares: [f64; N],
+    cells: usize,
+}
+
+impl<const N: usize> Lanes<N> {
+    fn new(datum: Metre, approach: Metre, self_influence: f64) -> Self {
+        let zeros = [0.0; N];
+        Self {
+            datum,
+            approach,
+            self_influence,
+            stiffness: 1.0 / self_influence,
+            largest: zeros,
+            max_pressure: zeros,
+            max_displacement: zeros,
+            sum: zeros,
+            squares: zeros,
+            cells: 0,
+        }
+    }
+
+    /// Adds one cell to each lane.
+    #[inline(always)]
+    fn add(&mut self, cells: [Cell; N]) {
+        let largest = |of: &mut f64, value: f64| *of = if value > *of { value } else { *of };
+        for (lane, Cell { pressure: p, displacement: u, touch, bounds }) in cells.into_iter().enumerate() {
+            let w = self.approach - touch;
+            let phi = self.self_influence * (p - bounds.clamp(p + w * self.stiffness));
+            largest(&mut self.largest[lane], phi.abs());
+            largest(&mut self.max_pressure[lane], p.abs());
+            largest(&mut self.max_displacement[lane], u.abs());
+            let deviation = u - self.datum;
+            self.sum[lane] += deviation;
+            self.squares[lane] += deviation * deviation;
+        }
+        self.cells += N;
+    }
+
+    /// Returns the sums of all lanes.
+    fn sums(self) -> ResidualSums {
+        let most = |values: [f64; N]| values.into_iter().fold(0.0, f64::max);
+        let (sum, squares) = (self.sum.iter().sum::<f64>(), self.squares.iter().sum::<f64>());
+        let cells = self.cells as f64;
+        let mean = sum / cells;
+        ResidualSums {
+            largest: most(self.largest),
+            max_pressure: most(self.max_pressure),
+            max_displacement: most(self.max_displacement),
+            cells,
+            mean: self.datum + mean,
+            squares: squares - sum * mean,
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::error::Result;
 use crate::grid::Field;
+use crate::solver::active_set::NearCopies;
 use crate::solver::bounds::Bounds;
 use crate::solver::site::Site;
 use crate::solver::{Control, Residual, Settings, Stats, Watch, attraction, cascade};
@@ -40,6 +41,7 @@ pub(crate) fn solve_together(
         cell_area: sites[0].grid().cell_area(),
         attraction: sites.iter().map(|site| attraction(&site.bounds(), site.grid().cells())).sum(),
         watch,
+        near_copies: NearCopies::Large,
     };
     sites[0].with_operator(&mut |operator| settings.self_influence = super::self_influence(operator));
     let found = cascade::solve(sites, &settings, start, tolerance, max_convolutions)?;

@@ -38,8 +38,13 @@ pub(super) struct Block<'a> {
     rounding: Metre,
     /// The last feasible pressure. The energy of feasible pressures only decreases.
     feasible: Field,
-    /// The approaches h + u under the last feasible pressure, during a line search from it.
+    /// The approaches h + u under the last feasible pressure, during a line search from it, or always with a near copy.
     feasible_touch: Option<Field>,
+    /// Whether search directions are convolved with the near copy of the operator.
+    near: bool,
+    /// Error bound due to single precision of the approaches under the last feasible pressure, if the operator itself
+    /// computed them.
+    feasible_rounding: Option<Metre>,
     /// The predicted set of each cell.
     sets: Sets,
     /// The search direction d.
@@ -53,7 +58,7 @@ pub(super) struct Block<'a> {
     /// The preconditioned residual z = M r of the free cells; zero elsewhere.
     preconditioned: SingleField,
     /// Influence coefficients up to [`NEAR_FIELD`] cells away: 0, 1 … along x, … −1, 0, 1 … along y.
-    near: SingleField,
+    near_field: SingleField,
     /// The neighbouring rows within this radius.
     halo: Halo,
     /// The slab of this rank, if the grid is divided among ranks.
@@ -63,6 +68,8 @@ pub(super) struct Block<'a> {
     local: f64,
     /// Convolutions so far.
     convolutions: usize,
+    /// Applications of the near copy so far.
+    near_applications: usize,
 }
 
 /// Norms after conjugate gradients on a set of free cells, as displacements: sums of squares for one contact, their
@@ -103,20 +110,21 @@ impl Merged for ResidualNorms {
 }
 
 impl<'a> Block<'a> {
-    /// Creates the contact at a site under a pressure that has not been convolved yet.
-    pub(super) fn new(site: &'a dyn Site, pressure: Field) -> Self {
+    /// Creates the contact at a site under a pressure that has not been convolved yet. With `near` its search
+    /// directions are convolved with the near copy of the operator.
+    pub(super) fn new(site: &'a dyn Site, pressure: Field, near: bool) -> Self {
         let (shape, slab) = (site.grid().shape, site.slab());
         let reach = slab.whole_grid().shape.map(|n| NEAR_FIELD.min((n - 1) / 2));
         let mut made = None;
         site.with_operator(&mut |operator| {
-            let near = SingleField::from_shape_fn([reach[0] + 1, 2 * reach[1] + 1], |(i, j)| {
+            let near_field = SingleField::from_shape_fn([reach[0] + 1, 2 * reach[1] + 1], |(i, j)| {
                 operator.influence(i, j.abs_diff(reach[1])) as f32
             });
             let local =
                 if operator.boundary().leaves_mean_free() { operator.influence(0, 0).abs() } else { 0.0 };
-            made = Some((Preconditioner::new(operator), near, local));
+            made = Some((Preconditioner::new(operator), near_field, local));
         });
-        let (preconditioner, near, local) = made.expect("a site lends its operator");
+        let (preconditioner, near_field, local) = made.expect("a site lends its operator");
         Self {
             site,
             bands: Bands::of(shape),
@@ -134,9 +142,12 @@ impl<'a> Block<'a> {
             preconditioned: SingleField::zeros(shape),
             halo: slab.halo(reach[0]),
             slab,
-            near,
+            near_field,
             local,
+            near,
+            feasible_rounding: None,
             convolutions: 0,
+            near_applications: 0,
         }
     }
 
@@ -211,6 +222,11 @@ impl<'a> Block<'a> {
         self.convolutions
     }
 
+    /// Applications of the near copy so far.
+    pub(super) fn near_applications(&self) -> usize {
+        self.near_applications
+    }
+
     /// Error bound of the displacement due to single precision.
     pub(super) fn rounding(&self) -> Metre {
         self.rounding
@@ -245,16 +261,104 @@ impl<'a> Block<'a> {
         self.add_response();
     }
 
-    /// Computes the response C·d of the direction.
+    /// Computes the response C·d of the direction, with a near copy that of this copy.
     fn convolve_direction(&mut self) {
         let Self { site, direction, response, .. } = self;
-        site.with_operator(&mut |operator| operator.apply_single(direction, response));
+        if self.near {
+            site.with_operator(&mut |operator| operator.apply_near(direction, response));
+            self.near_applications += 1;
+            // The operator itself corrects the rounding, too.
+            self.max_response = 0.0;
+            return;
+        } else {
+            site.with_operator(&mut |operator| operator.apply_single(direction, response));
+            self.convolutions += 1;
+        }
         let largest = |part: &[f32]| part.iter().fold(0.0f32, |m, u| if u.abs() > m { u.abs() } else { m });
         let parts = parallel::map(self.bands.cut(flat(response)), largest);
         // The rounding of transforms depends on the largest value on the whole grid.
         Largest(self.max_response) =
             self.slab.merged(Largest(f64::from(parts.into_iter().fold(0.0, f32::max))));
-        self.convolutions += 1;
+    }
+
+    /// Computes h + u with the near copy, from the change of the pressure since the last feasible one.
+    pub(super) fn convolve_change(&mut self) {
+        self.direct_to_pressure();
+        self.convolve_direction();
+        self.add_to_feasible();
+    }
+
+    /// Computes h + u of a feasible pressure with the operator itself, in single precision if its error is below
+    /// `max_rounding`. After the first time only the change of the pressure is convolved.
+    pub(super) fn correct(&mut self, max_rounding: Metre) {
+        self.near = false;
+        let before = self.feasible_rounding;
+        if !before.is_some_and(|before| self.correct_change(before) < max_rounding) {
+            if self.rounding_in_single() < max_rounding {
+                self.convolve_in_single();
+            } else {
+                self.convolve();
+            }
+            self.near = true;
+            self.keep_feasible();
+        }
+        self.near = true;
+        self.feasible_rounding = Some(self.rounding);
+    }
+
+    /// Convolves the change since the last feasible pressure, whose error bound was `before`, and makes the present
+    /// pressure the last feasible one. Returns the new error bound.
+    fn correct_change(&mut self, before: Metre) -> Metre {
+        let bands = self.bands;
+        let parts = bands.cut(flat(&self.pressure)).zip(bands.cut_mut(flat_mut(&mut self.feasible)));
+        let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.direction)));
+        let largest = parallel::map(parts, |((pressure, feasible), d)| {
+            let mut largest = 0.0f32;
+            for ((d, p), feasible) in d.iter_mut().zip(pressure).zip(feasible) {
+                *d = (p - *feasible) as f32;
+                *feasible = *p;
+                largest = if d.abs() > largest { d.abs() } else { largest };
+            }
+            largest
+        });
+        self.convolve_direction();
+        let base = self.feasible_touch.as_mut().expect("kept with a near copy");
+        let parts = bands.cut_mut(flat_mut(&mut self.touch)).zip(bands.cut_mut(flat_mut(base)));
+        parallel::map(parts.zip(bands.cut(flat(&self.response))), |((touch, base), response)| {
+            for ((touch, base), response) in touch.iter_mut().zip(base).zip(response) {
+                *base += f64::from(*response);
+                *touch = *base;
+            }
+        });
+        let local = self.local * f64::from(largest.into_iter().fold(0.0, f32::max));
+        self.rounding = before + SINGLE_PRECISION * self.max_response.max(local);
+        self.rounding
+    }
+
+    /// Ends the use of the near copy.
+    pub(super) fn leave_near_copy(&mut self) {
+        self.near = false;
+        self.feasible_touch = None;
+    }
+
+    /// Sets the direction from the last feasible pressure to the present one.
+    fn direct_to_pressure(&mut self) {
+        let bands = self.bands;
+        let parts = bands.cut(flat(&self.pressure)).zip(bands.cut(flat(&self.feasible)));
+        parallel::map(
+            parts.zip(bands.cut_mut(flat_mut(&mut self.direction))),
+            |((pressure, feasible), d)| {
+                let cells = d.iter_mut().zip(pressure).zip(feasible);
+                cells.for_each(|((d, p), feasible)| *d = (p - feasible) as f32);
+            },
+        );
+    }
+
+    /// Sets h + u to that of the last feasible pressure and the response C·d of the direction.
+    fn add_to_feasible(&mut self) {
+        let before = self.feasible_touch.as_ref().expect("kept with a near copy");
+        zip(self.bands, &mut self.touch, before, |touch, before| *touch = *before);
+        self.add_response();
     }
 
     /// Adds the response C·d to the displacement.
@@ -330,15 +434,9 @@ impl<'a> Block<'a> {
         let bands = bands.zip(self.bands.cut(flat(&gap))).enumerate();
         let parts = parallel::map(bands, |(band, ((pressure, touch), gap))| {
             let first = self.bands.first(band);
-            let cells = pressure.iter().zip(touch).zip(gap).enumerate();
             with_bounds!(bounds, of => {
-                let cells = cells.map(|(cell, ((p, touch), h))| Cell {
-                    pressure: *p,
-                    displacement: touch - h,
-                    touch: *touch,
-                    bounds: of(first + cell),
-                });
-                ResidualSums::of(cells, approach, self_influence)
+                let of = |cell: usize| of(first + cell);
+                ResidualSums::of_fields([pressure, touch, gap], of, approach, self_influence)
             })
         });
         Merged::of_parts(parts)
@@ -426,7 +524,7 @@ impl<'a> Block<'a> {
 
     /// Computes C·d within [`NEAR_FIELD`] cells of the nonzero cells of d, without a convolution.
     fn convolve_near_field(&mut self) {
-        let Self { bands, near, halo, direction, response, .. } = self;
+        let Self { bands, near_field: near, halo, direction, response, .. } = self;
         let direction = halo.around(flat(direction));
         let ([nx, ny], above) = (halo.shape(), halo.own_rows().start);
         let reach = [near.nrows() - 1, near.ncols() / 2];
@@ -569,7 +667,6 @@ impl<'a> Block<'a> {
         datum: Metre,
         settings: &Settings,
     ) -> ResidualNorms {
-        let c0 = settings.self_influence;
         let (bands, bounds) = (self.bands, self.site.bounds());
         let parts = bands.cut(self.sets.of()).zip(bands.cut(flat(&self.direction)));
         let parts = parts.zip(bands.cut(flat(&self.response)));
@@ -578,39 +675,50 @@ impl<'a> Block<'a> {
         let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.residual))).enumerate();
         let norms = parallel::map(parts, |(band, (((((sets, d), c), p), touch), r))| {
             let first = bands.first(band);
-            let mut norms = ResidualNorms { datum, ..ResidualNorms::default() };
-            let cells = sets.iter().zip(d).zip(c).zip(p).zip(touch).zip(r).enumerate();
+            let ((sets, sets_rest), (d, d_rest), (c, c_rest)) =
+                (sets.as_chunks(), d.as_chunks(), c.as_chunks());
+            let ((p, p_rest), (touch, touch_rest)) = (p.as_chunks_mut(), touch.as_chunks_mut());
+            let (r, r_rest) = r.as_chunks_mut();
+            let rest = first + p.len() * LANES;
+            let step = Step { step, datum, self_influence: settings.self_influence };
             with_bounds!(bounds, of => {
-                for (cell, (((((set, d), c), p), touch), r)) in cells {
-                    *touch += step * f64::from(*c);
-                    let w = datum - *touch;
-                    let violation = match set {
-                        Set::Lower => w.max(0.0),
-                        Set::Upper => w.min(0.0),
-                        Set::Free => {
-                            *p += step * f64::from(*d);
-                            *r = w as f32;
-                            norms.residual += w * w;
-                            norms.max_residual = norms.max_residual.max(w.abs());
-                            c0 * (*p - of(first + cell).clamp(*p))
-                        }
-                    };
-                    norms.violation += violation * violation;
+                let mut lanes = [[0.0; LANES]; 3];
+                let chunks = sets.iter().zip(d).zip(c).zip(p).zip(touch).zip(r).enumerate();
+                for (number, (((((sets, d), c), p), touch), r)) in chunks {
+                    let of = |lane: usize| of(first + number * LANES + lane);
+                    step.take(*sets, [d, c], p, touch, r, of, &mut lanes);
                 }
-            });
-            norms
+                let mut last = [[0.0; 1]; 3];
+                let cells = sets_rest.iter().zip(d_rest).zip(c_rest).zip(p_rest).zip(touch_rest).zip(r_rest);
+                for (number, (((((set, d), c), p), touch), r)) in cells.enumerate() {
+                    let [p, touch] = [p, touch].map(std::array::from_mut);
+                    let [d, c] = [d, c].map(std::array::from_ref);
+                    step.take([*set], [d, c], p, touch, std::array::from_mut(r), |_| of(rest + number), &mut last);
+                }
+                let [residual, violation, _] = [0, 1, 2].map(|n| lanes[n].iter().sum::<f64>() + last[n][0]);
+                let max_residual = lanes[2].iter().fold(last[2][0], |most, value| f64::max(most, *value));
+                ResidualNorms { residual, violation, max_residual, datum }
+            })
         });
         self.rounding += SINGLE_PRECISION * step * self.max_response;
         Merged::of_parts(norms)
     }
 
-    /// Stores the pressure as the last feasible one.
+    /// Stores the pressure as the last feasible one, with a near copy together with its h + u.
     pub(super) fn keep_feasible(&mut self) {
         zip(self.bands, &mut self.feasible, &self.pressure, |feasible, p| *feasible = *p);
+        if self.near {
+            let touch = self.feasible_touch.get_or_insert_with(|| Field::zeros(self.feasible.raw_dim()));
+            zip(self.bands, touch, &self.touch, |before, touch| *before = *touch);
+            self.feasible_rounding = None;
+        }
     }
 
-    /// Convolves the last feasible pressure, for a line search from it.
+    /// Convolves the last feasible pressure, for a line search from it. With a near copy its h + u is known.
     pub(super) fn convolve_feasible(&mut self) {
+        if self.near {
+            return;
+        }
         let mut touch = Field::zeros(self.feasible.raw_dim());
         touch_under(self.site, &self.feasible, &mut touch);
         self.feasible_touch = Some(touch);
@@ -644,7 +752,52 @@ impl<'a> Block<'a> {
     /// Ends a line search: its result is the last feasible pressure.
     pub(super) fn end_line_search(&mut self) {
         self.keep_feasible();
-        self.feasible_touch = None;
+        if !self.near {
+            self.feasible_touch = None;
+        }
+    }
+}
+
+/// Number of cells whose norms are summed separately, so that none waits for another.
+const LANES: usize = 4;
+
+/// A step along the direction.
+struct Step {
+    step: f64,
+    datum: Metre,
+    self_influence: f64,
+}
+
+impl Step {
+    /// Moves the pressures and approaches h + u of some cells, which the direction `d` and its response `c` change, and
+    /// computes their residuals. Adds to the sums of the squares of residual and violation and to the largest residual
+    /// of each lane. The direction is zero except at free cells.
+    #[inline]
+    fn take<const N: usize>(
+        &self,
+        sets: [Set; N],
+        [d, c]: [&[f32; N]; 2],
+        p: &mut [f64; N],
+        touch: &mut [f64; N],
+        r: &mut [f32; N],
+        bounds: impl Fn(usize) -> Interval,
+        [residuals, violations, largest]: &mut [[f64; N]; 3],
+    ) {
+        for lane in 0..N {
+            touch[lane] += self.step * f64::from(c[lane]);
+            p[lane] += self.step * f64::from(d[lane]);
+            let w = self.datum - touch[lane];
+            let outside = self.self_influence * (p[lane] - bounds(lane).clamp(p[lane]));
+            let [residual, violation] = match sets[lane] {
+                Set::Free => [w, outside],
+                Set::Lower => [0.0, w.max(0.0)],
+                Set::Upper => [0.0, w.min(0.0)],
+            };
+            r[lane] = residual as f32;
+            residuals[lane] += residual * residual;
+            violations[lane] += violation * violation;
+            largest[lane] = if residual.abs() > largest[lane] { residual.abs() } else { largest[lane] };
+        }
     }
 }
 

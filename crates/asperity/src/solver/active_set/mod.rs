@@ -57,11 +57,65 @@ const MIN_SEARCH_STEP: f64 = 1e-3;
 /// little.
 const BEST_AFTER_SEARCH: f64 = 2.0;
 
+/// Fewest cells of a contact that is solved with the near copy.
+const MIN_NEAR_CELLS: usize = 1 << 19;
+/// η before the first convolution of a grid with a near copy.
+const FIRST_TARGET: f64 = 1e-2;
+/// Reduction of η with the near copy between two convolutions.
+const REDUCTION: f64 = 0.05;
+/// With the near copy η falls to this fraction of the tolerance, not further.
+const LAST_TARGET: f64 = 0.5;
+/// Largest number of outer steps with the near copy between two convolutions.
+const MAX_NEAR_STEPS: usize = 40;
+/// A correction makes progress if η is below this fraction of the least η so far.
+const CORRECTION_PROGRESS: f64 = 0.5;
+/// Number of corrections without progress before the near copy is given up.
+const MAX_POOR_CORRECTIONS: usize = 3;
+
 /// Largest error of the displacement due to single precision, as a fraction of the target residual.
 const MAX_ROUNDING: f64 = 0.1;
 /// Fraction of the interference of a cell that its first pressure closes under approach control, as if the cell were
 /// alone.
 const FIRST_PRESSURE: f64 = 0.3;
+
+/// Stage of a solution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Stage {
+    /// On a coarse grid, for a first guess. Its displacement need not be exact.
+    Guess,
+    /// On the grid itself, from a guess.
+    Cold,
+    /// From a given start.
+    Warm,
+}
+
+/// Contacts that are solved with near copies of their operators, from a cold start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum NearCopies {
+    /// Large ones with a free axis. On other grids a convolution takes no more than a third of a step, and the near
+    /// copy gains nothing.
+    Large,
+    /// All whose operators have a near copy.
+    #[cfg(test)]
+    All,
+}
+
+impl NearCopies {
+    fn serve(self, site: &dyn Site) -> bool {
+        let mut serve = false;
+        site.with_operator(&mut |operator| {
+            let asked = match self {
+                Self::Large => {
+                    operator.grid().cells() >= MIN_NEAR_CELLS && !operator.boundary().leaves_mean_free()
+                }
+                #[cfg(test)]
+                Self::All => true,
+            };
+            serve = asked && operator.has_near_copy();
+        });
+        serve
+    }
+}
 
 /// Contacts in equilibrium under one approach.
 pub(super) struct Answer {
@@ -79,6 +133,9 @@ pub(super) struct Answer {
 /// The sets are predicted as in a primal–dual active set method (Hintermüller, Ito and Kunisch, SIAM J. Optim. 13,
 /// 865 (2003)). Its complementarity parameter is the compliance of a cell, initially `compliance_factor` times its
 /// self-influence.
+///
+/// If near copies of the operators serve, search directions are convolved with these, and the operators only correct
+/// the displacement when the residual has fallen; see [`NearCopies`].
 pub(super) fn solve(
     sites: &[&dyn Site],
     settings: &Settings,
@@ -86,15 +143,25 @@ pub(super) fn solve(
     compliance_factor: f64,
     tolerance: &dyn Fn(&Residual) -> f64,
     max_convolutions: usize,
+    stage: Stage,
 ) -> Result<Answer> {
-    let mut iteration = Iteration::new(sites, settings, start, compliance_factor);
-    let mut tightening = 1.0;
+    let mut iteration = Iteration::new(sites, settings, start, compliance_factor, stage);
     let mut state = iteration.residual();
     if let Some(pressure) = settings.pressure_sum() {
         // The periodic displacement of a uniform pressure is no scale for later displacements.
         let cells: usize = sites.iter().map(|site| site.slab().whole_grid().cells()).sum();
         state.scale = state.scale.max(settings.self_influence * settings.sum_scale(pressure) / cells as f64);
     }
+    if iteration.near {
+        match iteration.solve_near(state, tolerance, max_convolutions, stage)? {
+            Near::Solved(residual) => return Ok(iteration.into_answer(residual)),
+            Near::Poor => {
+                iteration.leave_near_copy();
+                state = iteration.residual();
+            }
+        }
+    }
+    let mut tightening = 1.0;
     loop {
         let mut wanted = tolerance(&state);
         settings.watch.iteration(state.eta, wanted);
@@ -130,8 +197,18 @@ pub(super) fn solve(
     }
 }
 
+/// Result of the iteration with near copies.
+enum Near {
+    /// The residual of the solution.
+    Solved(Residual),
+    /// The corrections make no progress.
+    Poor,
+}
+
 struct Iteration<'a> {
     settings: Settings<'a>,
+    /// Whether search directions are convolved with near copies of the operators.
+    near: bool,
     blocks: Vec<Block<'a>>,
     /// The slab of the first block, if its grid is divided among ranks. Several blocks are whole grids.
     slab: Slab,
@@ -159,6 +236,7 @@ impl<'a> Iteration<'a> {
         settings: &Settings<'a>,
         start: Option<Vec<Field>>,
         compliance_factor: f64,
+        stage: Stage,
     ) -> Self {
         let cells: usize = sites.iter().map(|site| site.slab().whole_grid().cells()).sum();
         let far = start.is_none();
@@ -173,9 +251,12 @@ impl<'a> Iteration<'a> {
             };
             sites.iter().map(guess).collect()
         });
-        let blocks = parallel::tasks(pressures.into_iter().zip(sites), |(p, site)| Block::new(*site, p));
+        let near = stage != Stage::Warm && sites.iter().all(|site| settings.near_copies.serve(*site));
+        let blocks =
+            parallel::tasks(pressures.into_iter().zip(sites), |(p, site)| Block::new(*site, p, near));
         let mut iteration = Self {
             settings: *settings,
+            near,
             blocks,
             slab: sites[0].slab(),
             free_cells: 0.0,
@@ -219,9 +300,11 @@ impl<'a> Iteration<'a> {
     /// Cost so far.
     fn stats(&self) -> Stats {
         let convolutions: usize = self.blocks.iter().map(Block::convolutions).sum();
+        let near: usize = self.blocks.iter().map(Block::near_applications).sum();
         Stats {
             iterations: self.iterations,
             convolutions: convolutions as f64 / self.blocks.len() as f64,
+            near_applications: near as f64 / self.blocks.len() as f64,
             restarts: self.restarts,
         }
     }
@@ -275,11 +358,84 @@ impl<'a> Iteration<'a> {
         self.settings.carries_the_load(sum)
     }
 
+    /// Iterates with the near copies, and corrects the displacement by the operators when the residual has fallen.
+    fn solve_near(
+        &mut self,
+        mut state: Residual,
+        tolerance: &dyn Fn(&Residual) -> f64,
+        max_convolutions: usize,
+        stage: Stage,
+    ) -> Result<Near> {
+        let settings = self.settings;
+        let mut target = FIRST_TARGET.max(LAST_TARGET * tolerance(&state));
+        let mut steps = 0;
+        let (mut least, mut poor) = (f64::INFINITY, 0);
+        loop {
+            let mut wanted = tolerance(&state);
+            settings.watch.iteration(state.eta, wanted);
+            check_stop(settings.watch)?;
+            if state.eta < target || steps >= MAX_NEAR_STEPS {
+                if stage == Stage::Guess && state.eta < wanted {
+                    make_feasible(self, &settings);
+                    return Ok(Near::Solved(state));
+                }
+                self.correct(MAX_ROUNDING * wanted * state.scale);
+                state = self.residual();
+                state.eta += self.rounding() / state.scale;
+                wanted = tolerance(&state);
+                if state.eta < wanted {
+                    return Ok(Near::Solved(state));
+                }
+                poor = if state.eta < CORRECTION_PROGRESS * least { 0 } else { poor + 1 };
+                if poor >= MAX_POOR_CORRECTIONS {
+                    return Ok(Near::Poor);
+                }
+                least = least.min(state.eta);
+                let last = if stage == Stage::Guess { wanted } else { LAST_TARGET * wanted };
+                target = last.max(REDUCTION * state.eta);
+                steps = 0;
+            }
+            finite("residual", state.eta.min(f64::MAX))?;
+            let Stats { iterations, convolutions, .. } = self.stats();
+            if convolutions >= max_convolutions as f64 {
+                return Err(Error::NotConverged { iterations, residual: state.eta, tolerance: wanted });
+            }
+            steps += 1;
+            state = match self.outer_step(state, target) {
+                // The violation of the bounds counts when the operator corrects the displacement.
+                Some(left)
+                    if left.max_residual > target * state.scale || left.violation < target * state.scale =>
+                {
+                    Residual { eta: left.max_residual / state.scale, approach: left.datum, ..state }
+                }
+                _ => self.residual(),
+            };
+        }
+    }
+
+    /// Corrects the displacement by the operators at the nearest feasible pressure.
+    fn correct(&mut self, max_rounding: Metre) {
+        let settings = self.settings;
+        make_feasible(self, &settings);
+        self.each(|block| block.correct(max_rounding));
+        (self.best, self.stagnations, self.bound_steps) = (f64::INFINITY, 0, 0);
+    }
+
+    /// Continues without near copies from the last correction.
+    fn leave_near_copy(&mut self) {
+        self.near = false;
+        self.each(Block::leave_near_copy);
+    }
+
     /// Moves to the nearest feasible pressure, with one convolution. It is in single precision if its error is
-    /// below `max_rounding`.
+    /// below `max_rounding`. With near copies these compute the displacement.
     fn become_feasible(&mut self, max_rounding: Metre) {
         let settings = self.settings;
         make_feasible(self, &settings);
+        if self.near {
+            self.each(Block::convolve_change);
+            return;
+        }
         let Largest(rounding) = self.merged(|block| Largest(block.rounding_in_single()));
         if rounding < max_rounding {
             self.each(Block::convolve_in_single);
@@ -373,7 +529,7 @@ impl<'a> Iteration<'a> {
                 if borne > 0.0 { (0.0, added / borne) } else { (added / self.free_cells, 0.0) };
             self.each(|block| block.balance_direction(each, per_pressure));
         }
-        let in_double = self.rounding() > max_rounding;
+        let in_double = !self.near && self.rounding() > max_rounding;
         self.each(|block| block.step_to_bounds(!in_double));
         if in_double {
             self.restore_the_sum();

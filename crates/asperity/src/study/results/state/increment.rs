@@ -84,6 +84,7 @@ pub(in crate::study) fn read(
             iterations: stored.number("iterations")? as usize,
             convolutions: stored.number("convolutions")?,
             restarts: stored.number("restarts")? as usize,
+            ..Stats::default()
         },
     };
     let has_friction = stored.holds("stick");
