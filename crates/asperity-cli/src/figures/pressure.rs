@@ -9,17 +9,18 @@ use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
 const CLASSES: usize = 40;
 
 /// The shares of the contact area in classes of pressure, with the cap where there is one.
-pub(crate) fn histogram<'a>(fields: impl IntoIterator<Item = &'a Field>, cap: &Cap) -> Charts {
-    let pressures: Vec<f64> =
-        fields.into_iter().flat_map(|f| f.iter().copied().filter(|p| *p > 0.0)).collect();
-    let largest = pressures.iter().copied().fold(0.0, f64::max);
+pub(crate) fn histogram<'a>(fields: impl IntoIterator<Item = &'a Field> + Clone, cap: &Cap) -> Charts {
+    let pressures =
+        || fields.clone().into_iter().flat_map(|field| field.iter().copied().filter(|p| *p > 0.0));
+    let largest = pressures().fold(0.0, f64::max);
     let mut counts = [0usize; CLASSES];
-    for p in &pressures {
+    for p in pressures() {
         counts[((p / largest * CLASSES as f64) as usize).min(CLASSES - 1)] += 1;
     }
+    let all: usize = counts.iter().sum();
     let width = largest / CLASSES as f64;
-    let share = |count: usize| 100.0 * count as f64 / pressures.len() as f64;
-    let bars: Vec<[f64; 2]> = match pressures.is_empty() {
+    let share = |count: usize| 100.0 * count as f64 / all as f64;
+    let bars: Vec<[f64; 2]> = match all == 0 {
         true => Vec::new(),
         false => counts.iter().enumerate().map(|(i, n)| [(i as f64 + 0.5) * width, share(*n)]).collect(),
     };

@@ -70,12 +70,14 @@ impl StoredArray {
             p if p.is_nan() => f64::NAN,
             _ => 0.0,
         };
-        let mut classes = self.field.clone();
-        match cap {
-            Cap::Field(caps) => classes.zip_mut_with(caps, |p, cap| *p = class(*p, *cap)),
-            Cap::Number(cap) => classes.mapv_inplace(|p| class(p, *cap)),
-        }
-        self.with(classes)
+        self.with(match cap {
+            Cap::Field(caps) => {
+                let mut classes = self.field.clone();
+                classes.zip_mut_with(caps, |p, cap| *p = class(*p, *cap));
+                classes
+            }
+            Cap::Number(cap) => self.field.mapv(|p| class(p, *cap)),
+        })
     }
 }
 

@@ -12,9 +12,9 @@ use super::bodies::has_rest;
 use super::curves;
 use super::found::PageData;
 use super::html::{escaped, minus};
-use super::packed::{self, QuantisedField};
+use super::packed::{self, Levels, QuantisedField};
 use super::table::evenly;
-use crate::draw::{Colours, Unit};
+use crate::draw::{Charts, Colours, Unit};
 use crate::figures::{self, Cap, Curves, StoredArray};
 use crate::report::Outcome;
 
@@ -90,6 +90,17 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     if found.moves() {
         return of_motion(found, data, charts);
     }
+    let groups = vec![json!({ "label": "" })];
+    if let Some((maps, block)) = found.take_maps() {
+        let approach = found
+            .kept(found.results.static_fields().map_err(Into::into).and_then(|f| figures::approach(&f)))?;
+        let frame = Frame { approach, ..Frame::at_rest() };
+        let mut html = SCRUBBER.to_owned() + &in_blocks(block);
+        data["contact"] = shown(&[frame.with_maps(maps)], groups);
+        let profile = found.take_profile();
+        html += &section_of(profile, charts);
+        return Some(html);
+    }
     let frames = match found.points.is_empty() {
         true => of_rest(found)?,
         false => of_sweep(found),
@@ -97,26 +108,37 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     if frames.is_empty() {
         return None;
     }
-    let groups = vec![json!({ "label": "" })];
     let mut html = SCRUBBER.to_owned() + &blocks(&frames);
     data["contact"] = shown(&all_packed(frames), groups);
     if has_rest(found.results)
         && let Some(fields) = found.kept(found.results.static_fields())
-        && let Some(Some(profile)) = found.kept(figures::profile_at_rest(&fields, &found.case))
+        && let Some(profile) = found.kept(figures::profile_at_rest(&fields, &found.case))
     {
-        let charts_of = Curves { charts: profile, name: "profile", title: String::new() };
-        let places = curves::html(vec![charts_of], charts);
-        if !places.is_empty() {
-            html += &format!("<h3>Section through the most loaded spot</h3>{places}");
-        }
+        html += &section_of(profile, charts);
     }
     Some(html)
 }
 
+/// HTML with places for the section through the most loaded spot.
+fn section_of(profile: Option<Charts>, charts: &mut Vec<Value>) -> String {
+    if let Some(profile) = profile {
+        let charts_of = Curves { charts: profile, name: "profile", title: String::new() };
+        let places = curves::html(vec![charts_of], charts);
+        if !places.is_empty() {
+            return format!("<h3>Section through the most loaded spot</h3>{places}");
+        }
+    }
+    String::new()
+}
+
 /// That large fields are shown in blocks, and how.
 fn blocks(frames: &[Frame]) -> String {
-    match frames.iter().map(|frame| packed::block(frame.pressure())).max().unwrap_or(1) {
-        1 => String::new(),
+    in_blocks(frames.iter().map(|frame| packed::block(frame.pressure())).max().unwrap_or(1))
+}
+
+fn in_blocks(block: usize) -> String {
+    match block {
+        0 | 1 => String::new(),
         block => format!(
             "<p class=\"remark\">Shown in blocks of {block} × {block} cells, of each the largest pressure, gaps by their mean. \
              The files hold all.</p>"
@@ -325,17 +347,7 @@ fn of_rest(found: &mut PageData) -> Option<Vec<Frame>> {
     let fields = found.fields(found.results.static_fields())?;
     let maps = found.kept(at_rest(&fields))?;
     let approach = found.kept(figures::approach(&fields))?;
-    let text = String::new();
-    Some(vec![Frame {
-        group: 0,
-        label: String::new(),
-        text,
-        offset: 0.0,
-        across: 0.0,
-        approach,
-        seam: 0,
-        fields: maps,
-    }])
+    Some(vec![Frame { approach, fields: maps, ..Frame::at_rest() }])
 }
 
 /// What there is of a static contact, or of a point of a sweep.
@@ -381,7 +393,21 @@ impl Frame {
         &self.fields[0].1.field
     }
 
-    fn packed(self) -> PageFrame {
+    /// A static contact without maps.
+    fn at_rest() -> Self {
+        Self {
+            group: 0,
+            label: String::new(),
+            text: String::new(),
+            offset: 0.0,
+            across: 0.0,
+            approach: 0.0,
+            seam: 0,
+            fields: Vec::new(),
+        }
+    }
+
+    fn with_maps(self, maps: Vec<(&'static str, QuantisedField)>) -> PageFrame {
         let about = json!({
             "group": self.group,
             "label": self.label,
@@ -392,20 +418,28 @@ impl Frame {
             "approach": Some(self.approach).filter(|approach| approach.is_finite()),
             "together": minus(&format(self.approach, Dimension::Length)),
         });
-        let map = |(name, StoredArray { field, grid: Grid { pitch, .. }, place, .. }): (
-            &'static str,
-            StoredArray,
-        )| {
-            let layer = LAYERS.iter().find(|layer| layer.name == name)?;
-            let packed = match layer.kind {
-                Kind::Positive => QuantisedField::positive(&field, pitch),
-                Kind::Signed | Kind::Between => QuantisedField::even(&field, pitch),
-                Kind::Classes(_) => QuantisedField::classes(&field, pitch),
-            };
-            Some((name, packed.at([place, 0.0], pitch)))
-        };
-        PageFrame { about, maps: self.fields.into_iter().filter_map(map).collect() }
+        PageFrame { about, maps }
     }
+
+    fn packed(mut self) -> PageFrame {
+        let fields = std::mem::take(&mut self.fields);
+        let map =
+            |(name, array): (&'static str, StoredArray)| Some((name, levels_of(name, &array)?.deflated()));
+        let maps = fields.into_par_iter().filter_map(map).collect();
+        self.with_maps(maps)
+    }
+}
+
+/// A field in the levels of its layer, if it has one.
+pub(super) fn levels_of(name: &str, array: &StoredArray) -> Option<Levels> {
+    let StoredArray { field, grid: Grid { pitch, .. }, place, .. } = array;
+    let layer = LAYERS.iter().find(|layer| layer.name == name)?;
+    let levels = match layer.kind {
+        Kind::Positive => Levels::positive(field, *pitch),
+        Kind::Signed | Kind::Between => Levels::even(field, *pitch),
+        Kind::Classes(_) => Levels::classes(field, *pitch),
+    };
+    Some(levels.at([*place, 0.0], *pitch))
 }
 
 fn all_packed(frames: Vec<Frame>) -> Vec<PageFrame> {
