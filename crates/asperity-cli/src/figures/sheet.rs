@@ -136,7 +136,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// All that do not move as PNG files, with their names.
-    pub(super) fn pictures(self) -> Outcome<Vec<(String, Vec<u8>)>> {
+    pub(crate) fn pictures(self) -> Outcome<Vec<(String, Vec<u8>)>> {
         let dpi = self.wanted.paper.dpi;
         let still = self.drawings.iter().filter_map(|(path, drawing)| match drawing {
             Drawing::Still(scene) => Some((path, scene)),

@@ -1,6 +1,5 @@
 //! The bodies: topographies before and after, their difference, profiles, parameters, material ratio, spectra.
 
-use asperity::Grid;
 use asperity::study::Results;
 use asperity::study::case::{Source, TopographySpec};
 use asperity::surface::{Parameter, Parameters, Topography};
@@ -10,14 +9,12 @@ use serde_json::{Value, json};
 use super::curves;
 use super::found::PageData;
 use super::html::{details, escaped, minus};
-use super::packed::{self, Levels, QuantisedField};
+use super::packed::QuantisedField;
+use super::shown::{MAX_CELLS, ShownBody};
 use crate::draw::{Charts, Unit, range_of_heights};
-use crate::figures::{self, Curves, HeightRange, StoredArray};
+use crate::figures::{self, Curves, StoredArray};
 use crate::numbers::{in_column, meaning};
 use crate::report::Outcome;
-
-/// Bodies of more cells have no parameters on the page: those of hills and of the autocorrelation would take minutes.
-pub(super) const MAX_CELLS: usize = 1 << 18;
 
 const BODIES: [(&str, &str); 2] = [("lower", "lower body"), ("upper", "upper body, underside")];
 
@@ -111,54 +108,6 @@ fn of_rest(found: &mut PageData) -> Option<Pair> {
 /// Whether the fields of a static contact are there.
 pub(super) fn has_rest(results: &Results) -> bool {
     results.directory().join("fields.h5").exists()
-}
-
-/// Heights of a body as they are shown.
-pub(super) struct ShownBody {
-    heights: Heights,
-    grid: Grid,
-    range: [f64; 2],
-    remark: Option<&'static str>,
-    /// Cells along a side of the blocks that are shown.
-    block: usize,
-    has_missing: bool,
-}
-
-enum Heights {
-    Levels(Levels),
-    Deflated(QuantisedField),
-    /// Under way from one to the other.
-    None,
-}
-
-impl ShownBody {
-    pub(super) fn new(body: &StoredArray, range: Option<HeightRange>) -> Self {
-        let (range, remark) = range.unwrap_or(([0.0, 1.0], None));
-        Self {
-            heights: Heights::Levels(Levels::even(&body.field, body.grid.pitch)),
-            grid: body.grid,
-            range,
-            remark,
-            block: packed::block(&body.field),
-            has_missing: body.field.iter().any(|z| !z.is_finite()),
-        }
-    }
-
-    /// Compresses the heights.
-    pub(super) fn deflate(&mut self) {
-        self.heights = match std::mem::replace(&mut self.heights, Heights::None) {
-            Heights::Levels(levels) => Heights::Deflated(levels.deflated()),
-            other => other,
-        };
-    }
-
-    fn deflated(mut self) -> QuantisedField {
-        self.deflate();
-        match self.heights {
-            Heights::Deflated(heights) => heights,
-            Heights::Levels(_) | Heights::None => unreachable!("they have been deflated"),
-        }
-    }
 }
 
 /// One body, its heights before and their change since, and what is to be said of it.

@@ -1,10 +1,10 @@
 //! The contact: maps over the kept positions and passes, with where both bodies are.
 
+use asperity::Field;
 use asperity::io::fields::Fields;
 use asperity::motion::{StepRecord, Strategy, SweepRecord};
 use asperity::study::{cap_name, pressure_name, temperature_name};
 use asperity::units::{Dimension, format};
-use asperity::{Field, Grid};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
@@ -12,9 +12,10 @@ use super::bodies::has_rest;
 use super::curves;
 use super::found::PageData;
 use super::html::{escaped, minus};
-use super::packed::{self, Levels, QuantisedField};
+use super::layers::{Kind, LAYERS, levels_of};
+use super::packed::{self, QuantisedField};
 use super::table::evenly;
-use crate::draw::{Charts, Colours, Unit};
+use crate::draw::{Charts, Colours};
 use crate::figures::{self, Cap, Curves, StoredArray};
 use crate::report::Outcome;
 
@@ -24,42 +25,6 @@ const MAX_BYTES: usize = 11 << 18;
 const MAX_PASSES: usize = 20;
 /// Positions that a pass shows at least, before passes are left out.
 const MIN_POSITIONS: usize = 24;
-
-/// What one of the maps shows.
-struct Layer {
-    name: &'static str,
-    title: &'static str,
-    unit: Unit,
-    kind: Kind,
-}
-
-enum Kind {
-    /// Above 0 or nothing.
-    Positive,
-    /// Below 0, too.
-    Signed,
-    /// From the least to the largest, where there is any.
-    Between,
-    Classes(Colours),
-}
-
-/// All maps that a position may have, in the order of the page.
-const LAYERS: [Layer; 9] = [
-    Layer { name: "pressure", title: "pressure", unit: Unit::Pressure, kind: Kind::Positive },
-    Layer { name: "contact", title: "contact", unit: Unit::Number, kind: Kind::Classes(Colours::CONTACT) },
-    Layer { name: "temperature", title: "temperature", unit: Unit::Of("°C"), kind: Kind::Between },
-    Layer { name: "shear", title: "shear on the lower body", unit: Unit::Pressure, kind: Kind::Positive },
-    Layer { name: "stick", title: "stick and slip", unit: Unit::Number, kind: Kind::Classes(Colours::STICK) },
-    Layer { name: "slip", title: "slip", unit: Unit::Length, kind: Kind::Positive },
-    Layer { name: "gap", title: "gap", unit: Unit::Length, kind: Kind::Signed },
-    Layer {
-        name: "displacement",
-        title: "displacement of both bodies",
-        unit: Unit::Length,
-        kind: Kind::Between,
-    },
-    Layer { name: "plastic", title: "plastic interference", unit: Unit::Length, kind: Kind::Positive },
-];
 
 /// One position, point or contact at rest.
 struct Frame {
@@ -428,18 +393,6 @@ impl Frame {
         let maps = fields.into_par_iter().filter_map(map).collect();
         self.with_maps(maps)
     }
-}
-
-/// A field in the levels of its layer, if it has one.
-pub(super) fn levels_of(name: &str, array: &StoredArray) -> Option<Levels> {
-    let StoredArray { field, grid: Grid { pitch, .. }, place, .. } = array;
-    let layer = LAYERS.iter().find(|layer| layer.name == name)?;
-    let levels = match layer.kind {
-        Kind::Positive => Levels::positive(field, *pitch),
-        Kind::Signed | Kind::Between => Levels::even(field, *pitch),
-        Kind::Classes(_) => Levels::classes(field, *pitch),
-    };
-    Some(levels.at([*place, 0.0], *pitch))
 }
 
 fn all_packed(frames: Vec<Frame>) -> Vec<PageFrame> {

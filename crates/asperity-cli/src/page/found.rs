@@ -7,8 +7,8 @@ use asperity::motion::{IncrementRecord, PassRecord, StepRecord, SweepRecord, Upd
 use asperity::study::{Case, Results, Summary};
 use serde_json::Value;
 
-use super::bodies::ShownBody;
 use super::packed::QuantisedField;
+use super::shown::ShownBody;
 use super::table::Table;
 use super::witness::{Prepared, Seen};
 use crate::draw::Charts;

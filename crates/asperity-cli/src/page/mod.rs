@@ -15,11 +15,13 @@ mod flow;
 mod found;
 mod head;
 mod html;
+mod layers;
 mod live;
 mod numbers;
 mod packed;
 mod passage;
 mod plane;
+mod shown;
 mod study;
 mod table;
 #[cfg(test)]

@@ -4,9 +4,9 @@ use asperity::io::fields::Fields;
 use asperity::study::Results;
 use rayon::prelude::*;
 
-use super::bodies::{MAX_CELLS, ShownBody};
-use super::contact::levels_of;
+use super::layers::levels_of;
 use super::packed::{self, Levels, QuantisedField};
+use super::shown::{MAX_CELLS, ShownBody};
 use crate::draw::{self, Charts, Paper};
 use crate::figures::{self, FigureOptions, HeightRange, Sheet, StoredArray, Witness};
 use crate::report::Outcome;

@@ -360,7 +360,7 @@ mod tests {
     }
 
     #[test]
-    fn noise_costs_no_time_and_little_more_space_than_the_best_compression() {
+    fn noise_takes_little_more_space_than_with_the_best_compression() {
         let len = 1 << 17;
         let values = heights(len);
         let mut best = ZlibEncoder::new(Vec::new(), Compression::best());
