@@ -2,6 +2,7 @@
 
 use colorous::{CIVIDIS, RED_BLUE, VIRIDIS};
 use ndarray::ArrayView2;
+use rayon::prelude::*;
 
 use super::image::{Image, Rgb};
 use super::scene::PAPER;
@@ -105,41 +106,78 @@ impl Shading {
         }
     }
 
-    /// The image, `width` × `height` pixels, of `cells` `[right, up]`: each pixel is the mean over its area, in colour
-    /// over the cells that have one.
-    pub(super) fn image(&self, cells: ArrayView2<f64>, [width, height]: [usize; 2]) -> Image {
+    /// The image, `width` × `height` pixels, of `cells` `[right, up]` with values in a `range`: each pixel is the mean over its
+    /// area, in colour over the cells that have one.
+    pub(super) fn image(&self, cells: ArrayView2<f64>, range: &Range, [width, height]: [usize; 2]) -> Image {
         let columns = shares(cells.nrows(), width);
         let rows = shares(cells.ncols(), height);
+        let [low, high] = self.range;
+        let linear = |value: f64| Tone::At((value - low) / (high - low));
+        // Columns of pixels, whose cells are neighbours in memory. The cases are those of [`Self::tone`], told apart here rather than
+        // in each cell.
+        let drawn: Vec<Vec<Rgb>> = match self.colours {
+            _ if range.has_missing => self.columns(cells, [&columns, &rows], |value| self.tone(value)),
+            Colours::Heights | Colours::Signed | Colours::Between => {
+                self.columns(cells, [&columns, &rows], linear)
+            }
+            Colours::Pressure => self.columns(cells, [&columns, &rows], |value| match value {
+                value if value <= 0.0 => Tone::Blank,
+                value => linear(value),
+            }),
+            Colours::Gap => self.columns(cells, [&columns, &rows], |value| match value {
+                value if value < 0.0 => Tone::Below,
+                value if value <= 0.0 => Tone::Blank,
+                value => linear(value),
+            }),
+            Colours::Classes(_) => self.columns(cells, [&columns, &rows], |value| match value {
+                value if value <= 0.0 => Tone::Blank,
+                value => Tone::At(value - 1.0),
+            }),
+            Colours::Logarithmic => self.columns(cells, [&columns, &rows], |value| self.tone(value)),
+        };
         let mut pixels = Vec::with_capacity(width * height);
-        for row in rows.iter().rev() {
-            for column in &columns {
-                // Blank, missing, below, shown.
-                let (mut parts, mut tone) = ([0.0; 4], 0.0);
-                for (ix, wx) in column {
-                    for (iy, wy) in row {
-                        let weight = wx * wy;
-                        match self.tone(cells[[*ix, *iy]]) {
-                            Tone::Blank => parts[0] += weight,
-                            Tone::Missing => parts[1] += weight,
-                            Tone::Below => parts[2] += weight,
-                            Tone::At(t) => {
-                                parts[3] += weight;
-                                tone += weight * t;
-                            }
+        for row in (0..height).rev() {
+            pixels.extend(drawn.iter().map(|column| column[row]));
+        }
+        Image { width, height, pixels, clear: false }
+    }
+
+    /// Columns of pixels, upwards, that cover these shares of cells.
+    fn columns(
+        &self,
+        cells: ArrayView2<f64>,
+        [columns, rows]: [&[Shares]; 2],
+        tone: impl Fn(f64) -> Tone + Sync,
+    ) -> Vec<Vec<Rgb>> {
+        let pixel = |column: &Shares, row: &Shares| {
+            // Blank, missing, below, shown.
+            let (mut parts, mut sum) = ([0.0; 4], 0.0);
+            for (ix, wx) in column {
+                for (iy, wy) in row {
+                    let weight = wx * wy;
+                    match tone(cells[[*ix, *iy]]) {
+                        Tone::Blank => parts[0] += weight,
+                        Tone::Missing => parts[1] += weight,
+                        Tone::Below => parts[2] += weight,
+                        Tone::At(t) => {
+                            parts[3] += weight;
+                            sum += weight * t;
                         }
                     }
                 }
-                let shown = if parts[3] > 0.0 { self.colour(tone / parts[3]) } else { PAPER };
-                let whole: f64 = parts.iter().sum();
-                let colours = [PAPER, MISSING, PLASTIC, shown];
-                pixels.push(std::array::from_fn(|c| {
-                    let sum: f64 =
-                        parts.iter().zip(colours).map(|(part, rgb)| part * f64::from(rgb[c])).sum();
-                    (sum / whole).round() as u8
-                }));
             }
-        }
-        Image { width, height, pixels, clear: false }
+            let shown = if parts[3] > 0.0 { self.colour(sum / parts[3]) } else { PAPER };
+            let colours = [PAPER, MISSING, PLASTIC, shown];
+            let whole: f64 = parts.iter().sum();
+            if let Some(only) = parts.iter().position(|part| *part == whole) {
+                return colours[only];
+            }
+            std::array::from_fn(|c| {
+                let sum: f64 = parts.iter().zip(colours).map(|(part, rgb)| part * f64::from(rgb[c])).sum();
+                (sum / whole).round() as u8
+            })
+        };
+        columns.par_iter().map(|column| rows.iter().map(|row| pixel(column, row)).collect()).collect()
     }
 
     /// A strip from the low end at the bottom to the high end at the top.
@@ -149,25 +187,24 @@ impl Shading {
         Image { width: 1, height: STEPS, pixels, clear: false }
     }
 
-    /// Colour and name of what `cells` show and no bar tells.
-    pub(super) fn keys(&self, cells: ArrayView2<f64>, missing: &str, blank: &str) -> Vec<(Rgb, String)> {
-        let has = |what: &dyn Fn(f64) -> bool| cells.iter().any(|value| what(*value));
+    /// Colour and name of what cells show and no bar tells.
+    pub(super) fn keys(&self, range: &Range, missing: &str, blank: &str) -> Vec<(Rgb, String)> {
         let mut keys = Vec::new();
         match self.colours {
             Colours::Classes(names) => {
                 let colours = [PAPER, ELASTIC, PLASTIC];
                 keys.extend(names.iter().zip(colours).map(|(name, colour)| (colour, (*name).to_owned())));
             }
-            Colours::Pressure if has(&|p| p.is_finite() && p <= 0.0) => keys.push((PAPER, blank.to_owned())),
+            Colours::Pressure if range.all[0] <= 0.0 => keys.push((PAPER, blank.to_owned())),
             Colours::Gap => {
                 keys.push((PAPER, "in contact".to_owned()));
-                if has(&|gap| gap < 0.0) {
+                if range.all[0] < 0.0 {
                     keys.push((PLASTIC, "in contact and flattened: negative by what has yielded".to_owned()));
                 }
             }
             _ => {}
         }
-        if has(&|value| !value.is_finite()) {
+        if range.has_missing {
             keys.push((MISSING, missing.to_owned()));
         }
         keys
@@ -192,8 +229,49 @@ pub(super) fn mix(a: Rgb, b: Rgb, t: f64) -> Rgb {
     std::array::from_fn(|c| (f64::from(a[c]) + t * (f64::from(b[c]) - f64::from(a[c]))).round() as u8)
 }
 
-/// The cells that each of `pixels` covers, and how much of it each cell fills.
-fn shares(cells: usize, pixels: usize) -> Vec<Vec<(usize, f64)>> {
+/// Extremes of the values of a map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Range {
+    /// Least and largest finite value.
+    pub(super) all: [f64; 2],
+    /// Least and largest finite value above 0.
+    pub(super) positive: [f64; 2],
+    /// Whether a value is not finite.
+    pub(super) has_missing: bool,
+}
+
+impl Range {
+    pub(super) fn of(cells: ArrayView2<f64>) -> Self {
+        const NONE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+        let none = || Self { all: NONE, positive: NONE, has_missing: false };
+        let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        let row = |row: usize| {
+            cells.row(row).iter().fold(none(), |mut range, value| {
+                if value.is_finite() {
+                    range.all = both(range.all, [*value; 2]);
+                    if *value > 0.0 {
+                        range.positive = both(range.positive, [*value; 2]);
+                    }
+                } else {
+                    range.has_missing = true;
+                }
+                range
+            })
+        };
+        let rows: Vec<Self> = (0..cells.nrows()).into_par_iter().map(row).collect();
+        rows.into_iter().fold(none(), |a, b| Self {
+            all: both(a.all, b.all),
+            positive: both(a.positive, b.positive),
+            has_missing: a.has_missing || b.has_missing,
+        })
+    }
+}
+
+/// Cells that a pixel covers along an axis, and how much of it each fills.
+type Shares = Vec<(usize, f64)>;
+
+/// The cells that each of `pixels` covers.
+fn shares(cells: usize, pixels: usize) -> Vec<Shares> {
     let of = |pixel: usize| {
         // In units of 1/pixels of a cell, so that edges that should meet do.
         let (start, end) = (pixel * cells, (pixel + 1) * cells);

@@ -2,9 +2,10 @@
 
 use asperity::grid::{Field, Grid};
 use ndarray::{ArrayView2, Axis};
+use rayon::prelude::*;
 
-use super::axis::{Quantity, Scale, Unit, extremes, widened};
-use super::colour::{Colours, Shading};
+use super::axis::{Quantity, Scale, Unit, widened};
+use super::colour::{Colours, Range, Shading};
 use super::frame::{Frame, Side, THIN};
 use super::image::Image;
 use super::legend::{Key, Legend, arrow, cross};
@@ -23,6 +24,7 @@ pub(crate) struct Map<'a> {
     pub(super) title: String,
     /// Cells `[right, up]`.
     pub(super) cells: ArrayView2<'a, f64>,
+    values: Range,
     /// Where the axes begin and end, SI.
     pub(super) ends: [[f64; 2]; 2],
     names: [String; 2],
@@ -121,8 +123,8 @@ impl<'a> Map<'a> {
         quantity: Quantity,
         colours: Colours,
     ) -> Self {
-        let shown = cells.iter().copied().filter(|v| colours.take_any_sign() || *v > 0.0);
-        let [low, high] = extremes(shown);
+        let values = Range::of(cells);
+        let [low, high] = if colours.take_any_sign() { values.all } else { values.positive };
         let range = match colours {
             Colours::Heights | Colours::Between | Colours::Logarithmic => [low, high],
             Colours::Signed if low <= high => [-high.max(-low), high.max(-low)],
@@ -138,6 +140,7 @@ impl<'a> Map<'a> {
         Self {
             title: title.into(),
             cells,
+            values,
             ends,
             names: names.map(str::to_owned),
             unit,
@@ -163,7 +166,7 @@ impl<'a> Map<'a> {
         if self.shading.colours.take_any_sign() && range[0] >= range[1] {
             return self;
         }
-        let [low, high] = extremes(self.cells.iter().copied());
+        let [low, high] = self.values.all;
         self.shading.range = widened(range);
         self.given = true;
         let slack = 1e-9 * (range[1] - range[0]);
@@ -229,7 +232,7 @@ impl<'a> Map<'a> {
 
     /// Whether one colour is all there is to see, so that a bar tells nothing.
     pub(super) fn is_flat(&self) -> bool {
-        let [low, high] = extremes(self.cells.iter().copied());
+        let [low, high] = self.values.all;
         self.shading.colours.take_any_sign() && !self.given && low >= high
     }
 
@@ -242,7 +245,7 @@ impl<'a> Map<'a> {
 
     /// What its colours and signs mean.
     pub(super) fn explain(&self, legend: &mut Legend) {
-        for (colour, name) in self.shading.keys(self.cells, self.missing, self.blank) {
+        for (colour, name) in self.shading.keys(&self.values, self.missing, self.blank) {
             legend.add(Key::Box(colour), name);
         }
         if let Some((_, name)) = self.outline {
@@ -295,14 +298,14 @@ impl<'a> Map<'a> {
         if let Some(place) = self.mark.and_then(|(point, _)| frame.place(point)) {
             cross(scene, place);
         }
-        if !self.shading.colours.take_any_sign() && !self.cells.iter().any(|v| *v > 0.0) {
+        if !self.shading.colours.take_any_sign() && self.values.positive[1] < 0.0 {
             scene.words("none", at.middle(), MEDIUM, Anchor::Middle, FAINT);
         }
         let stretched = if self.is_to_scale() { "" } else { ", not to scale" };
         frame.edge(scene, &format!("{}{stretched}", x.label(&self.names[0])));
         frame.side(scene, y, &y.label(&self.names[1]), Side::Left);
         scene.text(&self.title, [at.middle()[0], at.y - LARGE / 2.0 - 3.0], LARGE, Anchor::Middle);
-        if self.is_flat() && self.cells.iter().any(|v| v.is_finite()) {
+        if self.is_flat() && self.values.all[0].is_finite() {
             scene.words("flat", at.middle(), MEDIUM, Anchor::Middle, PAPER);
         }
     }
@@ -322,7 +325,7 @@ impl<'a> Map<'a> {
     /// A pixel for a cell, where so many fit.
     fn image(&self, fits: [usize; 2]) -> Image {
         let cells = [self.cells.nrows(), self.cells.ncols()];
-        self.shading.image(self.cells, [0, 1].map(|axis| cells[axis].min(fits[axis])))
+        self.shading.image(self.cells, &self.values, [0, 1].map(|axis| cells[axis].min(fits[axis])))
     }
 }
 
@@ -339,25 +342,31 @@ fn edge(ends: [f64; 2], cells: usize, index: usize) -> f64 {
 /// The edges between cells above 0 and others, as long as they run straight.
 fn outline(field: &Field, frame: &Frame, ends: [[f64; 2]; 2]) -> Vec<Vec<Point>> {
     let shape = [field.nrows(), field.ncols()];
-    let inside = |i: isize, j: isize| {
-        i >= 0 && j >= 0 && field.get([i as usize, j as usize]).is_some_and(|value| *value > 0.0)
-    };
-    let mut lines = Vec::new();
+    // Cells along x, which a line below a row runs along, and along y.
+    let along_y: Vec<bool> = field.iter().map(|value| *value > 0.0).collect();
+    let mut along_x = vec![false; along_y.len()];
+    along_x.par_chunks_mut(shape[0]).enumerate().for_each(|(j, row)| {
+        row.iter_mut().enumerate().for_each(|(i, inside)| *inside = along_y[i * shape[1] + j]);
+    });
     // Along x below each row, then along y left of each column.
-    for axis in [0, 1] {
-        let (along, across) = (shape[axis] as isize, shape[1 - axis] as isize);
-        let parted = |a: isize, c: isize| {
-            if axis == 0 { inside(a, c - 1) != inside(a, c) } else { inside(c - 1, a) != inside(c, a) }
-        };
-        for c in 0..=across {
+    let lines_of = |axis: usize| {
+        let cells: &[bool] = if axis == 0 { &along_x } else { &along_y };
+        let (along, across) = (shape[axis], shape[1 - axis]);
+        let rows = (0..=across).into_par_iter();
+        rows.flat_map_iter(move |c| {
+            let row =
+                |c: Option<usize>| c.filter(|c| *c < across).map(|c| &cells[c * along..(c + 1) * along]);
+            let (before, after) = (row(c.checked_sub(1)), row(Some(c)));
+            let inside = |row: Option<&[bool]>, a: usize| row.is_some_and(|row| row[a]);
+            let mut lines = Vec::new();
             let mut begin = None;
             for a in 0..=along {
-                match (begin, a < along && parted(a, c)) {
+                match (begin, a < along && inside(before, a) != inside(after, a)) {
                     (None, true) => begin = Some(a),
                     (Some(first), false) => {
                         let points = [first, a].map(|a| {
                             let index = if axis == 0 { [a, c] } else { [c, a] };
-                            [0, 1].map(|axis| edge(ends[axis], shape[axis], index[axis] as usize))
+                            [0, 1].map(|axis| edge(ends[axis], shape[axis], index[axis]))
                         });
                         lines.push(points.iter().filter_map(|point| frame.place(*point)).collect());
                         begin = None;
@@ -365,9 +374,10 @@ fn outline(field: &Field, frame: &Frame, ends: [[f64; 2]; 2]) -> Vec<Vec<Point>>
                     _ => {}
                 }
             }
-        }
-    }
-    lines
+            lines
+        })
+    };
+    [0, 1].into_iter().flat_map(|axis| lines_of(axis).collect::<Vec<_>>()).collect()
 }
 
 /// The line at a level of a field whose cells lie between the ends of the axes.

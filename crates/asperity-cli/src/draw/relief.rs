@@ -1,9 +1,10 @@
 //! A field in perspective, with light on it.
 
 use asperity::grid::Field;
+use rayon::prelude::*;
 
-use super::axis::{Quantity, Scale, Unit, extremes, widened};
-use super::colour::{Colours, MISSING, Shading};
+use super::axis::{Quantity, Scale, Unit, widened};
+use super::colour::{Colours, MISSING, Range, Shading};
 use super::frame::THIN;
 use super::image::{Image, Rgb};
 use super::output::{Figure, Paper};
@@ -64,7 +65,7 @@ impl<'a> Relief<'a> {
 
     /// Whether there is nothing that rises.
     pub(crate) fn is_flat(&self) -> bool {
-        let [low, high] = extremes(self.field.iter().copied());
+        let [low, high] = Range::of(self.field.view()).all;
         low >= high
     }
 
@@ -73,20 +74,22 @@ impl<'a> Relief<'a> {
         let shape = [self.field.nrows(), self.field.ncols()];
         let block = shape[0].max(shape[1]).div_ceil(PATCHES);
         let counts = shape.map(|n| (n / block).max(1));
-        Field::from_shape_fn(counts, |(i, j)| {
+        let patch = |i: usize, j: usize| {
             let cells = (i * block..((i + 1) * block).min(shape[0]))
                 .flat_map(|i| (j * block..((j + 1) * block).min(shape[1])).map(move |j| self.field[[i, j]]));
             let (sum, count) = cells.fold((0.0, 0.0), |(sum, count), z| (sum + z, count + 1.0));
             sum / count
-        })
+        };
+        let rows = (0..counts[0]).into_par_iter();
+        let means: Vec<f64> = rows.flat_map_iter(|i| (0..counts[1]).map(move |j| patch(i, j))).collect();
+        Field::from_shape_vec(counts, means).expect("a mean of each patch")
     }
 }
 
 impl Figure for Relief<'_> {
     fn scene(&self, paper: &Paper) -> Scene {
         let width = paper.width(WIDTH);
-        let range =
-            widened(paper.range.or(self.range).unwrap_or_else(|| extremes(self.field.iter().copied())));
+        let range = widened(paper.range.or(self.range).unwrap_or_else(|| Range::of(self.field.view()).all));
         let lengths = self.ends.map(|[begin, end]| (end - begin).abs());
         let (view, height) = View::new(lengths, self.rise, width);
         let mut scene = Scene::new([width, height]);
@@ -193,13 +196,17 @@ impl Relief<'_> {
             let colour = if z.is_finite() { shading.of(z) } else { MISSING };
             (view.fine(place([i, j]), scale), view.lit(colour, around))
         });
-        for (i, j) in (0..counts[0].max(2) - 1).flat_map(|i| (0..counts[1].max(2) - 1).map(move |j| (i, j))) {
-            let next = |index: usize, axis: usize| (index + 1).min(counts[axis] - 1);
-            let patch =
-                [[i, j], [next(i, 0), j], [next(i, 0), next(j, 1)], [i, next(j, 1)]].map(|c| corners[c]);
-            canvas.triangle([patch[0], patch[1], patch[2]]);
-            canvas.triangle([patch[0], patch[2], patch[3]]);
-        }
+        let triangles = || {
+            let places =
+                (0..counts[0].max(2) - 1).flat_map(|i| (0..counts[1].max(2) - 1).map(move |j| (i, j)));
+            places.flat_map(|(i, j)| {
+                let next = |index: usize, axis: usize| (index + 1).min(counts[axis] - 1);
+                let patch =
+                    [[i, j], [next(i, 0), j], [next(i, 0), next(j, 1)], [i, next(j, 1)]].map(|c| corners[c]);
+                [[patch[0], patch[1], patch[2]], [patch[0], patch[2], patch[3]]]
+            })
+        };
+        canvas.bands().for_each(|mut band| triangles().for_each(|triangle| band.triangle(triangle)));
         canvas.reduced(width, height)
     }
 }
@@ -299,15 +306,45 @@ type Corner = ([f64; 3], [f64; 3]);
 /// Pixels with their nearness.
 struct Canvas {
     width: usize,
-    height: usize,
     pixels: Vec<(f32, Rgb)>,
 }
 
 impl Canvas {
     fn new(width: usize, height: usize) -> Self {
-        Self { width, height, pixels: vec![(f32::NEG_INFINITY, PAPER); width * height] }
+        Self { width, pixels: vec![(f32::NEG_INFINITY, PAPER); width * height] }
     }
 
+    /// Bands of rows, which threads draw each alone.
+    fn bands(&mut self) -> impl ParallelIterator<Item = Band<'_>> {
+        /// Rows of a band.
+        const ROWS: usize = 128;
+        let width = self.width;
+        let bands = self.pixels.par_chunks_mut(ROWS * width).enumerate();
+        bands.map(move |(at, pixels)| Band { width, first: at * ROWS, pixels })
+    }
+
+    fn reduced(&self, width: usize, height: usize) -> Image {
+        let pixel = |y: usize, x: usize| {
+            let fine =
+                (0..FINE).flat_map(|j| (0..FINE).map(move |i| (y * FINE + j) * self.width + x * FINE + i));
+            let sum = fine
+                .fold([0u32; 3], |sum, i| std::array::from_fn(|c| sum[c] + u32::from(self.pixels[i].1[c])));
+            sum.map(|s| (s / (FINE * FINE) as u32) as u8)
+        };
+        let rows = (0..height).into_par_iter();
+        let pixels = rows.flat_map_iter(|y| (0..width).map(move |x| pixel(y, x))).collect();
+        Image { width, height, pixels, clear: true }
+    }
+}
+
+/// Rows of a canvas, from the `first` on.
+struct Band<'a> {
+    width: usize,
+    first: usize,
+    pixels: &'a mut [(f32, Rgb)],
+}
+
+impl Band<'_> {
     fn triangle(&mut self, triangle: [Corner; 3]) {
         let (corners, colours) = (triangle.map(|corner| corner.0), triangle.map(|corner| corner.1));
         let [a, b, c] = corners;
@@ -324,14 +361,20 @@ impl Canvas {
             let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max).ceil().max(0.0) as usize;
             low..high.min(most)
         };
-        for y in ends(1, self.height) {
+        let (first, end) = (self.first, self.first + self.pixels.len() / self.width);
+        let rows = ends(1, end);
+        for y in rows.start.max(first)..rows.end {
             for x in ends(0, self.width) {
                 let (px, py) = (x as f64 + 0.5, y as f64 + 0.5);
-                let shares =
-                    [cross(b, c, px, py), cross(c, a, px, py), cross(a, b, px, py)].map(|v| v / area);
+                let parts = [cross(b, c, px, py), cross(c, a, px, py), cross(a, b, px, py)];
+                // Most pixels are clearly outside, which takes no division to see.
+                if parts.iter().any(|part| part * area.signum() < -1e-8 * area.abs()) {
+                    continue;
+                }
+                let shares = parts.map(|part| part / area);
                 if shares.iter().all(|share| *share >= -1e-9) {
                     let near = (shares[0] * a[2] + shares[1] * b[2] + shares[2] * c[2]) as f32;
-                    let pixel = &mut self.pixels[y * self.width + x];
+                    let pixel = &mut self.pixels[(y - first) * self.width + x];
                     if near > pixel.0 {
                         let mixed = |i: usize| (0..3).map(|k| shares[k] * colours[k][i]).sum::<f64>();
                         *pixel = (near, [0, 1, 2].map(|i| mixed(i).clamp(0.0, 254.0) as u8));
@@ -339,18 +382,6 @@ impl Canvas {
                 }
             }
         }
-    }
-
-    fn reduced(&self, width: usize, height: usize) -> Image {
-        let mut pixels = Vec::with_capacity(width * height);
-        for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
-            let fine =
-                (0..FINE).flat_map(|j| (0..FINE).map(move |i| (y * FINE + j) * self.width + x * FINE + i));
-            let sum = fine
-                .fold([0u32; 3], |sum, i| std::array::from_fn(|c| sum[c] + u32::from(self.pixels[i].1[c])));
-            pixels.push(sum.map(|s| (s / (FINE * FINE) as u32) as u8));
-        }
-        Image { width, height, pixels, clear: true }
     }
 }
 

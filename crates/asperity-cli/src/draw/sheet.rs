@@ -233,8 +233,10 @@ pub(crate) fn range_of_heights<'a>(
     if heights.is_empty() {
         return None;
     }
-    heights.sort_unstable_by(f64::total_cmp);
-    let at = |share: f64| heights[((heights.len() - 1) as f64 * share).round() as usize];
+    let mut at = |share: f64| {
+        let place = ((heights.len() - 1) as f64 * share).round() as usize;
+        *heights.select_nth_unstable_by(place, f64::total_cmp).1
+    };
     let (all, most) = ([at(0.0), at(1.0)], [at(0.001), at(0.999)]);
     let width = |[low, high]: [f64; 2]| high - low;
     if width(most) > 0.0 && width(all) > 1.5 * width(most) {

@@ -23,6 +23,7 @@ mod tests;
 
 use std::path::PathBuf;
 
+use asperity::io::fields::Fields;
 use asperity::study::Results;
 
 use crate::draw::{Charts, Mark, Paper, Series};
@@ -35,8 +36,9 @@ pub(crate) use friction::stick;
 pub(crate) use loading::curves as of_loading;
 pub(crate) use passage::{FLOW, FLUX, curves as passage_curves, flow_map, flux_map};
 pub(crate) use pressure::histogram;
-pub(crate) use rest::{approach, open_gap, profile as profile_at_rest};
+pub(crate) use rest::{HeightRange, Witness, approach, open_gap, profile as profile_at_rest};
 pub(crate) use rolling::curves as of_rolling;
+pub(crate) use sheet::Sheet;
 pub(crate) use sliding::curves as of_sliding;
 pub(crate) use stored::{Cap, StoredArray, ends_with_tension, in_frame_of};
 pub(crate) use subsurface::{columns as stress_columns, contact as contact_of_section};
@@ -85,23 +87,44 @@ pub(crate) fn draw(
     wanted: &FigureOptions,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Outcome<Vec<PathBuf>> {
-    gather(results, wanted, stop)?.finish()
+    gathered(results, wanted, stop)?.finish()
 }
 
 /// The figures of `results` as PNG files in memory, with their titles.
 pub(crate) fn pictures(results: &Results, wanted: &FigureOptions) -> Outcome<Vec<(String, Vec<u8>)>> {
-    gather(results, wanted, &|| false)?.pictures()
+    gathered(results, wanted, &|| false)?.pictures()
 }
 
-fn gather<'a>(
+/// Draws the figures of `results`, and some of them on a second paper. A witness sees the arrays of a static contact, which are read
+/// from `fields`.
+pub(crate) fn gathered_with<'a>(
+    results: &Results,
+    wanted: &'a FigureOptions,
+    beside: (Paper, &'a [&'a str]),
+    stop: &'a (dyn Fn() -> bool + Sync),
+    witness: (&Fields, &mut dyn Witness),
+) -> Outcome<Sheet<'a>> {
+    let sheet = Sheet::new(results, wanted, stop)?.with_pictures(beside);
+    gather_on(sheet, results, Some(witness))
+}
+
+/// Draws the figures of `results`.
+pub(crate) fn gathered<'a>(
     results: &Results,
     wanted: &'a FigureOptions,
     stop: &'a (dyn Fn() -> bool + Sync),
-) -> Outcome<sheet::Sheet<'a>> {
-    let mut sheet = sheet::Sheet::new(results, wanted, stop)?;
+) -> Outcome<Sheet<'a>> {
+    gather_on(Sheet::new(results, wanted, stop)?, results, None)
+}
+
+fn gather_on<'a>(
+    mut sheet: Sheet<'a>,
+    results: &Results,
+    witness: Option<(&Fields, &mut dyn Witness)>,
+) -> Outcome<Sheet<'a>> {
     let passes = results.passes()?;
     let of = match passes.is_empty() {
-        true => rest::draw(results, &mut sheet)?,
+        true => rest::draw(results, &mut sheet, witness)?,
         false => motion::draw(results, &passes, &mut sheet)?,
     };
     let updates = results.updates()?;

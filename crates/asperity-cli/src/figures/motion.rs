@@ -10,7 +10,7 @@ use asperity::units::{Dimension, format};
 use asperity::{Field, Grid};
 
 use super::pressure;
-use super::profile::{OverlapFields, Profile};
+use super::profile::{OverlapFields, Profile, Row, most_loaded};
 use super::sheet::Sheet;
 use super::stored::{Cap, StoredArray, touched};
 use super::surfaces;
@@ -339,18 +339,21 @@ fn section(results: &Results, pressure: &StoredArray, step: &StepRecord) -> Outc
     // What is left of the interference where they touch.
     let mut plastic = &below - &above - &displacement + step.approach;
     plastic.zip_mut_with(&pressure.field, |w, p| *w = if *p > 0.0 { w.max(0.0) } else { 0.0 });
+    let touching = touched(&pressure.field);
+    let Some(spot) = most_loaded(&pressure.field, &touching) else { return Ok(None) };
+    let row = |field: &'_ Field| field.column(spot[1]).to_owned();
+    let [lower, upper, yielded] = [&below, &above, &plastic].map(row);
     let facing = OverlapFields {
-        touching: &touched(&pressure.field),
-        lower: &below,
-        upper: &above,
+        touching: &touching,
         pressure: &pressure.field,
+        row: Row { lower: lower.view(), upper: upper.view(), plastic: yielded.view() },
         displacement: &displacement,
-        plastic: &plastic,
+        is_plastic: plastic.iter().any(|w| *w > 0.0),
         approach: step.approach,
         pitch: pressure.grid.pitch,
         column: pressure.column,
     };
-    Profile::of(&facing, &case)
+    Profile::of(&facing, spot, &case)
 }
 
 /// Sa, Sq, Ssk, Sk, Spk and Svk of both bodies.

@@ -9,26 +9,28 @@ use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
 const CLASSES: usize = 40;
 
 /// The shares of the contact area in classes of pressure, with the cap where there is one: of cells with a pressure.
-pub(crate) fn histogram<'a>(fields: impl IntoIterator<Item = &'a Field>, cap: &Cap) -> Charts {
-    distribution(fields.into_iter().flat_map(|f| f.iter().copied().filter(|p| p.abs() > 0.0)).collect(), cap)
+pub(crate) fn histogram<'a>(fields: impl IntoIterator<Item = &'a Field> + Clone, cap: &Cap) -> Charts {
+    let values = || fields.clone().into_iter().flat_map(|field| field.iter().copied());
+    distribution(|| values().filter(|p| p.abs() > 0.0), cap)
 }
 
 /// The shares of the contact area in classes of pressure, of the cells that are `touching`: above 0.
 pub(crate) fn histogram_on(pressure: &Field, touching: &Field, cap: &Cap) -> Charts {
-    let cells = pressure.iter().zip(touching).filter(|(_, touching)| **touching > 0.0);
-    distribution(cells.map(|(p, _)| *p).collect(), cap)
+    let cells = || pressure.iter().zip(touching).filter(|(_, touching)| **touching > 0.0);
+    distribution(|| cells().map(|(p, _)| *p), cap)
 }
 
-fn distribution(pressures: Vec<f64>, cap: &Cap) -> Charts {
+fn distribution<P: Iterator<Item = f64>>(pressures: impl Fn() -> P, cap: &Cap) -> Charts {
     // Cells in contact may be under tension.
-    let [least, largest] = [f64::min, f64::max].map(|pick| pressures.iter().copied().fold(0.0, pick));
+    let [least, largest] = [f64::min, f64::max].map(|pick| pressures().fold(0.0, pick));
     let mut counts = [0usize; CLASSES];
-    for p in &pressures {
+    for p in pressures() {
         counts[(((p - least) / (largest - least) * CLASSES as f64) as usize).min(CLASSES - 1)] += 1;
     }
+    let all: usize = counts.iter().sum();
     let width = (largest - least) / CLASSES as f64;
-    let share = |count: usize| 100.0 * count as f64 / pressures.len() as f64;
-    let bars: Vec<[f64; 2]> = match pressures.is_empty() {
+    let share = |count: usize| 100.0 * count as f64 / all as f64;
+    let bars: Vec<[f64; 2]> = match all == 0 {
         true => Vec::new(),
         false => {
             counts.iter().enumerate().map(|(i, n)| [least + (i as f64 + 0.5) * width, share(*n)]).collect()

@@ -6,6 +6,7 @@ use asperity::operator::Operators;
 use asperity::study::Case;
 use asperity::study::case::Hardness;
 use asperity::{Field, Grid};
+use ndarray::{Array1, ArrayView1};
 
 use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
 use crate::report::Outcome;
@@ -17,20 +18,28 @@ const MIN_AROUND: usize = 12;
 
 /// What faces at one position, all on one grid.
 pub(super) struct OverlapFields<'a> {
-    pub(super) lower: &'a Field,
-    /// The upper body's underside.
-    pub(super) upper: &'a Field,
     pub(super) pressure: &'a Field,
     /// Above 0 in contact.
     pub(super) touching: &'a Field,
+    /// Fields along the row of the section.
+    pub(super) row: Row<'a>,
     /// Elastic displacement of both bodies, positive where it opens the gap.
     pub(super) displacement: &'a Field,
-    /// What both bodies have taken up plastically.
-    pub(super) plastic: &'a Field,
+    /// Whether any cell has yielded.
+    pub(super) is_plastic: bool,
     pub(super) approach: f64,
     pub(super) pitch: [f64; 2],
     /// Where the grid begins on the lower body, in columns.
     pub(super) column: usize,
+}
+
+/// Fields along a row of cells.
+pub(super) struct Row<'a> {
+    pub(super) lower: ArrayView1<'a, f64>,
+    /// The upper body's underside.
+    pub(super) upper: ArrayView1<'a, f64>,
+    /// Plastic interference of both bodies.
+    pub(super) plastic: ArrayView1<'a, f64>,
 }
 
 /// A row of cells; pairs of x and a value.
@@ -46,12 +55,11 @@ pub(super) struct Profile {
 }
 
 impl Profile {
-    /// The section through the cell of the largest pressure, of several that in the midst of the most; none without
-    /// contact.
-    pub(super) fn of(facing: &OverlapFields, case: &Case) -> Outcome<Option<Self>> {
-        let Some([ix, iy]) = most_loaded(facing).filter(|_| facing.approach.is_finite()) else {
+    /// The section through the cell of the largest pressure, [`most_loaded`]; none without a known approach.
+    pub(super) fn of(facing: &OverlapFields, [ix, iy]: [usize; 2], case: &Case) -> Outcome<Option<Self>> {
+        if !facing.approach.is_finite() {
             return Ok(None);
-        };
+        }
         let row = facing.pressure.column(iy);
         let touching = facing.touching.column(iy);
         let first = (0..ix).rev().find(|i| touching[*i] <= 0.0).map_or(0, |i| i + 1);
@@ -65,18 +73,18 @@ impl Profile {
         });
         let plastic = match (lower, upper) {
             (Some(lower), Some(upper)) => plastic_share(lower, upper),
-            _ if facing.plastic.iter().any(|w| *w > 0.0) => return Ok(None),
+            _ if facing.is_plastic => return Ok(None),
             _ => 0.0,
         };
-        let lower_displacement = lower_displacement(facing, case)?;
+        let lower_displacement = lower_displacement(facing, iy, case)?;
         let along = |value: &dyn Fn(usize) -> f64| -> Vec<[f64; 2]> {
             let x = |i: usize| ((facing.column + i) as f64 + 0.5) * facing.pitch[0];
             shown.clone().map(|i| [x(i), value(i)]).collect()
         };
-        let (u, w) = (|i: usize| facing.displacement[[i, iy]], |i: usize| facing.plastic[[i, iy]]);
-        let lower_displacement = |i: usize| lower_displacement[[i, iy]];
-        let below = |i: usize| facing.lower[[i, iy]];
-        let above = |i: usize| facing.upper[[i, iy]] - facing.approach;
+        let (u, w) = (|i: usize| facing.displacement[[i, iy]], |i: usize| facing.row.plastic[i]);
+        let lower_displacement = |i: usize| lower_displacement[i];
+        let below = |i: usize| facing.row.lower[i];
+        let above = |i: usize| facing.row.upper[i] - facing.approach;
         Ok(Some(Self {
             y: (iy as f64 + 0.5) * facing.pitch[1],
             undeformed: [along(&below), along(&above)],
@@ -121,9 +129,9 @@ impl Profile {
 }
 
 /// The cell of the largest pressure; of several, such as all at the hardness, that whose surroundings bear the most.
-fn most_loaded(OverlapFields { pressure, touching, .. }: &OverlapFields) -> Option<[usize; 2]> {
+pub(super) fn most_loaded(pressure: &Field, touching: &Field) -> Option<[usize; 2]> {
     const AROUND: usize = 2;
-    let cells = || pressure.indexed_iter().zip(*touching).filter(|(_, touching)| **touching > 0.0);
+    let cells = || pressure.indexed_iter().zip(touching).filter(|(_, touching)| **touching > 0.0);
     let largest = cells().map(|((_, p), _)| *p).fold(f64::NEG_INFINITY, f64::max);
     let around = |&[i, j]: &[usize; 2]| {
         let ends = |at: usize, n: usize| at.saturating_sub(AROUND)..(at + AROUND + 1).min(n);
@@ -134,16 +142,16 @@ fn most_loaded(OverlapFields { pressure, touching, .. }: &OverlapFields) -> Opti
     loaded.map(|((i, j), _)| [i, j]).max_by(|a, b| around(a).total_cmp(&around(b)))
 }
 
-/// The part of the elastic displacement that is the lower body's, positive downwards.
-fn lower_displacement(facing: &OverlapFields, case: &Case) -> Outcome<Field> {
+/// The part of the elastic displacement along row `iy` that is the lower body's, positive downwards.
+fn lower_displacement(facing: &OverlapFields, iy: usize, case: &Case) -> Outcome<Array1<f64>> {
     let (lower, upper) = (&case.lower.material, &case.upper.material);
     let rigid = Material::elastic(f64::INFINITY, 0.0)?;
     if lower.young.is_infinite() && lower.coating.is_none() {
-        return Ok(Field::zeros(facing.pressure.raw_dim()));
+        return Ok(Array1::zeros(facing.pressure.nrows()));
     }
     if lower.coating.is_none() && upper.coating.is_none() {
         let share = Compliances::new(lower, &rigid)?.normal / Compliances::new(lower, upper)?.normal;
-        return Ok(share * facing.displacement);
+        return Ok(share * &facing.displacement.column(iy));
     }
     // Of a coated pair the share depends on the wavelength.
     let grid = Grid { shape: facing.pressure.dim().into(), pitch: facing.pitch };
@@ -151,5 +159,5 @@ fn lower_displacement(facing: &OverlapFields, case: &Case) -> Outcome<Field> {
     Operators::new(grid, response(lower, &rigid)?, case.contact.boundary)
         .on(grid.shape)
         .apply(facing.pressure, &mut lower_displacement);
-    Ok(lower_displacement)
+    Ok(lower_displacement.column(iy).to_owned())
 }

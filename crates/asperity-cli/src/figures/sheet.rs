@@ -14,12 +14,16 @@ use crate::report::{Failure, Outcome};
 const DELAY: u16 = 12;
 
 /// The figures drawn so far. They are written in the end, on as many threads as there are.
-pub(super) struct Sheet<'a> {
+pub(crate) struct Sheet<'a> {
     folder: PathBuf,
     wanted: &'a FigureOptions,
     case: String,
     names: Vec<String>,
     drawings: Vec<(PathBuf, Drawing)>,
+    /// A second paper, and the names of the figures that are also drawn on it.
+    beside: Option<(Paper, &'a [&'a str])>,
+    /// Scenes on the second paper, with the names of their figures.
+    pictures: Vec<(String, Scene)>,
     /// Whether no more are wanted.
     stop: &'a (dyn Fn() -> bool + Sync),
 }
@@ -44,7 +48,18 @@ impl<'a> Sheet<'a> {
             case.push('…');
         }
         let folder = results.figures_folder();
-        Ok(Self { folder, wanted, case, names: Vec::new(), drawings: Vec::new(), stop })
+        let (names, drawings, pictures) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(Self { folder, wanted, case, names, drawings, beside: None, pictures, stop })
+    }
+
+    /// Also draws the figures of these names on another paper, whether they are wanted or not.
+    pub(super) fn with_pictures(self, beside: (Paper, &'a [&'a str])) -> Self {
+        Self { beside: Some(beside), ..self }
+    }
+
+    /// Takes the scenes on the second paper, with the names of their figures.
+    pub(crate) fn take_pictures(&mut self) -> Vec<(String, Scene)> {
+        std::mem::take(&mut self.pictures)
     }
 
     /// Adds a figure, if it is wanted: what it shows, of what load and pass.
@@ -55,11 +70,20 @@ impl<'a> Sheet<'a> {
         of: &str,
         figure: impl FnOnce() -> Outcome<F>,
     ) -> Outcome {
-        if self.wants(name) {
-            self.check_interrupted()?;
-            let scene = draw::captioned(&figure()?, &self.caption(title, of), &self.wanted.paper);
+        let is_wanted = self.wants(name);
+        let beside = self.beside.filter(|(_, names)| names.contains(&name)).map(|(paper, _)| paper);
+        if !is_wanted && beside.is_none() {
+            return Ok(());
+        }
+        self.check_interrupted()?;
+        let (figure, caption) = (figure()?, self.caption(title, of));
+        if is_wanted {
+            let scene = draw::captioned(&figure, &caption, &self.wanted.paper);
             let path = self.folder.join(format!("{name}.{}", self.wanted.paper.format.extension()));
             self.drawings.push((path, Drawing::Still(scene)));
+        }
+        if let Some(paper) = beside {
+            self.pictures.push((name.to_owned(), draw::captioned(&figure, &caption, &paper)));
         }
         Ok(())
     }
@@ -112,7 +136,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// All that do not move as PNG files, with their names.
-    pub(super) fn pictures(self) -> Outcome<Vec<(String, Vec<u8>)>> {
+    pub(crate) fn pictures(self) -> Outcome<Vec<(String, Vec<u8>)>> {
         let dpi = self.wanted.paper.dpi;
         let still = self.drawings.iter().filter_map(|(path, drawing)| match drawing {
             Drawing::Still(scene) => Some((path, scene)),
@@ -127,7 +151,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// Writes all figures and returns their paths.
-    pub(super) fn finish(self) -> Outcome<Vec<PathBuf>> {
+    pub(crate) fn finish(self) -> Outcome<Vec<PathBuf>> {
         if let Some(unknown) = self.wanted.only.iter().find(|name| !self.names.contains(name)) {
             let hint = format!("there are {}", self.names.join(", "));
             return Err(Failure::usage(format!("no figure `{unknown}` of these results"), Some(&hint)));

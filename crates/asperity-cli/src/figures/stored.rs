@@ -1,5 +1,7 @@
 //! Fields as they are stored, ready to be drawn.
 
+use std::borrow::Cow;
+
 use asperity::io::fields::{Attribute, Fields};
 use asperity::units::CELSIUS;
 use asperity::{Field, Grid};
@@ -81,21 +83,23 @@ impl StoredArray {
             _ if touching > 0.0 => 1.0,
             _ => 0.0,
         };
-        let mut classes = self.field.clone();
-        let cells = Zip::from(&mut classes).and(touching);
-        match cap {
-            Cap::Field(caps) => cells.and(caps).for_each(|p, touching, cap| *p = class(*p, *touching, *cap)),
-            Cap::Number(cap) => cells.for_each(|p, touching| *p = class(*p, *touching, *cap)),
-        }
-        self.with(classes)
+        self.with(match cap {
+            Cap::Field(caps) => Zip::from(&self.field)
+                .and(touching)
+                .and(caps)
+                .map_collect(|p, touching, cap| class(*p, *touching, *cap)),
+            Cap::Number(cap) => {
+                Zip::from(&self.field).and(touching).map_collect(|p, touching| class(*p, *touching, *cap))
+            }
+        })
     }
 
     /// Values above 0 on the cells in contact under this pressure: the field `contact` of bodies that attract each other at rest, which
     /// pull across the gap. Others have no pressure there.
-    pub(crate) fn touching(fields: &Fields, pressure: &Self) -> Outcome<Field> {
+    pub(crate) fn touching<'a>(fields: &Fields, pressure: &'a Self) -> Outcome<Cow<'a, Field>> {
         match fields.names()?.iter().any(|name| name == "contact") {
-            true => Ok(Self::read(fields, "contact")?.field),
-            false => Ok(touched(&pressure.field)),
+            true => Ok(Cow::Owned(Self::read(fields, "contact")?.field)),
+            false => Ok(Cow::Borrowed(&pressure.field)),
         }
     }
 }

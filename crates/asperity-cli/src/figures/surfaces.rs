@@ -20,6 +20,19 @@ pub(crate) fn as_measured([lower, upper]: &[StoredArray; 2]) -> Outcome<[Topogra
     Ok([of(lower)?, of(upper)?.underside()])
 }
 
+/// Curves of both bodies at rest. A curve takes as much memory as several fields, so that they are made one after the other, and each
+/// body is dropped after its own.
+pub(super) fn at_rest([lower, upper]: [StoredArray; 2]) -> Outcome<Vec<Curves>> {
+    let of = |stored: StoredArray| Topography::new(stored.grid, stored.field);
+    let charts = |body: Topography, title: &str| {
+        let states = [("", &body)];
+        [material_ratio(&states, title), spectrum(&states, title)]
+    };
+    let [lower_ratio, lower_spectrum] = charts(of(lower)?, BODIES[0]);
+    let [upper_ratio, upper_spectrum] = charts(of(upper)?.underside(), BODIES[1]);
+    Ok(with_points([vec![lower_ratio, upper_ratio], vec![lower_spectrum, upper_spectrum]]))
+}
+
 /// The chart of a body from its states with their names, and a title.
 type OfStates<'a> = &'a dyn Fn(&[(&str, &Topography)], &str) -> Chart;
 
@@ -31,13 +44,20 @@ pub(crate) fn curves(before: &[Topography; 2], after: Option<&[Topography; 2]>) 
             let before = (if now.is_some() { "before" } else { "" }, &before[index]);
             chart(&[Some(before), now].into_iter().flatten().collect::<Vec<_>>(), title)
         };
-        let charts = ["lower body", "upper body"].into_iter().enumerate().map(body).collect();
-        Charts { charts, columns: 2, aspect: 0.8 }
+        BODIES.into_iter().enumerate().map(body).collect()
     };
+    with_points([charts(&material_ratio), charts(&spectrum)])
+}
+
+const BODIES: [&str; 2] = ["lower body", "upper body"];
+
+/// The curves of these charts, without those that have no points.
+fn with_points([ratios, spectra]: [Vec<Chart>; 2]) -> Vec<Curves> {
+    let charts = |charts| Charts { charts, columns: 2, aspect: 0.8 };
     let [ratio, densities] = NAMES;
     let mut curves = [
-        Curves::new(ratio, "material ratio (Abbott–Firestone) curves", charts(&material_ratio)),
-        Curves::new(densities, "power spectral densities, over all directions", charts(&spectrum)),
+        Curves::new(ratio, "material ratio (Abbott–Firestone) curves", charts(ratios)),
+        Curves::new(densities, "power spectral densities, over all directions", charts(spectra)),
     ];
     // A plane has no spectrum.
     let has_points = |chart: &Chart| chart.series.iter().any(|series| series.points.len() > 1);
@@ -74,7 +94,10 @@ fn material_ratio(bodies: &[(&str, &Topography)], title: &str) -> Chart {
 
 fn spectrum(bodies: &[(&str, &Topography)], title: &str) -> Chart {
     let series = bodies.iter().map(|(when, body)| {
-        let radial = Spectrum::of(body, Window::Hann).radial(RINGS);
+        // A plane has none, which takes as long to find out.
+        let first = body.heights()[[0, 0]];
+        let is_flat = body.heights().iter().all(|z| *z == first);
+        let radial = if is_flat { Vec::new() } else { Spectrum::of(body, Window::Hann).radial(RINGS) };
         let shown = |p: &&SpectralPoint| p.wave_number > 0.0 && p.density > 0.0;
         let points = radial.iter().filter(shown).map(|p| [p.wave_number, p.density]).collect();
         Series::new(*when, points, mark(when))

@@ -9,36 +9,32 @@ use serde_json::{Value, json};
 use super::curves;
 use super::found::PageData;
 use super::html::{details, escaped, minus};
-use super::packed::{self, QuantisedField};
+use super::packed::QuantisedField;
+use super::shown::{MAX_CELLS, ShownBody};
 use crate::draw::{Charts, Unit, range_of_heights};
 use crate::figures::{self, Curves, StoredArray};
 use crate::numbers::{in_column, meaning};
 use crate::report::Outcome;
 
-/// Bodies of more cells have no parameters on the page: those of hills and of the autocorrelation would take minutes.
-const MAX_CELLS: usize = 1 << 18;
-
 const BODIES: [(&str, &str); 2] = [("lower", "lower body"), ("upper", "upper body, underside")];
 
 /// The section, and the data that it shows.
 pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
+    if let Some([lower, upper]) = found.take_bodies() {
+        let html = shown(found, [lower, upper].map(|body| (body, None)), data);
+        // So many cells that there are no parameters.
+        return Some(html);
+    }
     let [before, after] = if found.moves() { of_motion(found)? } else { [of_rest(found)?, None] };
     let before = before?;
-    let mut html = String::new();
-    let mut shown = Vec::new();
-    for (index, (key, title)) in BODIES.into_iter().enumerate() {
+    let bodies = [0, 1].map(|index| {
         // A counter-body that is new in each pass has nothing to compare with.
         let compares = index == 0 || !figures::has_new_upper(&found.case, found.passes.len());
         let now = after.as_ref().map(|after| &after[index]).filter(|_| compares);
-        let (mut body, remarks) = body(key, title, &before[index], now);
-        html += &format!("<h3>{title}</h3><div class=\"maps\" data-body=\"{index}\"></div>");
-        for remark in remarks.into_iter().chain(as_it_is(found, key)) {
-            html += &format!("<p class=\"remark\">{}</p>", escaped(&remark));
-        }
-        body["kept"] = kept(found, key).into();
-        shown.push(body);
-    }
-    data["bodies"] = shown.into();
+        let fields: Vec<_> = std::iter::once(&before[index]).chain(now).map(|stored| &stored.field).collect();
+        (ShownBody::new(&before[index], range_of_heights(fields)), now.map(|now| (&before[index], now)))
+    });
+    let mut html = shown(found, bodies, data);
 
     let before = found.kept(figures::as_measured(&before))?;
     let after = after.as_ref().and_then(|after| found.kept(figures::as_measured(after)));
@@ -57,6 +53,26 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
         html += &curves::html(curves, charts);
     }
     Some(html)
+}
+
+/// A body, with its state before and after if they are compared.
+type Compared<'a> = (ShownBody, Option<(&'a StoredArray, &'a StoredArray)>);
+
+/// HTML with places for both bodies, which go to `data`.
+fn shown(found: &mut PageData, bodies: [Compared<'_>; 2], data: &mut Value) -> String {
+    let mut html = String::new();
+    let mut shown = Vec::new();
+    for (index, ((key, title), (shown_body, states))) in BODIES.into_iter().zip(bodies).enumerate() {
+        let (mut body, remarks) = body(key, title, shown_body, states);
+        html += &format!("<h3>{title}</h3><div class=\"maps\" data-body=\"{index}\"></div>");
+        for remark in remarks.into_iter().chain(as_it_is(found, key)) {
+            html += &format!("<p class=\"remark\">{}</p>", escaped(&remark));
+        }
+        body["kept"] = kept(found, key).into();
+        shown.push(body);
+    }
+    data["bodies"] = shown.into();
+    html
 }
 
 /// Whether a topography is a form alone.
@@ -95,28 +111,31 @@ pub(super) fn has_rest(results: &Results) -> bool {
 }
 
 /// One body, its heights before and their change since, and what is to be said of it.
-fn body(key: &str, title: &str, before: &StoredArray, after: Option<&StoredArray>) -> (Value, Vec<String>) {
-    let fields: Vec<_> = std::iter::once(before).chain(after).map(|stored| &stored.field).collect();
-    let (range, remark) = range_of_heights(fields).unwrap_or(([0.0, 1.0], None));
+fn body(
+    key: &str,
+    title: &str,
+    shown: ShownBody,
+    states: Option<(&StoredArray, &StoredArray)>,
+) -> (Value, Vec<String>) {
+    let ShownBody { grid, range, remark, block, has_missing, .. } = shown;
     let mut remarks: Vec<String> = remark.into_iter().map(str::to_owned).collect();
-    let pitch = before.grid.pitch;
+    let pitch = grid.pitch;
     // Negative where material is gone, on either side.
     let sign = if key == "lower" { 1.0 } else { -1.0 };
-    let change = after.filter(|after| after.field.dim() == before.field.dim());
-    let change = change.map(|after| (&after.field - &before.field) * sign);
+    let change = states.filter(|(before, after)| after.field.dim() == before.field.dim());
+    let change = change.map(|(before, after)| (&after.field - &before.field) * sign);
     if change.as_ref().is_some_and(|change| change.iter().all(|height| *height == 0.0)) {
         remarks.push("No pass has changed this body.".to_owned());
     }
     let change = change.filter(|change| change.iter().any(|height| *height != 0.0));
-    let heights = QuantisedField::even(&before.field, pitch);
-    let block = packed::block(&before.field);
+    let heights = shown.deflated();
     if block > 1 {
         remarks.push(format!("Shown in blocks of {block} × {block} cells, each at its mean height."));
     }
     // A map and profiles of one height show nothing.
-    let flat = heights.low == heights.high && before.field.iter().all(|z| z.is_finite());
+    let flat = heights.low == heights.high && !has_missing;
     if flat {
-        let [lx, ly] = before.grid.extent().map(|side| format(side, Dimension::Length));
+        let [lx, ly] = grid.extent().map(|side| format(side, Dimension::Length));
         remarks.push(format!("Flat, {lx} × {ly}, at the height {}.", format(heights.low, Dimension::Length)));
     }
     let size = |field: &asperity::Field| {
@@ -132,7 +151,7 @@ fn body(key: &str, title: &str, before: &StoredArray, after: Option<&StoredArray
         "range": range,
         "unit": curves::unit(Unit::Length, range[0].abs().max(range[1].abs())),
         "change_unit": change.as_ref().map(|change| curves::unit(Unit::Length, size(change))),
-        "length": curves::unit(Unit::Length, before.grid.extent()[0].max(before.grid.extent()[1])),
+        "length": curves::unit(Unit::Length, grid.extent()[0].max(grid.extent()[1])),
     });
     (body, remarks)
 }

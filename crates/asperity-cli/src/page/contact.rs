@@ -1,10 +1,10 @@
 //! The contact: maps over the kept positions and passes, with where both bodies are.
 
+use asperity::Field;
 use asperity::io::fields::Fields;
 use asperity::motion::{StepRecord, Strategy, SweepRecord};
 use asperity::study::{cap_name, pressure_name, temperature_name};
 use asperity::units::{Dimension, format};
-use asperity::{Field, Grid};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
@@ -12,9 +12,10 @@ use super::bodies::has_rest;
 use super::curves;
 use super::found::PageData;
 use super::html::{escaped, minus};
+use super::layers::{Kind, LAYERS, levels_of};
 use super::packed::{self, QuantisedField};
 use super::table::evenly;
-use crate::draw::{Colours, Unit};
+use crate::draw::{Charts, Colours};
 use crate::figures::{self, Cap, Curves, StoredArray};
 use crate::report::Outcome;
 
@@ -24,42 +25,6 @@ const MAX_BYTES: usize = 11 << 18;
 const MAX_PASSES: usize = 20;
 /// Positions that a pass shows at least, before passes are left out.
 const MIN_POSITIONS: usize = 24;
-
-/// What one of the maps shows.
-struct Layer {
-    name: &'static str,
-    title: &'static str,
-    unit: Unit,
-    kind: Kind,
-}
-
-enum Kind {
-    /// Above 0 or nothing.
-    Positive,
-    /// Below 0, too.
-    Signed,
-    /// From the least to the largest, where there is any.
-    Between,
-    Classes(Colours),
-}
-
-/// All maps that a position may have, in the order of the page.
-const LAYERS: [Layer; 9] = [
-    Layer { name: "pressure", title: "pressure", unit: Unit::Pressure, kind: Kind::Positive },
-    Layer { name: "contact", title: "contact", unit: Unit::Number, kind: Kind::Classes(Colours::CONTACT) },
-    Layer { name: "temperature", title: "temperature", unit: Unit::Of("°C"), kind: Kind::Between },
-    Layer { name: "shear", title: "shear on the lower body", unit: Unit::Pressure, kind: Kind::Positive },
-    Layer { name: "stick", title: "stick and slip", unit: Unit::Number, kind: Kind::Classes(Colours::STICK) },
-    Layer { name: "slip", title: "slip", unit: Unit::Length, kind: Kind::Positive },
-    Layer { name: "gap", title: "gap", unit: Unit::Length, kind: Kind::Signed },
-    Layer {
-        name: "displacement",
-        title: "displacement of both bodies",
-        unit: Unit::Length,
-        kind: Kind::Between,
-    },
-    Layer { name: "plastic", title: "plastic interference", unit: Unit::Length, kind: Kind::Positive },
-];
 
 /// One position, point or contact at rest.
 struct Frame {
@@ -90,6 +55,17 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     if found.moves() {
         return of_motion(found, data, charts);
     }
+    let groups = vec![json!({ "label": "" })];
+    if let Some((maps, block)) = found.take_maps() {
+        let approach = found
+            .kept(found.results.static_fields().map_err(Into::into).and_then(|f| figures::approach(&f)))?;
+        let frame = Frame { approach, ..Frame::at_rest() };
+        let mut html = SCRUBBER.to_owned() + &in_blocks(block, false);
+        data["contact"] = shown(&[frame.with_maps(maps)], groups);
+        let profile = found.take_profile();
+        html += &section_of(profile, charts);
+        return Some(html);
+    }
     let frames = match found.points.is_empty() {
         true => of_rest(found)?,
         false => of_sweep(found),
@@ -97,35 +73,45 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     if frames.is_empty() {
         return None;
     }
-    let groups = vec![json!({ "label": "" })];
     let mut html = SCRUBBER.to_owned() + &blocks(&frames);
     data["contact"] = shown(&all_packed(frames), groups);
     if has_rest(found.results)
         && let Some(fields) = found.kept(found.results.static_fields())
-        && let Some(Some(profile)) = found.kept(figures::profile_at_rest(&fields, &found.case))
+        && let Some(profile) = found.kept(figures::profile_at_rest(&fields, &found.case))
     {
-        let charts_of = Curves { charts: profile, name: "profile", title: String::new() };
-        let places = curves::html(vec![charts_of], charts);
-        if !places.is_empty() {
-            html += &format!("<h3>Section through the most loaded spot</h3>{places}");
-        }
+        html += &section_of(profile, charts);
     }
     Some(html)
 }
 
+/// HTML with places for the section through the most loaded spot.
+fn section_of(profile: Option<Charts>, charts: &mut Vec<Value>) -> String {
+    if let Some(profile) = profile {
+        let charts_of = Curves { charts: profile, name: "profile", title: String::new() };
+        let places = curves::html(vec![charts_of], charts);
+        if !places.is_empty() {
+            return format!("<h3>Section through the most loaded spot</h3>{places}");
+        }
+    }
+    String::new()
+}
+
 /// That large fields are shown in blocks, and how.
 fn blocks(frames: &[Frame]) -> String {
-    match frames.iter().map(|frame| packed::block(frame.pressure())).max().unwrap_or(1) {
-        1 => String::new(),
-        block => {
-            let shown = match frames.iter().any(Frame::pulls) {
-                true => "pressures and gaps by their mean",
-                false => "of each the largest pressure, gaps by their mean",
-            };
-            format!(
-                "<p class=\"remark\">Shown in blocks of {block} × {block} cells, {shown}. The files hold all.</p>"
-            )
-        }
+    let block = frames.iter().map(|frame| packed::block(frame.pressure())).max().unwrap_or(1);
+    in_blocks(block, frames.iter().any(Frame::pulls))
+}
+
+fn in_blocks(block: usize, pulls: bool) -> String {
+    let shown = match pulls {
+        true => "pressures and gaps by their mean",
+        false => "of each the largest pressure, gaps by their mean",
+    };
+    match block {
+        0 | 1 => String::new(),
+        block => format!(
+            "<p class=\"remark\">Shown in blocks of {block} × {block} cells, {shown}. The files hold all.</p>"
+        ),
     }
 }
 
@@ -334,17 +320,7 @@ fn of_rest(found: &mut PageData) -> Option<Vec<Frame>> {
     let fields = found.fields(found.results.static_fields())?;
     let maps = found.kept(at_rest(&fields))?;
     let approach = found.kept(figures::approach(&fields))?;
-    let text = String::new();
-    Some(vec![Frame {
-        group: 0,
-        label: String::new(),
-        text,
-        offset: 0.0,
-        across: 0.0,
-        approach,
-        seam: 0,
-        fields: maps,
-    }])
+    Some(vec![Frame { approach, fields: maps, ..Frame::at_rest() }])
 }
 
 /// What there is of a static contact, or of a point of a sweep.
@@ -396,8 +372,21 @@ impl Frame {
         self.pressure().iter().any(|p| *p < 0.0)
     }
 
-    /// Packs the fields; those of pressures with their signs, if there is tension in any frame.
-    fn packed(self, pulls: bool) -> PageFrame {
+    /// A static contact without maps.
+    fn at_rest() -> Self {
+        Self {
+            group: 0,
+            label: String::new(),
+            text: String::new(),
+            offset: 0.0,
+            across: 0.0,
+            approach: 0.0,
+            seam: 0,
+            fields: Vec::new(),
+        }
+    }
+
+    fn with_maps(self, maps: Vec<(&'static str, QuantisedField)>) -> PageFrame {
         let about = json!({
             "group": self.group,
             "label": self.label,
@@ -408,20 +397,17 @@ impl Frame {
             "approach": Some(self.approach).filter(|approach| approach.is_finite()),
             "together": minus(&format(self.approach, Dimension::Length)),
         });
-        let map = |(name, StoredArray { field, grid: Grid { pitch, .. }, place, .. }): (
-            &'static str,
-            StoredArray,
-        )| {
-            let layer = LAYERS.iter().find(|layer| layer.name == name)?;
-            let packed = match layer.kind {
-                Kind::Positive if pulls && name == "pressure" => QuantisedField::even(&field, pitch),
-                Kind::Positive => QuantisedField::positive(&field, pitch),
-                Kind::Signed | Kind::Between => QuantisedField::even(&field, pitch),
-                Kind::Classes(_) => QuantisedField::classes(&field, pitch),
-            };
-            Some((name, packed.at([place, 0.0], pitch)))
+        PageFrame { about, maps }
+    }
+
+    /// Packs the fields; those of pressures with their signs, if there is tension in any frame.
+    fn packed(mut self, pulls: bool) -> PageFrame {
+        let fields = std::mem::take(&mut self.fields);
+        let map = |(name, array): (&'static str, StoredArray)| {
+            Some((name, levels_of(name, &array, pulls)?.deflated()))
         };
-        PageFrame { about, maps: self.fields.into_iter().filter_map(map).collect() }
+        let maps = fields.into_par_iter().filter_map(map).collect();
+        self.with_maps(maps)
     }
 }
 

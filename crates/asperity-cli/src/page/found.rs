@@ -7,7 +7,11 @@ use asperity::motion::{IncrementRecord, PassRecord, StepRecord, SweepRecord, Upd
 use asperity::study::{Case, Results, Summary};
 use serde_json::Value;
 
+use super::packed::QuantisedField;
+use super::shown::ShownBody;
 use super::table::Table;
+use super::witness::{Prepared, Seen};
+use crate::draw::Charts;
 use crate::report::{self, Outcome};
 
 /// The records of a results directory.
@@ -27,11 +31,13 @@ pub(super) struct PageData<'a> {
     pub(super) points: Vec<SweepRecord>,
     /// What could not be read, and why.
     pub(super) missing: Vec<String>,
+    /// Parts of the page made beside the figures, until they are taken.
+    prepared: Option<Prepared>,
 }
 
 impl<'a> PageData<'a> {
     /// Reads the records; an error only without a case that can be read.
-    pub(super) fn in_results(results: &'a Results) -> asperity::Result<Self> {
+    pub(super) fn in_results(results: &'a Results, seen: Option<Seen>) -> asperity::Result<Self> {
         let mut missing = Vec::new();
         let (case, resolved) = (results.case()?, results.case_json()?);
         let finished = results.directory().join("summary.json").exists();
@@ -49,7 +55,28 @@ impl<'a> PageData<'a> {
             summary,
             passes,
             missing,
+            prepared: seen.map(Seen::prepared),
         })
+    }
+
+    /// Maps of the contact, and the cells along a side of the blocks that they show.
+    pub(super) fn take_maps(&mut self) -> Option<(Vec<(&'static str, QuantisedField)>, usize)> {
+        self.prepared.as_mut().map(|prepared| (std::mem::take(&mut prepared.maps), prepared.block))
+    }
+
+    /// The section through the most loaded spot.
+    pub(super) fn take_profile(&mut self) -> Option<Charts> {
+        self.prepared.as_mut().and_then(|prepared| prepared.profile.take())
+    }
+
+    /// Lower and upper body.
+    pub(super) fn take_bodies(&mut self) -> Option<[ShownBody; 2]> {
+        std::mem::take(&mut self.prepared.as_mut()?.bodies).try_into().ok()
+    }
+
+    /// Pictures for who has no JavaScript, if they have been drawn.
+    pub(super) fn pictures(&self) -> Option<&[(String, Vec<u8>)]> {
+        self.prepared.as_ref().map(|prepared| &prepared.pictures[..])
     }
 
     /// What was read; none where that failed, which is then told.

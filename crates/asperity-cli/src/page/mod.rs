@@ -16,17 +16,20 @@ mod flow;
 mod found;
 mod head;
 mod html;
+mod layers;
 mod live;
 mod numbers;
 mod packed;
 mod passage;
 mod plane;
+mod shown;
 mod study;
 mod table;
 #[cfg(test)]
 mod tests;
 mod trust;
 mod verdict;
+mod witness;
 mod words;
 
 use std::fmt::Write;
@@ -40,12 +43,14 @@ use serde_json::{Value, json};
 
 use crate::args::Report;
 use crate::draw::{Colours, Paper, palette};
-use crate::figures;
+use crate::figures::{self, FigureOptions};
 use crate::place;
 use crate::report::{Outcome, note, print};
 use found::PageData;
 pub(crate) use live::LivePage;
 pub(crate) use study::write_study;
+use witness::{DPI, PICTURES};
+pub(crate) use witness::{Seen, gathered};
 
 /// Name of the page in a results directory.
 const FILE: &str = "report.html";
@@ -79,7 +84,16 @@ pub(crate) fn of(results: &Results) -> PathBuf {
 /// Writes the page of `results` to `path`, and gives what could not be read and is not on it; where that fails the one that is there
 /// stays.
 pub(crate) fn write(results: &Results, path: &Path) -> asperity::Result<Vec<String>> {
-    let (page, missing) = page(results)?;
+    write_with(results, witness::seen(results), path)
+}
+
+/// [`write`] with the parts of the page that have been made already.
+pub(crate) fn write_with(
+    results: &Results,
+    seen: Option<Seen>,
+    path: &Path,
+) -> asperity::Result<Vec<String>> {
+    let (page, missing) = page(results, seen)?;
     // What killed processes have left beside it.
     io::sweep(path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new(".")));
     io::replace(path, page.as_bytes())?;
@@ -90,8 +104,8 @@ pub(crate) fn write(results: &Results, path: &Path) -> asperity::Result<Vec<Stri
 type Section = (&'static str, &'static str, Option<String>);
 
 /// The page, and what is missing on it.
-fn page(results: &Results) -> asperity::Result<(String, Vec<String>)> {
-    let mut found = PageData::in_results(results)?;
+fn page(results: &Results, seen: Option<Seen>) -> asperity::Result<(String, Vec<String>)> {
+    let mut found = PageData::in_results(results, seen)?;
     let mut data = json!({ "colours": {
         "heights": palette(Colours::Heights),
         "pressure": palette(Colours::Pressure),
@@ -114,7 +128,7 @@ fn page(results: &Results) -> asperity::Result<(String, Vec<String>)> {
 
 fn document(found: &PageData, sections: &[Section], data: &Value) -> String {
     let with_pictures = |(id, title, html): &Section| {
-        let pictures = if *id == "contact" { pictures(found.results) } else { String::new() };
+        let pictures = if *id == "contact" { pictures(found) } else { String::new() };
         (*id, *title, html.as_ref().map(|html| format!("{html}{pictures}")))
     };
     let sections: Vec<Section> = sections.iter().map(with_pictures).collect();
@@ -183,18 +197,25 @@ const PROGRAMS: [&str; 8] = [
 ];
 
 /// The maps as pictures, for who has no JavaScript.
-fn pictures(results: &Results) -> String {
-    let paper = Paper { dpi: 96.0, ..Paper::default() };
-    let only = ["topographies", "pressure", "contact"].map(str::to_owned).to_vec();
-    // What cannot be read has been told already.
-    let pictures =
-        figures::pictures(results, &figures::FigureOptions { paper, only, keep: false }).unwrap_or_default();
+fn pictures(found: &PageData) -> String {
+    let drawn;
+    let pictures = match found.pictures() {
+        Some(pictures) => pictures,
+        None => {
+            let paper = Paper { dpi: DPI, ..Paper::default() };
+            let only = PICTURES.map(str::to_owned).to_vec();
+            let wanted = FigureOptions { paper, only, keep: false };
+            // What cannot be read has been told already.
+            drawn = figures::pictures(found.results, &wanted).unwrap_or_default();
+            &drawn
+        }
+    };
     let mut html = String::from("<noscript>");
     for (title, picture) in pictures {
         let _ = write!(
             html,
             "<img alt=\"{}\" src=\"data:image/png;base64,{}\">",
-            html::escaped(&title),
+            html::escaped(title),
             STANDARD.encode(picture)
         );
     }

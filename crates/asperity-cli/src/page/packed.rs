@@ -7,10 +7,13 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
+use rayon::prelude::*;
 use serde::Serialize;
 
 /// The most cells along a side; larger fields are reduced by blocks.
 const MAX_SIDE: usize = 1024;
+/// Levels that are many, bytes.
+const MANY: usize = 1 << 19;
 
 /// A field in levels, `[ix, iy]`, the last index fastest.
 #[derive(Debug, Clone, Serialize)]
@@ -49,14 +52,21 @@ enum Reduction {
     Mean,
 }
 
-impl QuantisedField {
+/// A field in levels that are not deflated yet.
+pub(super) struct Levels {
+    /// All but the data.
+    field: QuantisedField,
+    levels: Vec<u8>,
+}
+
+impl Levels {
     /// Numbers of which those above 0 count, such as pressures.
     pub(super) fn positive(field: &Field, pitch: [f64; 2]) -> Self {
         let (field, pitch) = reduced(field, pitch, Reduction::Largest);
         let high = field.iter().copied().filter(|p| p.is_finite()).fold(0.0, f64::max);
         let level = |p: &f64| if *p > 0.0 { 1 + (p / high * 254.0).round().min(254.0) as u8 } else { 0 };
         let levels: Vec<u8> = field.iter().map(level).collect();
-        Self::new(Code::Positive, &field, pitch, [0.0, high], &levels)
+        Self::new(Code::Positive, &field, pitch, [0.0, high], levels)
     }
 
     /// Numbers of any sign, such as heights.
@@ -79,7 +89,7 @@ impl QuantisedField {
                 before = now;
             }
         }
-        Self::new(Code::Even, &field, pitch, [low, high], &bytes.concat())
+        Self::new(Code::Even, &field, pitch, [low, high], bytes.concat())
     }
 
     /// Numbers of classes, from 0.
@@ -88,7 +98,39 @@ impl QuantisedField {
         let levels: Vec<u8> =
             field.iter().map(|class| if class.is_finite() { *class as u8 } else { u8::MAX }).collect();
         let high = field.iter().copied().filter(|class| class.is_finite()).fold(0.0, f64::max);
-        Self::new(Code::Class, &field, pitch, [0.0, high], &levels)
+        Self::new(Code::Class, &field, pitch, [0.0, high], levels)
+    }
+
+    fn new(code: Code, field: &Field, pitch: [f64; 2], [low, high]: [f64; 2], levels: Vec<u8>) -> Self {
+        let (shape, corner) = (field.dim().into(), [0.0; 2]);
+        Self { field: QuantisedField { code, shape, pitch, corner, low, high, data: String::new() }, levels }
+    }
+
+    /// The same field with its corner there on the lower body, in cells as they were before a reduction.
+    pub(super) fn at(self, corner: [f64; 2], cell: [f64; 2]) -> Self {
+        Self { field: self.field.at(corner, cell), ..self }
+    }
+
+    /// The field as it goes onto the page.
+    pub(super) fn deflated(self) -> QuantisedField {
+        // Of many levels the best compression takes several times as long for less than a hundredth.
+        let level = if self.levels.len() > MANY { Compression::default() } else { Compression::best() };
+        let mut deflated = ZlibEncoder::new(Vec::new(), level);
+        deflated.write_all(&self.levels).expect("memory takes all");
+        let data = STANDARD.encode(deflated.finish().expect("memory takes all"));
+        QuantisedField { data, ..self.field }
+    }
+}
+
+impl QuantisedField {
+    /// Numbers of which those above 0 count, such as pressures.
+    pub(super) fn positive(field: &Field, pitch: [f64; 2]) -> Self {
+        Levels::positive(field, pitch).deflated()
+    }
+
+    /// Numbers of any sign, such as heights.
+    pub(super) fn even(field: &Field, pitch: [f64; 2]) -> Self {
+        Levels::even(field, pitch).deflated()
     }
 
     /// The same field with its corner there on the lower body, in cells as they were before a reduction.
@@ -106,13 +148,6 @@ impl QuantisedField {
     pub(super) fn size(&self) -> usize {
         self.data.len()
     }
-
-    fn new(code: Code, field: &Field, pitch: [f64; 2], [low, high]: [f64; 2], levels: &[u8]) -> Self {
-        let mut deflated = ZlibEncoder::new(Vec::new(), Compression::best());
-        deflated.write_all(levels).expect("memory takes all");
-        let data = STANDARD.encode(deflated.finish().expect("memory takes all"));
-        Self { code, shape: field.dim().into(), pitch, corner: [0.0; 2], low, high, data }
-    }
 }
 
 /// Cells along either side of the blocks that a field is shown in; 1 unless it is large.
@@ -127,17 +162,29 @@ fn reduced(field: &Field, pitch: [f64; 2], reduction: Reduction) -> (Field, [f64
         return (field.clone(), pitch);
     }
     let shape = [field.nrows().div_ceil(block), field.ncols().div_ceil(block)];
-    let of = |(i, j): (usize, usize)| {
+    let field_rows: Vec<_> = field.outer_iter().collect();
+    let of = |i: usize, j: usize| {
         let ends = |at: usize, n: usize| at * block..((at + 1) * block).min(n);
-        let cells = field.slice(ndarray::s![ends(i, field.nrows()), ends(j, field.ncols())]);
-        let finite = || cells.iter().copied().filter(|value| value.is_finite());
-        match (finite().count(), reduction) {
+        let (mut count, mut sum, mut largest) = (0, 0.0, f64::NEG_INFINITY);
+        for row in &field_rows[ends(i, field.nrows())] {
+            for value in ends(j, field.ncols()).map(|at| row[at]).filter(|value| value.is_finite()) {
+                count += 1;
+                sum += value;
+                largest = f64::max(largest, value);
+            }
+        }
+        match (count, reduction) {
             (0, _) => f64::NAN,
-            (_, Reduction::Largest) => finite().fold(f64::NEG_INFINITY, f64::max),
-            (count, Reduction::Mean) => finite().sum::<f64>() / count as f64,
+            (_, Reduction::Largest) => largest,
+            (count, Reduction::Mean) => sum / f64::from(count),
         }
     };
-    (Field::from_shape_fn(shape, of), pitch.map(|pitch| pitch * block as f64))
+    let rows = (0..shape[0]).into_par_iter();
+    let blocks: Vec<f64> = rows.flat_map_iter(|i| (0..shape[1]).map(move |j| of(i, j))).collect();
+    (
+        Field::from_shape_vec(shape, blocks).expect("a value of each block"),
+        pitch.map(|pitch| pitch * block as f64),
+    )
 }
 
 #[cfg(test)]

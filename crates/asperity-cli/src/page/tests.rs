@@ -63,8 +63,12 @@ impl Computed {
         self.folder.path().join("results").join(name)
     }
 
+    fn results(&self) -> Results {
+        Results::open(&self.folder.path().join("results")).unwrap()
+    }
+
     fn page(&self) -> String {
-        page(&Results::open(&self.folder.path().join("results")).unwrap()).unwrap().0
+        page(&self.results(), None).unwrap().0
     }
 
     fn data(&self) -> Value {
@@ -135,6 +139,37 @@ fn bodies_that_attract_each_other_have_a_section_with_their_curve() {
     let [low, high] = [0, 1].map(|end| layer["ranges"][0][end].as_f64().unwrap());
     assert!(low < 0.0 && low == -high);
     assert!(!Computed::of(AT_REST).page().contains("id=\"adhesion\""));
+}
+
+#[test]
+fn a_page_made_beside_the_figures_is_the_page_of_the_files() {
+    let large = "\
+        lower = { young = 210e9, poisson = 0.3, hardness = 6e9, topography = { generate = \"self-affine\", shape = [513, 520], \
+        pitch = 1e-6, hurst = 0.8, sdq = 0.1, rolloff = 1e-4, shortest = 8e-6, seed = 1 } }\n\
+        upper = { young = 210e9, poisson = 0.3, topography = { form = \"flat\" } }\n\
+        contact = { mean_pressure = 5e8, boundary = \"periodic\", tolerance = 1e-4 }\n";
+    let computed = Computed::of(large);
+    let results = computed.results();
+    let (wanted, go_on) = (FigureOptions::default(), || false);
+    let (sheet, seen) = gathered(&results, &wanted, &go_on);
+    assert!(seen.is_some(), "the arrays are seen");
+    assert!(page(&results, seen).unwrap() == page(&results, None).unwrap());
+    // The same figures, whether a page is made beside them or not.
+    let beside =
+        sheet.unwrap_or_else(|_| panic!("figures")).pictures().unwrap_or_else(|_| panic!("pictures"));
+    assert!(beside == figures::pictures(&results, &wanted).unwrap_or_else(|_| panic!("pictures")));
+    assert_eq!(beside.len(), 10);
+
+    // Nothing is seen of a damaged file, and its page names it.
+    let path = computed.path("fields.h5");
+    let mut bytes = fs::read(&path).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&path, bytes).unwrap();
+    let (_, seen) = gathered(&results, &wanted, &go_on);
+    assert!(seen.is_none());
+    let (_, missing) = page(&results, seen).unwrap();
+    assert!(missing.iter().any(|missing| missing.contains("fields.h5")), "{missing:?}");
 }
 
 #[test]

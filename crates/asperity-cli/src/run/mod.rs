@@ -57,14 +57,15 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
     let tell = |text: &str| if arguments.quiet { Ok(()) } else { print(text) };
     let printed = printed.and_then(|()| tell(&record::text(&case, &summary)));
     let results = writer.results();
-    let page = page::write(results, &page::of(results));
-    figures::draw(results, &figures::FigureOptions::default(), &|| stop.asked()).map_err(|failure| {
-        match failure {
-            Failure::Figure(error) if error.source.kind() == ErrorKind::Interrupted => {
-                Failure::FiguresInterrupted { directory: directory.clone() }
-            }
-            other => other,
+    let (wanted, stopped) = (figures::FigureOptions::default(), || stop.asked());
+    let (sheet, seen) = page::gathered(results, &wanted, &stopped);
+    let write = || page::write_with(results, seen, &page::of(results));
+    let (page, drawn) = rayon::join(write, || sheet.and_then(figures::Sheet::finish));
+    drawn.map_err(|failure| match failure {
+        Failure::Figure(error) if error.source.kind() == ErrorKind::Interrupted => {
+            Failure::FiguresInterrupted { directory: directory.clone() }
         }
+        other => other,
     })?;
     page?;
     if !arguments.quiet {

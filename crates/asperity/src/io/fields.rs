@@ -10,19 +10,21 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::io;
+use std::fs;
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use hdf5_pure::{
-    AttrValue, Dataset, DatasetBuilder, File, FileAccessProperties, FileCreateProperties, FileLocking,
-    MetadataCacheConfig, SyncPolicy,
+    AttrValue, Dataset, DatasetBuilder, Datatype, DatatypeByteOrder, File, FileAccessProperties,
+    FileCreateProperties, FileLocking, FormatError, MetadataCacheConfig, Source, SyncPolicy,
 };
 use ndarray::{ArrayD, ArrayRef, Dimension, Ix2};
+use rayon::prelude::*;
 use sha2::{Digest as _, Sha256};
 
 use super::atomic::Draft;
-use super::{regular, sha256};
+use super::{image, packing, regular, sha256};
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid, check_finite};
 use crate::units::Metre;
@@ -168,30 +170,24 @@ impl FieldFile {
         values: &[f64],
     ) -> &mut Self {
         assert!(!values.is_empty(), "{name} has no values");
-        let digest = array_digest([unit, axes], shape, [pitch, origin], values.iter());
+        let sizes: Vec<u64> = shape.iter().map(|size| *size as u64).collect();
+        let attributes = [
+            ("unit", AttrValue::VarLenString(unit.to_owned())),
+            ("axes", AttrValue::VarLenString(axes.to_owned())),
+            ("pitch", AttrValue::F64Array(pitch.to_vec())),
+            ("origin", AttrValue::F64Array(origin.to_vec())),
+        ];
+        let finite = self.finite && self.draft.is_ok();
+        let digest = || array_digest([unit, axes], shape, [pitch, origin], values.iter());
+        let examined = || (digest(), if finite { check_finite(name, shape, values) } else { Ok(()) });
+        let ((digest, checked), packed) = rayon::join(examined, || Packed::new(values, &sizes));
         let other = self.arrays.insert(name.to_owned(), digest);
         assert!(other.is_none(), "two arrays named {name}");
-        let sizes: Vec<u64> = shape.iter().map(|size| *size as u64).collect();
-        let describe = |dataset: &mut DatasetBuilder| {
-            dataset.with_f64_data(values).with_shape(&sizes);
-            if values.len() >= MIN_COMPRESSED {
-                // Most of a pressure field is 0, and neighbouring heights have similar exponents.
-                dataset.with_chunks(&chunk(&sizes)).with_shuffle().with_deflate(DEFLATE_LEVEL);
-            }
-            dataset
-                .set_attr("unit", AttrValue::VarLenString(unit.to_owned()))
-                .set_attr("axes", AttrValue::VarLenString(axes.to_owned()))
-                .set_attr("pitch", AttrValue::F64Array(pitch.to_vec()))
-                .set_attr("origin", AttrValue::F64Array(origin.to_vec()));
-        };
-        if self.finite
-            && self.draft.is_ok()
-            && let Err(error) = check_finite(name, shape, values)
-        {
+        if let (Ok(_), Err(error)) = (&self.draft, checked) {
             self.draft = Err(error);
         }
         if let Ok(draft) = &mut self.draft
-            && let Err(error) = draft.add(name, size_of_val(values), describe)
+            && let Err(error) = draft.add(name, values, &sizes, packed, attributes)
         {
             self.draft = Err(file_error(&draft.path, error));
         }
@@ -250,20 +246,72 @@ impl FieldDraft {
         open().map_err(|error| file_error(path, error))
     }
 
-    /// Adds an array with this number of bytes.
+    /// Adds an array with its attributes.
     fn add(
         &mut self,
         name: &str,
-        bytes: usize,
-        describe: impl FnOnce(&mut DatasetBuilder),
+        values: &[f64],
+        shape: &[u64],
+        packed: Option<Packed>,
+        attributes: [(&str, AttrValue); 4],
     ) -> std::result::Result<(), hdf5_pure::Error> {
-        self.file.root().create_dataset(name, describe)?;
+        let Some(packed) = packed else {
+            let chunk = chunk(shape);
+            self.file.root().create_dataset(name, |dataset: &mut DatasetBuilder| {
+                dataset.with_f64_data(values).with_shape(shape);
+                if values.len() >= MIN_COMPRESSED {
+                    dataset.with_chunks(&chunk).with_shuffle().with_deflate(DEFLATE_LEVEL);
+                }
+                for (name, value) in attributes {
+                    dataset.set_attr(name, value);
+                }
+            })?;
+            return self.wait(size_of_val(values));
+        };
+        let image = image::image(shape, &packed.chunk, &packed.chunks, DEFLATE_LEVEL);
+        drop(packed);
+        let bytes = image.len();
+        let image = File::from_bytes(image)?;
+        self.file.copy_from(&image, image::NAME, name)?;
+        drop(image);
+        // Attributes with texts do not come with a copy.
+        self.file.commit()?;
+        let mut dataset = self.file.dataset(name)?;
+        for (name, value) in attributes {
+            dataset.set_attr(name, value)?;
+        }
+        self.waiting = 0;
+        self.wait(bytes)
+    }
+
+    /// Adds this number of bytes to those of the waiting arrays, and writes these if they are many.
+    fn wait(&mut self, bytes: usize) -> std::result::Result<(), hdf5_pure::Error> {
         self.waiting += bytes;
         if self.waiting >= MAX_WAITING {
             self.file.commit()?;
             self.waiting = 0;
         }
         Ok(())
+    }
+}
+
+/// Chunks of an array as they are in its file.
+struct Packed {
+    chunk: Vec<u64>,
+    chunks: Vec<Vec<u8>>,
+}
+
+impl Packed {
+    /// Packs an array whose chunks are whole rows; `None` for other arrays, and for small ones.
+    fn new(values: &[f64], shape: &[u64]) -> Option<Self> {
+        let chunk = chunk(shape);
+        let len: u64 = chunk.iter().product();
+        if values.len() < MIN_PACKED || chunk[1..] != shape[1..] || shape[0].div_ceil(chunk[0]) > MAX_CHUNKS {
+            return None;
+        }
+        let pack = |values: &[f64]| packing::packed(values, len as usize, DEFLATE_LEVEL);
+        let chunks = values.par_chunks(len as usize).map(pack).collect();
+        Some(Self { chunk, chunks })
     }
 }
 
@@ -292,7 +340,17 @@ fn array_digest<'a>(
 ) -> Digest {
     let mut digest = Sha256::new();
     digest.update(format!("{texts:?} {shape:?} {numbers:?}"));
-    values.for_each(|value| digest.update(value.to_le_bytes()));
+    let mut bytes = [0; 1 << 12];
+    let mut filled = 0;
+    for value in values {
+        bytes[filled..filled + 8].copy_from_slice(&value.to_le_bytes());
+        filled += 8;
+        if filled == bytes.len() {
+            digest.update(bytes);
+            filled = 0;
+        }
+    }
+    digest.update(&bytes[..filled]);
     digest.finalize().into()
 }
 
@@ -317,8 +375,15 @@ const MIN_COMPRESSED: usize = 1024;
 const MAX_WAITING: usize = 1 << 24;
 /// Bytes of array descriptions kept while a file is read.
 const MAX_METADATA: usize = 1 << 24;
-/// Level of the compression, 1 to 9.
-const DEFLATE_LEVEL: u32 = 4;
+/// Fields with fewer values are compressed by the library of the format, because a file of many fields should not be committed after
+/// each of them.
+const MIN_PACKED: usize = 1 << 19;
+/// Fields with fewer values are unpacked by the library of the format.
+const MIN_UNPACKED: usize = 1 << 16;
+/// Chunks that one node of the image of an array holds.
+const MAX_CHUNKS: u64 = 1 << 15;
+/// Level of the compression, 1 to 9. Higher levels gain less than 1 %.
+const DEFLATE_LEVEL: u32 = 2;
 
 /// Returns the chunk shape: whole rows, about 1 MiB of them; for very long rows a part.
 fn chunk(shape: &[u64]) -> Vec<u64> {
@@ -342,8 +407,12 @@ fn chunk(shape: &[u64]) -> Vec<u64> {
 pub struct Fields {
     path: PathBuf,
     file: File,
+    /// The bytes of the file.
+    bytes: FileBytes,
     /// Names of the arrays, sorted, once they have been read.
     names: OnceLock<Vec<String>>,
+    /// Digest of each array read so far, if they are kept.
+    digests: Option<Mutex<BTreeMap<String, Digest>>>,
 }
 
 impl Fields {
@@ -355,9 +424,15 @@ impl Fields {
         let failed = |source| Error::File { path: path.to_owned(), source };
         regular::check(path, "a file of fields").map_err(failed)?;
         let access = without_lock().with_metadata_cache(MetadataCacheConfig::new(MAX_METADATA));
-        let file =
-            File::open_streaming_with_options(path, access).map_err(|error| file_error(path, error))?;
-        Ok(Self { path: path.to_owned(), file, names: OnceLock::new() })
+        let bytes = FileBytes::open(path).map_err(failed)?;
+        let file = File::from_source_with_options(bytes.clone(), access);
+        let file = file.map_err(|error| file_error(path, error))?;
+        Ok(Self { path: path.to_owned(), file, bytes, names: OnceLock::new(), digests: None })
+    }
+
+    /// Keeps the digest of each array that is read from now on, so that [`Self::verify`] does not read it again.
+    pub fn with_digests(self) -> Self {
+        Self { digests: Some(Mutex::default()), ..self }
     }
 
     /// Returns the names of the arrays, sorted.
@@ -386,6 +461,16 @@ impl Fields {
         Ok(attributes.into_iter().filter_map(|(name, value)| Some((name, attribute(&value)?))).collect())
     }
 
+    /// Returns the shape of the array `name` without reading it.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn shape(&self, name: &str) -> Result<Vec<usize>> {
+        let shape = self.file.dataset(name).and_then(|dataset| dataset.shape());
+        let shape = shape.map_err(|error| self.error(error))?;
+        Ok(shape.into_iter().map(|size| size as usize).collect())
+    }
+
     /// Reads the array `name`.
     ///
     /// # Errors
@@ -396,21 +481,30 @@ impl Fields {
             let available = known.to_vec();
             return Err(Error::NoField { path: self.path.clone(), name: name.to_owned(), available });
         }
-        self.file.dataset(name).and_then(|dataset| stored(&dataset)).map_err(|error| self.error(error))
+        let stored = self.file.dataset(name).and_then(|dataset| stored(&dataset, &self.bytes));
+        let stored = stored.map_err(|error| self.error(error))?;
+        if let Some(digests) = &self.digests {
+            let digest = stored.digest();
+            digests.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned(), digest);
+        }
+        Ok(stored)
     }
 
-    /// Reads the whole file and compares it with its stored digest.
+    /// Compares the file with its stored digest. It reads all arrays, except those whose digests are kept.
     ///
     /// # Errors
     /// [`Error::File`], also if they differ.
     pub fn verify(&self) -> Result<()> {
         let mut attributes = self.attributes()?;
         let written = attributes.remove(DIGEST);
-        let mut arrays = BTreeMap::new();
+        let kept =
+            |digests: &Mutex<BTreeMap<_, _>>| digests.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let mut arrays = self.digests.as_ref().map(kept).unwrap_or_default();
         for name in self.names()? {
-            let StoredField { unit, axes, pitch, origin, values } = self.read(&name)?;
-            let digest = array_digest([&unit, &axes], values.shape(), [&pitch, &origin], values.iter());
-            arrays.insert(name, digest);
+            if !arrays.contains_key(&name) {
+                let digest = self.read(&name)?.digest();
+                arrays.insert(name, digest);
+            }
         }
         if written == Some(content_digest(&attributes, &arrays).as_str().into()) {
             return Ok(());
@@ -434,13 +528,88 @@ pub fn read_field(path: &Path, name: &str) -> Result<StoredField> {
 }
 
 impl StoredField {
+    /// Digest of the array and its attributes.
+    fn digest(&self) -> Digest {
+        let Self { unit, axes, pitch, origin, values } = self;
+        array_digest([unit, axes], values.shape(), [pitch, origin], values.iter())
+    }
+
     /// Returns the values of a two-dimensional field, `[ix, iy]`; `None` for any other array.
     pub fn into_field(self) -> Option<Field> {
         self.values.into_dimensionality::<Ix2>().ok()
     }
 }
 
-fn stored(dataset: &Dataset) -> std::result::Result<StoredField, hdf5_pure::Error> {
+/// Bytes of a file, for several threads.
+#[derive(Clone)]
+struct FileBytes {
+    file: Arc<Mutex<fs::File>>,
+    len: u64,
+}
+
+impl FileBytes {
+    fn open(path: &Path) -> io::Result<Self> {
+        let file = fs::File::open(path)?;
+        let len = file.metadata()?.len();
+        Ok(Self { file: Arc::new(Mutex::new(file)), len })
+    }
+
+    fn read(&self, offset: u64, bytes: &mut [u8]) -> io::Result<()> {
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        file.seek(SeekFrom::Start(offset))?;
+        file.read_exact(bytes)
+    }
+}
+
+impl Source for FileBytes {
+    fn len(&self) -> u64 {
+        self.len
+    }
+
+    fn read_at(&self, offset: u64, buf: &mut [u8]) -> std::result::Result<(), FormatError> {
+        self.read(offset, buf).map_err(|error| match error.kind() {
+            io::ErrorKind::UnexpectedEof => FormatError::UnexpectedEof {
+                expected: buf.len(),
+                available: self.len.saturating_sub(offset) as usize,
+            },
+            _ => FormatError::Source(error.to_string()),
+        })
+    }
+}
+
+/// Reads the values of an array that was packed by [`Packed`], on all threads. `None` for other arrays, and for damaged ones, whose
+/// error the library of the format reports.
+fn unpacked(dataset: &Dataset, shape: &[usize], bytes: &FileBytes) -> Option<Vec<f64>> {
+    let sizes: Vec<u64> = shape.iter().map(|size| *size as u64).collect();
+    let chunk = dataset.chunk_shape().ok()??;
+    let byte_order = DatatypeByteOrder::LittleEndian;
+    let is_double = |kind: &Datatype| matches!(kind, Datatype::FloatingPoint { size: 8, byte_order: order, .. } if *order == byte_order);
+    let is_ours = dataset.filters() == [2, 1] && dataset.datatype().is_ok_and(|kind| is_double(&kind));
+    if !is_ours || chunk.len() != sizes.len() || chunk[1..] != sizes[1..] {
+        return None;
+    }
+    let len = usize::try_from(chunk.iter().product::<u64>()).ok()?;
+    let chunks = dataset.chunks().ok()?;
+    let (all, row) = (shape.iter().product::<usize>(), shape[1..].iter().product::<usize>());
+    let places: Vec<usize> = chunks.iter().map(|chunk| chunk.offset[0] as usize * row).collect();
+    let is_whole = places.iter().enumerate().all(|(at, place)| *place == at * len);
+    if all < MIN_UNPACKED || !is_whole || chunks.len() != all.div_ceil(len) {
+        return None;
+    }
+    if chunks.iter().any(|chunk| chunk.filter_mask != 0 || chunk.storage_size > bytes.len) {
+        return None;
+    }
+    let mut values = vec![0.0; all];
+    let unpack = |(values, chunk): (&mut [f64], &hdf5_pure::Chunk)| -> io::Result<()> {
+        let mut packed = vec![0; chunk.storage_size as usize];
+        bytes.read(chunk.address, &mut packed)?;
+        packing::unpack(&packed, len, values)
+    };
+    values.par_chunks_mut(len).zip(&chunks).try_for_each(unpack).ok()?;
+    Some(values)
+}
+
+fn stored(dataset: &Dataset, bytes: &FileBytes) -> std::result::Result<StoredField, hdf5_pure::Error> {
     let shape: Vec<usize> = dataset.shape()?.iter().map(|size| *size as usize).collect();
     let attributes = dataset.attrs()?;
     let text = |name| {
@@ -448,8 +617,12 @@ fn stored(dataset: &Dataset) -> std::result::Result<StoredField, hdf5_pure::Erro
         text.unwrap_or_default().to_owned()
     };
     let numbers = |name| attributes.get(name).and_then(AttrValue::to_f64s).unwrap_or_default();
-    let values = ArrayD::from_shape_vec(shape, dataset.read_f64()?)
-        .map_err(|error| hdf5_pure::Error::Shape(error.to_string()))?;
+    let values = match unpacked(dataset, &shape, bytes) {
+        Some(values) => values,
+        None => dataset.read_f64()?,
+    };
+    let values =
+        ArrayD::from_shape_vec(shape, values).map_err(|error| hdf5_pure::Error::Shape(error.to_string()))?;
     Ok(StoredField {
         unit: text("unit"),
         axes: text("axes"),

@@ -3,8 +3,10 @@
 pub(crate) mod atomic; // atomic files
 mod digest; // SHA-256
 pub mod fields; // HDF5: named fields with unit, axes, pitch
+mod image; // HDF5 in memory, of one array
 #[cfg(feature = "study")]
 pub(crate) mod lock; // locks that end with their process
+mod packing; // chunks of arrays, deflated
 pub(crate) mod regular; // reading of regular files
 pub mod vti; // fields for ParaView
 

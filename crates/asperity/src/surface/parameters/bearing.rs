@@ -1,5 +1,7 @@
 //! The material ratio curve, also bearing or Abbott–Firestone curve.
 
+use rayon::prelude::*;
+
 use crate::error::{Error, Result};
 use crate::surface::Topography;
 use crate::units::Metre;
@@ -39,7 +41,7 @@ impl BearingCurve {
         }
         let mean = heights.iter().sum::<f64>() / heights.len() as f64;
         heights.iter_mut().for_each(|z| *z -= mean);
-        heights.sort_unstable_by(|a, b| b.total_cmp(a));
+        heights.par_sort_unstable_by(|a, b| b.total_cmp(a));
         let sums = heights.iter().scan(0.0, |sum, z| Some(std::mem::replace(sum, *sum + z))).collect();
         Ok(Self { heights, sums })
     }

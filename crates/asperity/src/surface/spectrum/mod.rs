@@ -61,7 +61,10 @@ impl Spectrum {
         let weights = window.weights(grid.shape);
         let mean = (&heights * &weights).sum() / weights.sum();
         heights.zip_mut_with(&weights, |z, w| *z = (*z - mean) * w);
+        // Neither is needed any more, and each is as large as the topography.
+        drop(weights);
         let transform: Array2<Complex64> = RealFft2::new(grid.shape).forward(&heights);
+        drop(heights);
         let scale = grid.cell_area() / grid.cells() as f64;
         Self { grid, density: transform.mapv(|z| scale * z.norm_sqr()) }
     }

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use rayon::prelude::*;
+
 use super::{SpectralPoint, Spectrum};
 use crate::grid::Grid;
 
@@ -16,6 +18,9 @@ pub enum Bins {
         per_decade: u32,
     },
 }
+
+/// Rows of waves whose places are found at a time.
+const ROWS: usize = 256;
 
 impl Spectrum {
     /// Computes the mean over all directions, C^iso(q) = (1/2π) ∫ C(q cos φ, q sin φ) dφ, m⁴, up to [`Spectrum::nyquist`].
@@ -36,15 +41,29 @@ impl Spectrum {
             }
         };
         let mut rings = vec![[0.0; 3]; 1 + ring(limit.ln()).max(0.0) as usize];
-        self.for_each_wave(|[qx, qy], density, signs| {
-            let q = qx.hypot(qy);
-            if q == 0.0 || q > limit {
-                return;
+        let along_y: Vec<_> = (0..self.density.ncols()).map(|l| self.wave_vector([0, l])[1]).collect();
+        // Ring and logarithm of each wave of a row that counts.
+        let row = |k: usize| -> Vec<Option<(usize, f64)>> {
+            let qx = self.wave_vector([k, 0])[0];
+            let place = |qy: &f64| {
+                let q = qx.hypot(*qy);
+                let logarithm = q.ln();
+                (q != 0.0 && q <= limit).then(|| (ring(logarithm) as usize, logarithm))
+            };
+            along_y.iter().map(place).collect()
+        };
+        let rows: Vec<usize> = (0..self.density.nrows()).collect();
+        for some in rows.chunks(ROWS) {
+            let places: Vec<_> = some.par_iter().map(|k| row(*k)).collect();
+            for (k, places) in some.iter().zip(places) {
+                for (l, place) in places.into_iter().enumerate() {
+                    let Some((ring, logarithm)) = place else { continue };
+                    let (signs, sums) = (self.signs(l), &mut rings[ring]);
+                    let density = self.density[[*k, l]];
+                    *sums = [sums[0] + signs * logarithm, sums[1] + signs * density, sums[2] + signs];
+                }
             }
-            let logarithm = q.ln();
-            let sums = &mut rings[ring(logarithm) as usize];
-            *sums = [sums[0] + signs * logarithm, sums[1] + signs * density, sums[2] + signs];
-        });
+        }
         let point = |[logarithm, density, waves]: &[f64; 3]| SpectralPoint {
             wave_number: (logarithm / waves).exp(),
             density: density / waves,
