@@ -126,7 +126,7 @@ impl Rest {
             let finer = rest.as_ref().unwrap_or(self);
             let (stencil, error) = finer.stencil(*radius)?;
             distance += error;
-            if !(distance <= MAX_DISTANCE) {
+            if distance > MAX_DISTANCE || distance.is_nan() {
                 return None;
             }
             rest = Some(finer.coarse(&stencil));

@@ -686,14 +686,14 @@ impl<'a> Block<'a> {
                 let chunks = sets.iter().zip(d).zip(c).zip(p).zip(touch).zip(r).enumerate();
                 for (number, (((((sets, d), c), p), touch), r)) in chunks {
                     let of = |lane: usize| of(first + number * LANES + lane);
-                    step.take(*sets, [d, c], p, touch, r, of, &mut lanes);
+                    step.take(*sets, [d, c], [p, touch], r, of, &mut lanes);
                 }
                 let mut last = [[0.0; 1]; 3];
                 let cells = sets_rest.iter().zip(d_rest).zip(c_rest).zip(p_rest).zip(touch_rest).zip(r_rest);
                 for (number, (((((set, d), c), p), touch), r)) in cells.enumerate() {
                     let [p, touch] = [p, touch].map(std::array::from_mut);
                     let [d, c] = [d, c].map(std::array::from_ref);
-                    step.take([*set], [d, c], p, touch, std::array::from_mut(r), |_| of(rest + number), &mut last);
+                    step.take([*set], [d, c], [p, touch], std::array::from_mut(r), |_| of(rest + number), &mut last);
                 }
                 let [residual, violation, _] = [0, 1, 2].map(|n| lanes[n].iter().sum::<f64>() + last[n][0]);
                 let max_residual = lanes[2].iter().fold(last[2][0], |most, value| f64::max(most, *value));
@@ -777,8 +777,7 @@ impl Step {
         &self,
         sets: [Set; N],
         [d, c]: [&[f32; N]; 2],
-        p: &mut [f64; N],
-        touch: &mut [f64; N],
+        [p, touch]: [&mut [f64; N]; 2],
         r: &mut [f32; N],
         bounds: impl Fn(usize) -> Interval,
         [residuals, violations, largest]: &mut [[f64; N]; 3],
