@@ -200,6 +200,9 @@ class PeriodicFullContact(Failed):
 class PullOff(Failed):
     """The `load` pulls the bodies apart: adhesion holds at most `least`, the pull-off force, N."""
 
+    load: float
+    least: float
+
 
 class LoadNotReached(Failed):
     """No approach gives the mean load of a pass: `load`, `below`, N; `trials`; `approach`, m."""

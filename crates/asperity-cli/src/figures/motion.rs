@@ -12,7 +12,7 @@ use asperity::{Field, Grid};
 use super::pressure;
 use super::profile::{OverlapFields, Profile, Row, most_loaded};
 use super::sheet::Sheet;
-use super::stored::{Cap, StoredArray, touched};
+use super::stored::{Cap, StoredArray, ends_with_tension, of_pressures, touched};
 use super::surfaces;
 use super::{course, rolling};
 use crate::draw::{Axis, Chart, Charts, Colours, Maps, Mark, Series, Unit, range_of_heights};
@@ -76,7 +76,9 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
     sheet.add("mean_pressure", "mean pressure over the pass", &of, || {
         let (largest, remark) = most_of(mean.iter().flat_map(|mean| mean.field.iter().copied()));
         let maps = [(&mean[0], "on the lower body"), (&mean[1], "on the upper body")];
-        let maps = Maps::new(maps.map(|(mean, title)| mean.pressure(title).range([0.0, largest])).into());
+        let least = mean.iter().flat_map(|mean| mean.field.iter().copied()).fold(0.0, f64::min);
+        let range = ends_with_tension([least, largest]).unwrap_or([0.0, largest]);
+        let maps = Maps::new(maps.map(|(mean, title)| mean.pressure_within(title, range)).into());
         Ok(remark.into_iter().fold(maps, Maps::remark))
     })?;
     let [worn, film] = ["wear", "film"].map(|state| of_bodies(&last, state, &before));
@@ -226,7 +228,10 @@ fn pressures(
     let loaded = kept.iter().filter(|step| step.max_pressure >= largest * (1.0 - 1e-6));
     let Some(most) = loaded.max_by(|a, b| a.load.total_cmp(&b.load)) else { return Ok(()) };
     let read = |step: &StepRecord| StoredArray::read(fields, &pressure_name(step.step));
-    let range = [0.0, largest.max(f64::MIN_POSITIVE)];
+    // With tension in the cells in contact, whose least is that of the open ones, too.
+    let least = kept.iter().filter_map(|step| step.adhesion).map(|adhesion| adhesion.min_pressure);
+    let range = ends_with_tension([least.fold(0.0, f64::min), largest])
+        .unwrap_or([0.0, largest.max(f64::MIN_POSITIVE)]);
     let number = SHEET.min(kept.len());
     // The middles of equal parts of the pass: its very ends show next to nothing.
     let middles: Vec<&StepRecord> =
@@ -246,7 +251,7 @@ fn pressures(
         })
         .collect::<Outcome<_>>()?;
     sheet.add("pressure", "pressure on the lower body", of, || {
-        Ok(Maps::new(shown.iter().map(|(title, stored)| stored.pressure(title).range(range)).collect()))
+        Ok(Maps::new(shown.iter().map(|(title, stored)| stored.pressure_within(title, range)).collect()))
     })?;
     let is_heated = |step: &StepRecord| names.contains(&temperature_name(step.step));
     if middles.iter().any(|step| is_heated(step)) {
@@ -284,12 +289,12 @@ fn pressures(
     sheet.add("pressure_histogram", "distribution of the pressure over the contact", of, || {
         Ok(pressure::histogram(frames.iter().map(|stored| &stored.field), &caps[0]))
     })?;
-    sheet.animate("pressure", "pressure on the lower body", Colours::Pressure, || {
+    sheet.animate("pressure", "pressure on the lower body", of_pressures(range), || {
         let words = kept.iter().map(|step| {
             let load = format(step.load, Dimension::Force);
             format!("pass {done}, position {}, load {load}", step.step)
         });
-        let maps = frames.iter().map(|stored| Maps::new(vec![stored.pressure("").range(range)]));
+        let maps = frames.iter().map(|stored| Maps::new(vec![stored.pressure_within("", range)]));
         Ok(words.zip(maps).collect())
     })?;
     if let Some(profile) = section(results, &read(most)?, most)? {

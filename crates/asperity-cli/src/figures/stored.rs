@@ -53,13 +53,19 @@ impl StoredArray {
 
     pub(super) fn pressure(&self, title: impl Into<String>) -> Map<'_> {
         if let Some(range) = range_with_tension(&self.field) {
-            return self
-                .map(title, "pressure, tension below 0", Unit::Pressure, Colours::Signed)
-                .range(range);
+            return self.pressure_within(title, range);
         }
         self.map(title, "pressure", Unit::Pressure, Colours::Pressure)
             .missing("outside the overlap")
             .blank("no contact")
+    }
+
+    /// Pressures in colours over a range, which begins below 0 if there is tension.
+    pub(super) fn pressure_within(&self, title: impl Into<String>, range: [f64; 2]) -> Map<'_> {
+        let colours = of_pressures(range);
+        let name = if colours == Colours::Signed { "pressure, tension below 0" } else { "pressure" };
+        let map = self.map(title, name, Unit::Pressure, colours).missing("outside the overlap");
+        map.blank("no contact").range(range)
     }
 
     pub(super) fn heights(&self, title: impl Into<String>) -> Map<'_> {
@@ -111,6 +117,11 @@ pub(super) fn touched(pressure: &Field) -> Field {
 
 /// Largest pressure at the end of the colours, as a multiple of the largest tension, which would be pale beside a much larger one.
 const MAX_RATIO: f64 = 4.0;
+
+/// The colours of pressures over a range, which begins below 0 if there is tension.
+pub(super) fn of_pressures(range: [f64; 2]) -> Colours {
+    if range[0] < 0.0 { Colours::Signed } else { Colours::Pressure }
+}
 
 /// The ends of the colours of pressures with tension among them, the same above 0 as below; none without tension.
 pub(crate) fn range_with_tension(pressure: &Field) -> Option<[f64; 2]> {

@@ -15,11 +15,14 @@ type Number = fn(&SweepRecord) -> f64;
 
 /// What is drawn over it: the column, which is the name of the figure, its axis, and whether that is logarithmic beside a logarithmic
 /// one. The mean gap falls with the logarithm of the load.
-const DRAWN: [(&str, &str, bool, Number); 4] = [
+const DRAWN: [(&str, &str, bool, Number); 5] = [
     ("contact_area", "real contact area", true, |p| p.contact_area),
     ("mean_gap", "mean gap", false, |p| p.mean_gap),
     ("stiffness", "normal stiffness", true, |p| p.stiffness.unwrap_or(f64::NAN)),
     ("max_pressure", "largest pressure", true, |p| p.max_pressure),
+    ("adhesive_load", "adhesive load", false, |p| {
+        p.adhesion.map_or(f64::NAN, |adhesion| adhesion.adhesive_load)
+    }),
 ];
 
 pub(super) fn draw(points: &[SweepRecord], case: &Case, sheet: &mut Sheet) -> Outcome {
@@ -49,7 +52,9 @@ pub(crate) fn curves(points: &[SweepRecord], case: &Case) -> Vec<Curves> {
     ordered.sort_by(|a, b| x(a).total_cmp(&x(b)));
     let [least, most] = [f64::min, f64::max].map(|pick| points.iter().map(x).fold(f64::NAN, pick));
     let log = least > 0.0 && most >= DECADE * least;
-    let drawn = DRAWN.into_iter().map(|(name, label, may_be_log, y)| {
+    // Bodies that attract each other have no stiffness, others no adhesive load.
+    let known = DRAWN.into_iter().filter(|(.., y)| points.iter().any(|point| y(point).is_finite()));
+    let drawn = known.map(|(name, label, may_be_log, y)| {
         let curve = ordered.iter().map(|point| [x(point), y(point)]).collect();
         let series = vec![Series::new("", curve, Mark::LineAndPoints)];
         let horizontal = Axis { log, ..Axis::of(swept.as_str(), column) };

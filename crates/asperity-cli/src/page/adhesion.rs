@@ -11,6 +11,18 @@ use super::html::{escaped, facts, minus};
 use super::numbers;
 use crate::figures;
 
+/// The numbers in the order of the page, with their names there.
+const ORDER: [(&str, &str); 9] = [
+    ("pull_off", "pull-off"),
+    ("work_of_separation", "work of separation"),
+    ("tabor", "Tabor's parameter"),
+    ("pastewka_robbins", "Pastewka and Robbins"),
+    ("range", "range"),
+    ("max_tension", "largest tension"),
+    ("process_zone", "process zone"),
+    ("process_zone_cells", "cells of the process zone"),
+    ("full_contact_energy", "energy of full contact"),
+];
 /// Jumps that are listed, at most.
 const MAX_JUMPS: usize = 12;
 
@@ -24,13 +36,23 @@ pub(super) fn section(found: &PageData, charts: &mut Vec<Value>) -> Option<Strin
     if let Some(Value::Object(record)) =
         summary.adhesion.and_then(|numbers| serde_json::to_value(numbers).ok())
     {
-        let named = numbers::of("adhesion", &record);
+        let place = |name: &str| ORDER.iter().position(|(column, _)| column.replace('_', " ") == name);
+        let mut named = numbers::of("adhesion", &record);
+        named.sort_by_key(|(name, _)| place(name).unwrap_or(ORDER.len()));
         // A number with its meaning beside it.
         let with_meaning = named.into_iter().map(|(name, value)| {
-            let meaning = column(&name.replace(' ', "_")).map_or("", |column| column.text);
-            (name, format!("{value} <small>{}</small>", escaped(meaning)))
+            let (column_name, label) = place(&name).map_or(("", name.as_str()), |place| ORDER[place]);
+            let meaning = column(column_name).map_or("", |column| column.text);
+            (label.to_owned(), format!("{value} <small>{}</small>", escaped(meaning)))
         });
         html += &facts(with_meaning);
+    }
+    if let Some(last) = found.passes.last()
+        && let Some(Value::Object(record)) =
+            last.adhesion.and_then(|record| serde_json::to_value(record).ok())
+    {
+        html += &format!("<h3>Pass {}</h3>", found.done[found.passes.len()]);
+        html += &facts(numbers::of(&format!("passes.{}", found.passes.len() - 1), &record));
     }
     if let Outcome::Static(record) = &summary.outcome
         && let Some(adhesion) = &record.adhesion

@@ -146,6 +146,9 @@ fn of_passes(found: &PageData, first: &PassRecord, last: &PassRecord) -> Vec<Car
             format!("{} °C", format_number(kelvin)),
         ));
     }
+    if let Some(adhesion) = last.adhesion.filter(|adhesion| adhesion.adhesive_drag > 0.0) {
+        cards.push(Card::of("drag", "adhesive_drag", format(adhesion.adhesive_drag, Dimension::Force)));
+    }
     if last.mean_tangential_force != 0.0 && last.friction_coefficient.is_finite() {
         let coefficient = format_number(last.friction_coefficient);
         cards.push(Card::of("coefficient of friction", "friction_coefficient", coefficient));

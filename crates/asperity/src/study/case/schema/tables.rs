@@ -66,13 +66,14 @@ pub(in crate::study) fn belongs(key: &str, table: &str) -> Option<(String, Optio
     let name = declared(table);
     let elsewhere = |section: &&Section| section.has(key) && !section.tables.contains(&name.as_str());
     let hint = match keys().iter().filter(|section| !section.tables.is_empty()).find(elsewhere) {
+        // That of [adhesion] is a word, and rarely meant.
+        _ if key == root::HISTORY.key.name => "write stages as separate tables: [[history]]".to_owned(),
         Some(section) => {
             let body = name.split('.').next();
             let of_body = section.tables.iter().find(|owner| owner.split('.').next() == body);
             format!("`{key}` belongs in [{}]", of_body.unwrap_or(&section.tables[0]))
         }
         None if key == root::TITLE.key.name => "put `title` above all tables".to_owned(),
-        None if key == root::HISTORY.key.name => "write stages as separate tables: [[history]]".to_owned(),
         None if is_of_root(key) => format!("write it as a separate table: [{key}]"),
         None if table.is_empty() && OF_A_STUDY.contains(&key) => {
             "this is a study: `asperity study` computes it".to_owned()
