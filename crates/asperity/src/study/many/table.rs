@@ -234,6 +234,9 @@ fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     if let Some(flow) = &summary.plasticity {
         add(&mut numbers, "", flow);
     }
+    if let Some(adhesion) = &summary.adhesion {
+        add(&mut numbers, "", adhesion);
+    }
     if let Some(stress) = summary.subsurface.last() {
         add(&mut numbers, "subsurface_", stress);
     }
