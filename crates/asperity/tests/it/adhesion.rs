@@ -88,9 +88,16 @@ fn a_constant_tension_pulls_as_maugis_says() {
 #[test]
 #[ignore = "a minute: eight parameters on two grids"]
 fn a_constant_tension_pulls_as_maugis_says_for_every_parameter() {
-    for (lambda, most) in
-        [(0.05, 0.01), (0.1, 0.01), (0.3, 0.02), (0.5, 0.03), (1.0, 0.04), (2.0, 0.1), (3.0, 0.2), (5.0, 0.35)]
-    {
+    for (lambda, most) in [
+        (0.05, 0.01),
+        (0.1, 0.01),
+        (0.3, 0.02),
+        (0.5, 0.03),
+        (1.0, 0.04),
+        (2.0, 0.1),
+        (3.0, 0.2),
+        (5.0, 0.35),
+    ] {
         let [coarse, fine] = [64, 128].map(|cells| maugis_error(lambda, cells));
         println!("λ {lambda}: {coarse:.4} {fine:.4}");
         assert!(fine.abs() < most, "λ = {lambda}: {fine}");
