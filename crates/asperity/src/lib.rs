@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! z              up, out of the lower body         gap       g = h + u − δ ≥ 0   (h: undeformed, at δ = 0)
-//! pressure   p   ≥ 0, positive in compression      approach  δ grows as the bodies move together
+//! pressure   p   positive in compression           approach  δ grows as the bodies move together
 //! displacement u positive where it opens the gap   fields    indexed [ix, iy]; metres, pascals, newtons
 //! x              the direction of motion           load      W = ΔA Σ p, ΔA the area of a cell
 //! stress     σ   positive in tension; z then points from the surface into the loaded body
@@ -27,6 +27,7 @@
 //! | two topographies and materials | [`motion::Pair`] | the argument of [`motion::press`], [`motion::load_in_stages`], [`motion::roll`], [`motion::WearInPlace`] and [`motion::Simulation`] |
 //! | a grid and compliances | [`operator::Operators`] | an [`operator::Operator`]: pressure in, displacement out |
 //! | an operator and a gap | [`solver::solve_normal`], [`solver::Params`] | [`solver::Solution`] with its [`solver::Stats`] |
+//! | an attraction between the surfaces | [`adhesion::Adhesion`], [`motion::Pair::with_adhesion`], [`solver::solve_adhesive`] | the contact that the bodies reach on their way |
 //! | cells in contact and their heat sources | [`temperature::FlashTemperature`], [`temperature::SteadyTemperature`] | their temperature and the heat partition |
 //! | cells in contact and conductivities | [`conductance::solve`] | [`conductance::Conductance`]: thermal or electrical |
 //! | the deformed gap of a contact | [`flow::solve()`] | its permeability, leakage and critical constriction |
@@ -58,7 +59,8 @@
 //!
 //! - The bodies are half-spaces: homogeneous, isotropic and linearly elastic. Slopes and strains are small, and the contact
 //!   is small compared with the bodies.
-//! - There is no adhesion. A cell yields at the hardness, the upper limit of its pressure. Its surface is truncated there,
+//! - Bodies that attract each other ([`mod@adhesion`]) are elastic or have a hardness. They have no elasto-plastic deformation.
+//! - A cell yields at the hardness, the upper limit of its pressure. Its surface is truncated there,
 //!   which leaves no residual stress.
 //! - Friction follows Coulomb's law in each cell, up to a shear strength. All positions of a motion are in gross slip.
 //! - Nothing depends on time or on temperature: there is no inertia, no creep of the material, no lubricant.

@@ -4,6 +4,7 @@
 //! and loads are positive unless stated otherwise. An invalid value gives NaN or infinity, never a panic. Displacements u
 //! are composite, positive where they open the gap, and u = 0 far away.
 
+pub mod adhesion;
 pub mod carter;
 pub mod cattaneo;
 pub mod cell;
@@ -20,6 +21,7 @@ pub mod spence;
 pub mod sticking;
 pub mod westergaard;
 
+pub use adhesion::{AdhesiveWave, DmtSphere, JkrSphere, KendallPunch, MaugisSphere};
 pub use carter::Carter;
 pub use cattaneo::{CattaneoMindlin, MindlinDeresiewicz};
 pub use cone::Cone;

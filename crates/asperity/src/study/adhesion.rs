@@ -31,7 +31,7 @@ columns! {
         pub full_contact_energy: Option<f64>,
         /// Pull-off force, the least load of a retreat; unknown if the bodies do not retreat.
         pub pull_off: Option<Newton>,
-        /// Work of separation ∫ |W| dδ under loads that pull, over the retreat; unknown if the bodies do not retreat.
+        /// Work of separation: the work of the loads that pull, over the retreat; unknown if the bodies do not retreat.
         pub work_of_separation: Option<Joule>,
     }
 }

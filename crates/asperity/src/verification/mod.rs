@@ -18,6 +18,7 @@
 //! Shear, tangential displacement and stick area behave like pressure, approach and contact area. Increments with a growing
 //! contact, and steps of rolling, are of order 1.
 
+mod adhesion;
 mod coated;
 mod conductance;
 mod dissimilar;
@@ -116,7 +117,7 @@ impl Check {
     }
 }
 
-/// All cases: operators first, then solutions without and with friction, frictional heating, flow through a gap, plastic flow and wear.
+/// All cases: operators first, then solutions without friction, with adhesion and with friction, frictional heating, flow through a gap, plastic flow and wear.
 pub const CASES: &[Case] = &[
     operators::LOADED_RECTANGLE,
     operators::FREE_TRANSFORM,
@@ -139,6 +140,12 @@ pub const CASES: &[Case] = &[
     rough::PLASTIC_LIMIT,
     rough::WORK,
     rough::METHODS,
+    adhesion::JKR_LIMIT,
+    adhesion::MAUGIS_LONG,
+    adhesion::MAUGIS_SHORT,
+    adhesion::WAVE,
+    adhesion::ENERGY,
+    adhesion::NO_WORK,
     shear::COEFFICIENTS,
     shear::FREE_TRANSFORM,
     shear::PERIODIC_TRANSFORM,

@@ -1,5 +1,6 @@
 //! Tests across the modules of the library, as one program with a module for each subject.
 
+mod adhesion;
 mod bad_inputs;
 mod bounds;
 mod case_file;
