@@ -9,6 +9,7 @@
 //! `origin` is the position of the centre of the first cell.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::fmt::Write as _;
 use std::fs;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -501,9 +502,9 @@ impl Fields {
             |digests: &Mutex<BTreeMap<_, _>>| digests.lock().unwrap_or_else(PoisonError::into_inner).clone();
         let mut arrays = self.digests.as_ref().map(kept).unwrap_or_default();
         for name in self.names()? {
-            if !arrays.contains_key(&name) {
-                let digest = self.read(&name)?.digest();
-                arrays.insert(name, digest);
+            if let Entry::Vacant(array) = arrays.entry(name) {
+                let digest = self.read(array.key())?.digest();
+                array.insert(digest);
             }
         }
         if written == Some(content_digest(&attributes, &arrays).as_str().into()) {

@@ -145,7 +145,7 @@ impl Stream {
             self.bits >>= 32;
             self.count -= 32;
         }
-        if self.count % 8 == 0 {
+        if self.count.is_multiple_of(8) {
             // Whole bytes leave, so that what is aligned can follow.
             self.bytes.extend_from_slice(&self.bits.to_le_bytes()[..self.count as usize / 8]);
             (self.bits, self.count) = (0, 0);

@@ -20,7 +20,7 @@ columns! {
         pub adhesion_energy: Joule,
         /// Energy lost in jumps: the work done minus the energy stored, by the trapezoidal rule; 0 for bodies that come from afar.
         pub energy_lost: Joule,
-        /// Number of jumps: increments, or positions, that lose more than 1 % of the energy.
+        /// Number of jumps: increments, or positions, that lose more than 1 % of the energy, and more than the work of adhesion of a cell.
         pub jumps: usize,
     }
 }
@@ -102,7 +102,9 @@ impl AdhesionRecord {
         let now = Stored::of(solution, &self);
         let then = Stored::of(before, &Self::of(adhesion, before));
         let lost = work - (now.energy - then.energy);
-        let jumps = lost > JUMP * now.size.max(then.size);
+        // What is less than the adhesion of a cell is no jump, however small the energy far apart is.
+        let of_a_cell = adhesion.work * solution.grid.cell_area();
+        let jumps = lost > of_a_cell.max(JUMP * now.size.max(then.size));
         Self { energy_lost: if jumps { lost } else { 0.0 }, jumps: usize::from(jumps), ..self }
     }
 

@@ -109,7 +109,7 @@ impl<'a> NewtonIteration<'a> {
                 let is_near = distance <= MAX_DISTANCE * forecast.distance;
                 return Ok(is_near.then(|| (mem::take(&mut self.pressure), gap)));
             }
-            if !(distance <= MAX_EXCURSION * forecast.distance) {
+            if distance.is_nan() || distance > MAX_EXCURSION * forecast.distance {
                 return Ok(None);
             }
             if state.eta < PROGRESS * best {

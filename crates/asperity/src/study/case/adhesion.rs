@@ -1,11 +1,12 @@
 //! `[adhesion]`: the attraction between the bodies.
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use super::Case;
 use super::cursor::Table;
 use super::schema::adhesion as keys;
 use super::schema::tables::known_in;
+use super::schema::values::adhesion::AdhesionRange;
 use crate::adhesion::{Adhesion, Potential};
 use crate::error::{Error, Result};
 use crate::grid::Grid;
@@ -25,27 +26,6 @@ pub struct AdhesionSpec {
     /// Where the bodies come from at each position of a motion.
     #[serde(skip_serializing_if = "is_none")]
     pub history: AdhesionHistory,
-}
-
-/// Range of the attraction.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum AdhesionRange {
-    /// A length, > 0.
-    Length(Metre),
-    /// The shortest range that the grid resolves.
-    Grid,
-}
-
-/// The word for the shortest range that the grid resolves.
-pub(super) const GRID: &str = "grid";
-
-impl Serialize for AdhesionRange {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        match self {
-            Self::Length(length) => serializer.serialize_f64(*length),
-            Self::Grid => serializer.serialize_str(GRID),
-        }
-    }
 }
 
 pub(super) fn adhesion(table: &Table<'_>) -> Result<AdhesionSpec> {

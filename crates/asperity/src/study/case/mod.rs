@@ -32,7 +32,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
 
-pub use self::adhesion::{AdhesionRange, AdhesionSpec};
+pub use self::adhesion::AdhesionSpec;
 pub use self::conductance::ConductanceSpec;
 use self::document::Document;
 pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
@@ -41,6 +41,7 @@ pub use self::hardness::{Hardness, HardnessInput, HardnessMap};
 pub use self::plasticity::{FlowSpec, HardeningKey, PlasticitySpec};
 pub use self::prescribed::Prescribed;
 pub use self::running::{FilmSpec, TemperatureSpec, WearKey, WearSpec};
+pub use self::schema::values::adhesion::AdhesionRange;
 pub use self::schema::values::plasticity::Keep;
 pub use self::schema::values::subsurface::Side;
 pub use self::sliding::SlidingSpec;

@@ -2,7 +2,7 @@
 
 use super::super::Prescribed;
 use super::Rule;
-use super::examples::{AT_ANY_SPEED, FLOWS, RUBS, SLIDES, VOLUME};
+use super::examples::{AT_ANY_SPEED, FLOWS, RUBS, SLIDES, VOLUME, WEARS};
 use crate::motion::AdhesionHistory;
 use crate::solver::Coupling;
 
@@ -62,7 +62,7 @@ pub(super) const RULES: &[Rule] = &[
         message: "[subsurface] with [adhesion] applies to a static contact only",
         hint: "leave [subsurface] or [adhesion] out",
         at: "subsurface",
-        example: &[STICKS, AT_ANY_SPEED, "subsurface = { depths = [\"1 um\"] }"],
+        example: &[STICKS, AT_ANY_SPEED, "subsurface = { to = \"5 um\" }"],
         broken: |tables| {
             tables.case.adhesion.and(tables.motion())?;
             tables.at("subsurface")
@@ -74,7 +74,7 @@ pub(super) const RULES: &[Rule] = &[
         message: "[adhesion] does not apply to wear in place",
         hint: "leave [adhesion] or [sliding] out",
         at: "adhesion",
-        example: &[STICKS, SLIDES],
+        example: &[STICKS, WEARS, SLIDES],
         broken: |tables| tables.at("adhesion").filter(|_| tables.case.sliding.is_some()),
     },
     Rule {

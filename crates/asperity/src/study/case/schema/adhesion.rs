@@ -4,8 +4,7 @@ use super::Bounds::AboveZero;
 use super::typed::{Typed, choice, defaulted, other, quantity, required, section};
 use crate::adhesion::Potential;
 use crate::motion::AdhesionHistory;
-use crate::study::case::AdhesionRange;
-use crate::study::case::schema::values::adhesion as read;
+use crate::study::case::schema::values::adhesion::{self as read, AdhesionRange};
 use crate::units::Dimension;
 
 section! { &["adhesion"], "";

@@ -1,12 +1,31 @@
 //! The range of an attraction.
 
+use serde::{Serialize, Serializer};
+
 use crate::error::Result;
-use crate::study::case::AdhesionRange;
 use crate::study::case::cursor::{Entry, did_you_mean};
-use crate::units::Dimension;
+use crate::units::{Dimension, Metre};
+
+/// Range of the attraction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AdhesionRange {
+    /// A length, > 0.
+    Length(Metre),
+    /// The shortest range that the grid resolves.
+    Grid,
+}
 
 /// The word for the shortest range that the grid resolves.
 const GRID: &str = "grid";
+
+impl Serialize for AdhesionRange {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        match self {
+            Self::Length(length) => serializer.serialize_f64(*length),
+            Self::Grid => serializer.serialize_str(GRID),
+        }
+    }
+}
 
 /// Reads a length above 0, or the word for the shortest range that the grid resolves.
 pub(in crate::study::case) fn range(entry: &Entry<'_>) -> Result<AdhesionRange> {
