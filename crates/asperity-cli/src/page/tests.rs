@@ -8,6 +8,7 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 use super::*;
+use crate::example::unpack;
 
 /// Two small rough bodies that pass over each other twice.
 const MOVING: &str = "\
@@ -177,15 +178,18 @@ fn the_case_on_a_page_of_an_example_is_that_case() {
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let mut looked_at = 0;
     for entry in fs::read_dir(examples).unwrap() {
-        let folder = entry.unwrap().path();
-        let case = Case::load(&folder.join("case.toml")).unwrap();
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        // As the command writes it: examples share files.
+        let folder = tempfile::tempdir().unwrap();
+        let path = unpack(&name, folder.path()).unwrap_or_else(|_| panic!("{name}"));
+        let case = Case::load(&path).unwrap();
         let resolved =
             |case: &Case| study::resolved(case, &study::bodies(case, SurfaceInput::default()).unwrap());
         let before = resolved(&case);
         let toml = toml::to_string(&case::written(&before)).unwrap();
         let again = Case::parse(&toml, Path::new("case.toml"), Path::new(""))
             .unwrap_or_else(|e| panic!("{e} in\n{toml}"));
-        assert_eq!(resolved(&again)["identity"], before["identity"], "{}", folder.display());
+        assert_eq!(resolved(&again)["identity"], before["identity"], "{name}");
         looked_at += 1;
     }
     assert!(looked_at >= 6);

@@ -67,7 +67,7 @@ mod tests {
             })
         };
         let lower = Topography::new(grid, bump(12.0)).unwrap();
-        let upper = Topography::new(grid, 0.8 - bump(0.0)).unwrap();
+        let upper = Topography::new(grid, 0.8 - bump(3.0)).unwrap();
         let (soft, rigid) =
             (Material::elastic(1.0, 0.0).unwrap(), Material::elastic(f64::INFINITY, 0.0).unwrap());
         let adhesion = Adhesion::new(work, 0.25).unwrap();

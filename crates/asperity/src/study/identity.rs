@@ -219,6 +219,7 @@ mod tests {
             ("rubbing", "c3ea33d8"),
             ("running_in", "58e862ee"),
             ("smallest", "0bab5fb9"),
+            ("sticking", "8a4a2c46"),
             ("stuck", "9945b5f2"),
             ("swept", "0eb13fb9"),
             ("swept_approaches", "36a3c377"),
