@@ -257,11 +257,26 @@ struct Changes {
     left: Metre,
 }
 
-/// The gap towards which the rounds converge, if their changes go on in a geometric series.
+/// Forecast of the gap towards which the rounds converge: the changes left are in proportion to the last one.
 struct Forecast {
+    /// The gap after the last round.
     gap: Field,
-    /// Largest distance from the present gap.
-    distance: Metre,
+    /// Its change in the last round.
+    change: Field,
+    /// Sum of the changes left over the last change, if they decrease in a geometric series.
+    share: f64,
+}
+
+impl Forecast {
+    /// Returns the part of the distance of another gap from the last one that is not along the last change, as a fraction of that
+    /// distance, and how many times the last change it is away.
+    fn deviation(&self, gap: &Field) -> [f64; 2] {
+        let way = gap - &self.gap;
+        let [length, along] = [(&way * &way).sum(), (&way * &self.change).sum()];
+        let times = along / (&self.change * &self.change).sum();
+        let across = (length - along * times).max(0.0);
+        [(across / length).sqrt(), times]
+    }
 }
 
 impl Changes {
@@ -278,7 +293,7 @@ impl Changes {
         let share = if ratio < 1.0 { ratio / (1.0 - ratio) } else { f64::INFINITY };
         let left_before = mem::replace(&mut self.left, change * share);
         let nearer = self.left < left_before && left_before.is_finite();
-        nearer.then(|| Forecast { gap: gap + (gap - &before) * share, distance: self.left })
+        nearer.then(|| Forecast { gap: gap.clone(), change: gap - &before, share })
     }
 }
 

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::grid::{Field, SingleField};
 use crate::math::gmres;
 use crate::operator::Operator;
-use crate::solver::adhesive::{Forecast, Problem, largest_difference};
+use crate::solver::adhesive::{Forecast, Problem};
 use crate::solver::preconditioner::Preconditioner;
 use crate::solver::sets::{Set, Sets};
 use crate::solver::watch::check_stop;
@@ -25,11 +25,11 @@ const MAX_STAGNATIONS: usize = 4;
 const LAST_RESIDUAL: f64 = 0.1;
 /// Largest reduction of the residual that a step aims at.
 const MAX_REDUCTION: f64 = 0.1;
-/// Largest distance of the gap from the forecast, as a fraction of the distance of the forecast. The rounds of the lagged bounds
-/// converge to the stable equilibrium that the bodies reach; one elsewhere is another one.
-const MAX_DISTANCE: f64 = 0.3;
-/// Largest distance of the gap from the forecast during the iteration.
-const MAX_EXCURSION: f64 = 3.0;
+/// Largest part of the way to the equilibrium that is not along the last change of the lagged bounds. The rounds converge to the stable
+/// equilibrium that the bodies reach, and one elsewhere is another one.
+const MAX_DEVIATION: f64 = 0.3;
+/// Largest length of this way, as a multiple of the sum of the changes that the rounds would still cause.
+const MAX_LENGTH: f64 = 3.0;
 
 /// The unknowns of the iteration: pressure, displacement and approach. With the cells in contact C, capped cells U and open cells O,
 /// the equations of a step are
@@ -104,12 +104,13 @@ impl<'a> NewtonIteration<'a> {
                 self.influence,
                 Some(self.approach),
             );
-            let distance = largest_difference(&forecast.gap, &gap) - 10.0 * tolerance * state.scale;
+            let [deviation, times] = forecast.deviation(&gap);
+            let is_far = times.abs() > MAX_LENGTH * forecast.share;
             if state.eta < tolerance {
-                let is_near = distance <= MAX_DISTANCE * forecast.distance;
-                return Ok(is_near.then(|| (mem::take(&mut self.pressure), gap)));
+                let is_ahead = deviation < MAX_DEVIATION && times > 0.0 && !is_far;
+                return Ok(is_ahead.then(|| (mem::take(&mut self.pressure), gap)));
             }
-            if distance.is_nan() || distance > MAX_EXCURSION * forecast.distance {
+            if is_far {
                 return Ok(None);
             }
             if state.eta < PROGRESS * best {
