@@ -102,7 +102,7 @@ impl AdhesionRecord {
         let now = Stored::of(solution, &self);
         let then = Stored::of(before, &Self::of(adhesion, before));
         let lost = work - (now.energy - then.energy);
-        // What is less than the adhesion of a cell is no jump, however small the energy far apart is.
+        // A loss below the adhesion of a cell is no jump, however small the energy of separated bodies is.
         let of_a_cell = adhesion.work * solution.grid.cell_area();
         let jumps = lost > of_a_cell.max(JUMP * now.size.max(then.size));
         Self { energy_lost: if jumps { lost } else { 0.0 }, jumps: usize::from(jumps), ..self }
