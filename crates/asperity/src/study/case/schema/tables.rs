@@ -66,7 +66,7 @@ pub(in crate::study) fn belongs(key: &str, table: &str) -> Option<(String, Optio
     let name = declared(table);
     let elsewhere = |section: &&Section| section.has(key) && !section.tables.contains(&name.as_str());
     let hint = match keys().iter().filter(|section| !section.tables.is_empty()).find(elsewhere) {
-        // That of [adhesion] is a word, and rarely meant.
+        // The key of this name in [adhesion] is a word, and rarely meant.
         _ if key == root::HISTORY.key.name => "write stages as separate tables: [[history]]".to_owned(),
         Some(section) => {
             let body = name.split('.').next();
