@@ -50,7 +50,7 @@ mod tests {
     use crate::adhesion::Adhesion;
     use crate::grid::{CellValues, Grid};
     use crate::material::Material;
-    use crate::motion::{Motion, Simulation, SolvedPass, Strategy};
+    use crate::motion::{Motion, PlasticUpdate, Simulation, SolvedPass, Strategy};
     use crate::operator::{Boundary, PeriodicFft};
     use crate::solver::{Method, solve_normal};
     use crate::surface::Topography;
@@ -142,6 +142,28 @@ mod tests {
         // Bodies from afar at each position lose nothing, and the pass says that it depends on the path.
         let alone = pass(&pair, AdhesionHistory::None, approach).record().adhesion.unwrap();
         assert!(alone.energy_lost == 0.0 && alone.history_difference > 0.01, "{alone:?}");
+    }
+
+    /// With plastic deformation at every position, too, positions follow each other. Here no cell is hard pressed enough to yield.
+    #[test]
+    fn the_path_is_followed_when_plastic_deformation_is_applied_at_every_position() {
+        let (pair, _) = two_asperities(0.08);
+        let hard = pair.clone().with_hardness([1e3.into(), f64::INFINITY.into()]).unwrap();
+        let strategy = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
+        let loads = |pair: &Pair, update| {
+            let motion = Motion::new(strategy, Control::Approach(-0.12))
+                .with_plastic_update(update)
+                .with_adhesion_history(AdhesionHistory::Path);
+            let simulation =
+                Simulation::new(pair.clone(), Boundary::PERIODIC, motion, Params::new()).unwrap();
+            let pass = simulation.solve(&()).unwrap();
+            pass.contacts().iter().map(|contact| contact.load).collect::<Vec<_>>()
+        };
+        let [after, within] = [(&pair, PlasticUpdate::Pass), (&hard, PlasticUpdate::Step)]
+            .map(|(pair, update)| loads(pair, update));
+        for (one, other) in after.iter().zip(&within) {
+            assert!((one - other).abs() < 1e-4, "{one} {other}");
+        }
     }
 
     #[test]

@@ -176,8 +176,10 @@ impl Solver<'_> {
         let position_data = self.motion.position_data(pair.pitch()[0]);
         if pair.yields() && self.motion.plastic_update == PlasticUpdate::Step {
             let mut contacts = Vec::with_capacity(self.positions.len());
+            let mut last = None;
             for index in 0..self.positions.len() {
-                let (contact, _) = solve(&after, index, None)?;
+                let (contact, solution) = solve(&after, index, last.as_ref())?;
+                last = self.follows(pair).then_some(solution);
                 let (sums, _) =
                     law::sums(self.laws, &after, std::slice::from_ref(&contact), &position_data, None)?;
                 law::advance(self.laws, &mut after, &sums, 1.0, self.interiors, &mut lost);
