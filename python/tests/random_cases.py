@@ -116,8 +116,9 @@ class RandomCase:
         return tables
 
     def _adhesion(self, tables: Table, rng: random.Random) -> None:
-        """Attraction of the bodies of some static contacts, whose process zone has a cell or more."""
-        if self.course not in ("press", "sweep", "history") or self.slides or rng.random() < 0.6:
+        """Attraction of the bodies of some contacts, whose process zone has a cell or more."""
+        moves = self.course in ("overlap", "shift") and "subsurface" not in tables
+        if not moves and (self.course not in ("press", "sweep", "history") or self.slides) or rng.random() < 0.6:
             return
         pitch, extents = max(self.pitch), [n * d for n, d in zip(self.shape[0], self.pitch)]
         work = self.modulus * pitch * self._slope() ** 2 * 10 ** rng.uniform(-1.2, 0.3)
@@ -128,6 +129,10 @@ class RandomCase:
         tables["adhesion"] = {"work": work, "range": rng.choice(["grid", length, length])}
         if rng.random() < 0.2:
             tables["adhesion"]["potential"] = "dugdale"
+        if self.strategy == "shift" and rng.random() < 0.5:
+            tables["adhesion"]["history"] = "path"
+        if moves and "friction" in tables:
+            tables["friction"]["coupling"] = rng.choice(["goodman", "none"])
         last = tables.get("history", [{}])[-1]
         if self.control in last and rng.random() < 0.5:
             # Some of these loads pull the bodies apart.

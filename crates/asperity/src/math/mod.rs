@@ -25,7 +25,7 @@ pub(crate) use cholesky::Cholesky;
 pub(crate) use convolution::{Convolution, Kernel};
 pub(crate) use fft::RealFft2;
 pub(crate) use gathered::gathered;
-pub(crate) use gmres::gmres;
+pub(crate) use gmres::{Gmres, gmres};
 pub(crate) use good_size::good_size;
 pub(crate) use indices::indices_where;
 pub(crate) use mixed::{MixedConvolution, MixedKernel, MixedTensorConvolution, MixedTensorKernel};

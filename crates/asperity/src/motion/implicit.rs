@@ -22,7 +22,7 @@ impl Solver<'_> {
     /// in wear in place.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] if a load holds at each position, or if shear displaces the bodies normally;
+    /// [`Error::Unsupported`] if a load holds at each position, the bodies attract each other, or shear displaces them normally;
     /// [`Error::NotConverged`], [`Error::Interrupted`].
     pub(super) fn solve_implicitly(
         &self,
@@ -31,7 +31,9 @@ impl Solver<'_> {
         params: &Params,
     ) -> Result<Vec<Contact>> {
         let pair = &outcome.pair;
-        pair.check_no_adhesion()?;
+        if pair.adhesion().is_some() {
+            return Err(Error::Unsupported(TOO_MUCH_WEAR));
+        }
         let positions = self.positions.len();
         let control = match (self.motion.control, self.motion.load_control) {
             (Control::Load(_), LoadControl::Step) if positions > 1 => {
@@ -90,8 +92,8 @@ impl Solver<'_> {
 
 /// Message for a pass with too much wear for an explicit step that cannot be solved implicitly.
 const TOO_MUCH_WEAR: &str = "a single pass wears so much that the pressures of single cells would oscillate: give a smaller wear coefficient, larger \
-     cells or a shorter pass; the implicit solution needs one approach for the whole pass and no coupling of shear to normal \
-     displacements";
+     cells or a shorter pass; the implicit solution needs one approach for the whole pass, no adhesion and no coupling of \
+     shear to normal displacements";
 
 /// Displacement at all positions of a pass, stacked in one field, under the pressures at all of them. It is the elastic
 /// displacement of the bodies plus the depth worn by the end of the pass, C + κ₁ S₁ᵀS₁ + κ₂ S₂ᵀS₂, where S sums the

@@ -143,7 +143,7 @@ impl Pair {
     pub(super) fn check_no_adhesion(&self) -> Result<()> {
         match self.adhesion {
             Some(_) => Err(Error::Unsupported(
-                "adhesion is solved only in static contacts of elastic bodies without friction",
+                "adhesion is not solved together with coupled friction, rolling, wear in place, plastic flow or ranks",
             )),
             None => Ok(()),
         }

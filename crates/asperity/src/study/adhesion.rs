@@ -41,10 +41,11 @@ impl AdhesionSummary {
     pub(super) fn new(
         adhesion: &Adhesion,
         gap: &Field,
-        grid: &Grid,
+        pitch: [Metre; 2],
         boundary: Boundary,
         modulus: Pascal,
     ) -> Self {
+        let grid = &Grid { shape: [gap.nrows(), gap.ncols()], pitch };
         let [slope, laplacian] = moments(gap, grid, boundary);
         let is_rough = slope > 0.0 && laplacian > 0.0;
         let zone = adhesion.process_zone(modulus);
@@ -53,7 +54,7 @@ impl AdhesionSummary {
             range: adhesion.range,
             max_tension: adhesion.max_tension(),
             process_zone: zone,
-            process_zone_cells: zone / grid.pitch[0].max(grid.pitch[1]),
+            process_zone_cells: zone / pitch[0].max(pitch[1]),
             tabor: is_rough.then(|| adhesion.tabor(modulus, 0.5 * laplacian)),
             pastewka_robbins: is_rough
                 .then(|| adhesion.pastewka_robbins(modulus, slope, laplacian / std::f64::consts::SQRT_2)),
@@ -196,10 +197,10 @@ mod tests {
         let at = |i: usize| (i as f64 - 19.5) * 0.1;
         let gap = Field::from_shape_fn(grid.shape, |(i, j)| 0.5 * (at(i).powi(2) + at(j).powi(2)) / 7.0);
         let adhesion = Adhesion::new(0.3, 0.2).unwrap();
-        let numbers = AdhesionSummary::new(&adhesion, &gap, &grid, Boundary::FREE, 2.0);
+        let numbers = AdhesionSummary::new(&adhesion, &gap, grid.pitch, Boundary::FREE, 2.0);
         assert_relative_eq!(numbers.tabor.unwrap(), adhesion.tabor(2.0, 1.0 / 7.0), max_relative = 1e-9);
         assert_eq!(numbers.full_contact_energy, None);
-        let flat = AdhesionSummary::new(&adhesion, &grid.zeros(), &grid, Boundary::FREE, 2.0);
+        let flat = AdhesionSummary::new(&adhesion, &grid.zeros(), grid.pitch, Boundary::FREE, 2.0);
         assert_eq!((flat.tabor, flat.pastewka_robbins), (None, None));
     }
 
@@ -210,10 +211,10 @@ mod tests {
         let q = std::f64::consts::TAU * 3.0 / (256.0 * 0.5);
         let gap = Field::from_shape_fn(grid.shape, |(i, _)| 0.2 * (q * 0.5 * i as f64).cos());
         let adhesion = Adhesion::new(0.3, 0.2).unwrap();
-        let numbers = AdhesionSummary::new(&adhesion, &gap, &grid, Boundary::PERIODIC, 2.0);
+        let numbers = AdhesionSummary::new(&adhesion, &gap, grid.pitch, Boundary::PERIODIC, 2.0);
         let energy = 0.25 * 2.0 * q * 0.5 * 0.04;
         assert_relative_eq!(numbers.full_contact_energy.unwrap(), energy / 0.3, max_relative = 1e-12);
-        let [slope, laplacian] = moments(&gap, &grid, Boundary::PERIODIC);
+        let [slope, laplacian] = moments(&gap, grid.pitch, Boundary::PERIODIC);
         assert_relative_eq!(slope, 0.2 * q / 2.0f64.sqrt(), max_relative = 1e-3);
         assert_relative_eq!(laplacian, 0.2 * q * q / 2.0f64.sqrt(), max_relative = 1e-3);
     }

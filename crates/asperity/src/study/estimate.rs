@@ -145,10 +145,11 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     estimate.warnings = warnings(case, bodies, &estimate);
     if let Some(adhesion) = case.attraction(&lower_grid, estimate.modulus)? {
         let heights = [&bodies.lower, &bodies.upper].map(|body| body.topography.heights());
-        let gap = initial_gap(heights, &positions[0]);
-        let numbers =
-            AdhesionSummary::new(&adhesion, &gap, &lower_grid, case.contact.boundary, estimate.modulus);
-        let pitch = lower_grid.pitch[0].max(lower_grid.pitch[1]);
+        let largest = positions.iter().max_by_key(|position| position.columns).expect("a position");
+        let gap = initial_gap(heights, largest);
+        let (pitch, boundary) = (lower_grid.pitch, case.contact.boundary);
+        let numbers = AdhesionSummary::new(&adhesion, &gap, pitch, boundary, estimate.modulus);
+        let pitch = pitch[0].max(pitch[1]);
         estimate.warnings.extend(numbers.warnings(&adhesion, estimate.modulus, pitch));
         estimate.adhesion = Some(numbers);
     }

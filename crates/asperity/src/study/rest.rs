@@ -138,7 +138,7 @@ pub(super) fn solve(
     let extent = pair.lower_grid().extent();
     let adhesion = pair.adhesion().map(|adhesion| {
         let (gap, boundary) = (pair.initial_gap(&pair.at_rest()), case.contact.boundary);
-        AdhesionSummary::new(adhesion, &gap, &pair.lower_grid(), boundary, pair.modulus())
+        AdhesionSummary::new(adhesion, &gap, pair.pitch(), boundary, pair.modulus())
     });
     let contact = StaticProblem { case, pair, law, control, params: params(case), writer, watch };
     if let Some(slide) = case.slide(apparent_area) {

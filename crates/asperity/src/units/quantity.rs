@@ -393,14 +393,14 @@ impl Dimension {
     ];
 
     fn scale(self) -> Scale {
-        let scale = |base, power, largest| Scale { base, power, largest };
+        let scale = |base, power, largest| Scale { base, power, largest, smallest: -12 };
         match self {
             Self::Length => scale(Base::Of("m"), 1, 3),
             Self::Area => scale(Base::Squared, 2, 0),
             Self::Volume => scale(Base::Cubed, 3, 0),
             Self::Pressure => scale(Base::Of("Pa"), 1, 12),
             Self::Force => scale(Base::Of("N"), 1, 12),
-            Self::Energy => scale(Base::Of("J"), 1, 12),
+            Self::Energy => Scale { smallest: -18, ..scale(Base::Of("J"), 1, 12) },
             Self::Speed => scale(Base::PerSecond, 1, 0),
             Self::Angle => scale(Base::Of("rad"), 1, 0),
             Self::Time => scale(Base::Of("s"), 1, 0),
@@ -449,10 +449,12 @@ impl Dimension {
         if !self.takes_prefixes() {
             return (1e-3..1e6).contains(&value.abs()).then_some(("", 0));
         }
-        let Scale { power, largest, .. } = self.scale();
+        let Scale { power, largest, smallest, .. } = self.scale();
         let suits = |exponent: i32| value.abs() >= 10f64.powi(power * exponent) * self.smallest(exponent);
-        let prefixes =
-            PREFIXES.iter().rev().filter(|(_, exponent)| *exponent <= largest && exponent % 3 == 0);
+        let prefixes = PREFIXES
+            .iter()
+            .rev()
+            .filter(|(_, exponent)| (smallest..=largest).contains(exponent) && exponent % 3 == 0);
         prefixes.copied().find(|(_, exponent)| suits(*exponent))
     }
 
@@ -574,7 +576,7 @@ impl Dimension {
         if let Some(&(_, exponent, factor)) = self.special().iter().find(|(name, ..)| *name == unit) {
             return Some((exponent, factor));
         }
-        let Scale { base, power, .. } = self.scale();
+        let Scale { base, power, smallest, .. } = self.scale();
         let (stem, factor) = match base {
             Base::Of(_) => (unit, 1.0),
             Base::PerSecond => {
@@ -588,7 +590,7 @@ impl Dimension {
             Base::Cubed => (["³", "^3", "3"].iter().find_map(|end| unit.strip_suffix(end))?, 1.0),
         };
         let prefix = stem.strip_suffix(base.symbol())?;
-        let known = |exponent: i32| exponent % 3 == 0 || base.symbol() == "m";
+        let known = |exponent: i32| exponent >= smallest && (exponent % 3 == 0 || base.symbol() == "m");
         let exponent = match prefix {
             "" => 0,
             _ if !self.takes_prefixes() => return None,
@@ -606,6 +608,8 @@ struct Scale {
     power: i32,
     /// Exponent of the largest prefix in use.
     largest: i32,
+    /// Exponent of the smallest prefix in use.
+    smallest: i32,
 }
 
 #[derive(Clone, Copy)]
@@ -634,7 +638,9 @@ impl Base {
 }
 
 /// Ascending. The centi- prefix is for metres only, and is read but never written.
-const PREFIXES: [(&str, i32); 10] = [
+const PREFIXES: [(&str, i32); 12] = [
+    ("a", -18),
+    ("f", -15),
     ("p", -12),
     ("n", -9),
     ("µ", -6),
@@ -659,10 +665,10 @@ fn find_unit(text: &str, unit: &str, expected: Dimension) -> Result<(i32, f64), 
 
 /// Suggests a unit that differs by one slip: another case, or one letter added, missing, wrong or swapped.
 fn suggest(unit: &str, expected: Dimension) -> Option<String> {
-    let Scale { base, largest, .. } = expected.scale();
+    let Scale { base, largest, smallest, .. } = expected.scale();
     let mut candidates: Vec<_> = PREFIXES
         .iter()
-        .filter(|(_, exponent)| exponent % 3 == 0 && *exponent <= largest)
+        .filter(|(_, exponent)| exponent % 3 == 0 && (smallest..=largest).contains(exponent))
         .filter(|(prefix, _)| prefix.is_empty() || expected.takes_prefixes())
         .map(|(prefix, _)| format!("{prefix}{}{}", base.symbol(), base.suffix()))
         .collect();
@@ -878,6 +884,7 @@ mod tests {
             (2e-8, Area, "0.02 mm²"),
             (7.5e-18, Volume, "7.5 µm³"),
             (3.21e-9, Energy, "3.21 nJ"),
+            (32e-18, Energy, "32 aJ"),
             (0.01, Speed, "10 mm/s"),
             (0.5, Angle, "28.65°"),
             (7200.0, Time, "7200 s"),

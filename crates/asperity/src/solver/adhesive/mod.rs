@@ -6,6 +6,7 @@
 //! the operator, the gaps of all rounds change in one direction, and the equilibrium is the first one that bodies on their way reach.
 //! Rounds are slow near an instability. Newton's iteration then finds the equilibrium towards which they converge.
 
+mod forecast;
 mod newton;
 #[cfg(test)]
 mod tests;
@@ -22,16 +23,17 @@ use crate::solver::watch::check_stop;
 use crate::solver::{
     Bounds, Control, Params, Solution, Stats, Watch, residual, self_influence, solve_normal_watched,
 };
-use crate::units::{Metre, Newton};
+use crate::units::Newton;
 
+use forecast::{Changes, Forecast};
 use newton::NewtonIteration;
 
 /// Tolerance of the contact of a round, as a fraction of the residual of the round before.
 const ROUND_TOLERANCE: f64 = 0.2;
 /// Largest and smallest tolerance of a round; the smallest is a fraction of the tolerance of the solution.
 const ROUND_TOLERANCES: [f64; 2] = [1e-2, 0.3];
-/// Number of rounds after an attempt of Newton's iteration that fails. It doubles with each failure, up to a limit.
-const ROUNDS_AFTER_FAILURE: [usize; 2] = [4, 32];
+/// Number of rounds with a forecast from one attempt of Newton's iteration to the next. It doubles with each attempt, up to a limit.
+const ROUNDS_BETWEEN: [usize; 2] = [4, 32];
 
 /// Solves the frictionless contact of a pair of bodies that attract each other: with the tension σ(g) of the `adhesion`,
 ///
@@ -141,17 +143,22 @@ impl Problem<'_> {
                 return Err(Error::NotConverged { iterations: stats.iterations, residual: eta, tolerance });
             }
             let forecast = changes.after(&gap);
-            if let Some(forecast) = forecast.filter(|_| newton.is_due() && self.is_smooth()) {
-                let mut attempt = NewtonIteration::new(operator, self, influence, &solution);
-                let found = attempt.solve(operator, &forecast)?;
-                stats = stats.and(&attempt.stats);
-                newton.record(found.is_some());
-                if let Some((pressure, gap)) = found {
+            if let Some(forecast) = forecast.filter(|_| self.is_smooth()) {
+                if newton.is_due(&forecast) {
+                    let mut attempt = NewtonIteration::new(operator, self, influence, &solution);
+                    let found = attempt.solve(operator, &forecast)?;
+                    stats = stats.and(&attempt.stats);
+                    newton.record(found);
+                }
+                if let Some((pressure, gap)) = newton.accepted(&forecast) {
                     bounds = self.bounds_at(&gap);
                     start = Some(pressure);
+                    eta = tolerance;
                     changes = Changes::new();
+                    newton = Attempts::new();
                     continue;
                 }
+                newton.count_round();
             }
             bounds = next;
             start = Some(solution.pressure);
@@ -220,84 +227,40 @@ const STEP_GROWTH: f64 = 1.4;
 /// Factor of the step when the load rises.
 const STEP_REDUCTION: f64 = 0.4;
 
-/// When to attempt Newton's iteration.
+/// Attempts of Newton's iteration, and what they found.
 struct Attempts {
     /// Rounds to wait.
     wait: usize,
-    /// Rounds to wait after the next failure.
+    /// Rounds to wait after the next attempt.
     next: usize,
+    /// Pressure and gap of the last equilibrium found. It may be another one than that towards which the rounds converge.
+    candidate: Option<(Field, Field)>,
 }
 
 impl Attempts {
     fn new() -> Self {
-        Self { wait: 0, next: ROUNDS_AFTER_FAILURE[0] }
+        Self { wait: 0, next: ROUNDS_BETWEEN[0], candidate: None }
     }
 
-    /// Counts a round. Returns whether an attempt is due.
-    fn is_due(&mut self) -> bool {
-        let due = self.wait == 0;
+    /// Whether an attempt is due. None is while the rounds may still turn towards the equilibrium found before.
+    fn is_due(&self, forecast: &Forecast) -> bool {
+        let waits = self.candidate.as_ref().is_some_and(|(_, gap)| forecast.may_lead_to(gap));
+        self.wait == 0 && !waits
+    }
+
+    /// Takes the equilibrium that an attempt has found.
+    fn record(&mut self, found: Option<(Field, Field)>) {
+        self.wait = self.next;
+        self.next = (2 * self.next).min(ROUNDS_BETWEEN[1]);
+        self.candidate = found.or(self.candidate.take());
+    }
+
+    /// Returns pressure and gap of the equilibrium found, once the rounds lead there.
+    fn accepted(&mut self, forecast: &Forecast) -> Option<(Field, Field)> {
+        self.candidate.take_if(|(_, gap)| forecast.leads_to(gap))
+    }
+
+    fn count_round(&mut self) {
         self.wait = self.wait.saturating_sub(1);
-        due
     }
-
-    fn record(&mut self, succeeded: bool) {
-        if !succeeded {
-            self.wait = self.next;
-            self.next = (2 * self.next).min(ROUNDS_AFTER_FAILURE[1]);
-        }
-    }
-}
-
-/// Changes of the gap from round to round.
-struct Changes {
-    gap: Option<Field>,
-    /// Largest change of the last round.
-    change: Metre,
-    /// Estimate of the change left after the last round.
-    left: Metre,
-}
-
-/// Forecast of the gap towards which the rounds converge: the changes left are in proportion to the last one.
-struct Forecast {
-    /// The gap after the last round.
-    gap: Field,
-    /// Its change in the last round.
-    change: Field,
-    /// Sum of the changes left over the last change, if they decrease in a geometric series.
-    share: f64,
-}
-
-impl Forecast {
-    /// Returns the part of the distance of another gap from the last one that is not along the last change, as a fraction of that
-    /// distance, and how many times the last change it is away.
-    fn deviation(&self, gap: &Field) -> [f64; 2] {
-        let way = gap - &self.gap;
-        let [length, along] = [(&way * &way).sum(), (&way * &self.change).sum()];
-        let times = along / (&self.change * &self.change).sum();
-        let across = (length - along * times).max(0.0);
-        [(across / length).sqrt(), times]
-    }
-}
-
-impl Changes {
-    fn new() -> Self {
-        Self { gap: None, change: 0.0, left: 0.0 }
-    }
-
-    /// Takes the gap after a round. Returns a forecast if the distance to it has decreased. Near an equilibrium that has just vanished
-    /// the changes decrease, too, but ever more slowly, so that the distance grows from round to round.
-    fn after(&mut self, gap: &Field) -> Option<Forecast> {
-        let before = self.gap.replace(gap.clone())?;
-        let change = largest_difference(&before, gap);
-        let ratio = change / mem::replace(&mut self.change, change);
-        let share = if ratio < 1.0 { ratio / (1.0 - ratio) } else { f64::INFINITY };
-        let left_before = mem::replace(&mut self.left, change * share);
-        let nearer = self.left < left_before && left_before.is_finite();
-        nearer.then(|| Forecast { gap: gap.clone(), change: gap - &before, share })
-    }
-}
-
-/// Returns the largest difference between two gaps.
-fn largest_difference(one: &Field, other: &Field) -> Metre {
-    one.iter().zip(other).fold(0.0, |most, (one, other)| f64::max(most, (one - other).abs()))
 }

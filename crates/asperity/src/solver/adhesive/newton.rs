@@ -4,9 +4,10 @@ use std::mem;
 
 use crate::error::Result;
 use crate::grid::{Field, SingleField};
-use crate::math::gmres;
+use crate::math::{Gmres, gmres};
 use crate::operator::Operator;
-use crate::solver::adhesive::{Forecast, Problem};
+use crate::solver::adhesive::Problem;
+use crate::solver::adhesive::forecast::Forecast;
 use crate::solver::preconditioner::Preconditioner;
 use crate::solver::sets::{Set, Sets};
 use crate::solver::watch::check_stop;
@@ -22,14 +23,11 @@ const PROGRESS: f64 = 0.7;
 /// Number of steps without progress after which the iteration is given up.
 const MAX_STAGNATIONS: usize = 4;
 /// Residual at which the iteration ends, as a fraction of the tolerance of the solution.
-const LAST_RESIDUAL: f64 = 0.1;
+const LAST_RESIDUAL: f64 = 0.5;
+/// Residual from which on the matrix of a step is that of the equilibrium.
+const CLOSE: f64 = 1e-2;
 /// Largest reduction of the residual that a step aims at.
 const MAX_REDUCTION: f64 = 0.1;
-/// Largest part of the way to the equilibrium that is not along the last change of the lagged bounds. The rounds converge to the stable
-/// equilibrium that the bodies reach, and one elsewhere is another one.
-const MAX_DEVIATION: f64 = 0.3;
-/// Largest length of this way, as a multiple of the sum of the changes that the rounds would still cause.
-const MAX_LENGTH: f64 = 3.0;
 
 /// The unknowns of the iteration: pressure, displacement and approach. With the cells in contact C, capped cells U and open cells O,
 /// the equations of a step are
@@ -49,6 +47,8 @@ pub(super) struct NewtonIteration<'a> {
     sets: Sets,
     single: SingleField,
     preconditioned: SingleField,
+    /// Whether the last steps show no negative eigenvalue: a stable equilibrium has none.
+    is_stable: bool,
     /// Cost so far.
     pub(super) stats: Stats,
 }
@@ -80,11 +80,12 @@ impl<'a> NewtonIteration<'a> {
             sets: Sets::new(shape),
             single: SingleField::zeros(shape),
             preconditioned: SingleField::zeros(shape),
+            is_stable: true,
             stats: Stats::default(),
         }
     }
 
-    /// Returns pressure and gap of the equilibrium that the iteration finds, if it is near the forecast.
+    /// Returns pressure and gap of the stable equilibrium that the iteration finds, unless it goes beyond the forecast.
     pub(super) fn solve(
         &mut self,
         operator: &mut dyn Operator,
@@ -104,13 +105,10 @@ impl<'a> NewtonIteration<'a> {
                 self.influence,
                 Some(self.approach),
             );
-            let [deviation, times] = forecast.deviation(&gap);
-            let is_far = times.abs() > MAX_LENGTH * forecast.share;
             if state.eta < tolerance {
-                let is_ahead = deviation < MAX_DEVIATION && times > 0.0 && !is_far;
-                return Ok(is_ahead.then(|| (mem::take(&mut self.pressure), gap)));
+                return Ok(self.is_stable.then(|| (mem::take(&mut self.pressure), gap)));
             }
-            if is_far {
+            if forecast.is_beyond(&gap) {
                 return Ok(None);
             }
             if state.eta < PROGRESS * best {
@@ -131,7 +129,8 @@ impl<'a> NewtonIteration<'a> {
                 return Ok(None);
             }
             self.preconditioner.adapt(&self.sets);
-            let aim = (tolerance / state.eta).max(state.eta.min(MAX_REDUCTION));
+            self.is_stable |= state.eta > CLOSE;
+            let aim = (tolerance / state.eta).max(state.eta.sqrt().min(MAX_REDUCTION));
             if !self.step(operator, &gap, aim) {
                 return Ok(None);
             }
@@ -185,7 +184,8 @@ impl<'a> NewtonIteration<'a> {
             operator.apply(&change, &mut response);
             self.left(&step, &change, &response)
         };
-        let (solution, products) = gmres(product, right, aim, MAX_PRODUCTS);
+        let Gmres { solution, products, is_positive } = gmres(product, right, aim, MAX_PRODUCTS);
+        self.is_stable &= is_positive;
         let change = self.change(&step, &solution);
         operator.apply(&change, &mut response);
         self.stats.iterations += products;

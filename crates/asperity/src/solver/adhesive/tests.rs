@@ -6,11 +6,13 @@ use ndarray::{Array1, Array2};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use super::forecast::largest_difference;
 use super::*;
 use crate::grid::Grid;
 use crate::math::Cholesky;
 use crate::operator::{Boundary, FreeFamily, FreeFft, PeriodicFft};
 use crate::solver::Method;
+use crate::units::Metre;
 
 const ELASTIC: CellValues = CellValues::Uniform(f64::INFINITY);
 

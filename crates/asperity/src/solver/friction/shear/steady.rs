@@ -3,7 +3,7 @@
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
-use crate::math::gmres;
+use crate::math::{Gmres, gmres};
 use crate::operator::CoupledOperator;
 use crate::solver::friction::disc::{Vector, add, combination, dot, minus, times};
 use crate::solver::friction::shear::influence::{Influence, at};
@@ -405,7 +405,8 @@ impl SteadySolver {
             state.balance(&mut applied);
             applied.into_flattened()
         };
-        let (solution, products) = gmres(product, residual.into_flattened(), reduction, MAX_PRODUCTS);
+        let Gmres { solution, products, .. } =
+            gmres(product, residual.into_flattened(), reduction, MAX_PRODUCTS);
         self.stats.iterations += products;
         let step = preconditioned(self, solution.as_chunks().0);
         let solved = step.iter().flatten().all(|d| d.is_finite());
