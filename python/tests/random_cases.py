@@ -132,7 +132,7 @@ class RandomCase:
         if self.strategy == "shift" and rng.random() < 0.5:
             tables["adhesion"]["history"] = "path"
         if moves and "friction" in tables:
-            tables["friction"]["coupling"] = rng.choice(["goodman", "none"])
+            tables["friction"]["coupling"] = "none" if self.coated else rng.choice(["goodman", "none"])
         last = tables.get("history", [{}])[-1]
         if self.control in last and rng.random() < 0.5:
             # Some of these loads pull the bodies apart.

@@ -1,9 +1,8 @@
 //! The force–distance curve of bodies that attract each other: the load over their distance, on the way together and apart.
 
 use asperity::motion::IncrementRecord;
-use asperity::units::{Dimension, format};
 
-use super::{Curve, Curves};
+use super::{Curve, Curves, force};
 use crate::draw::{Axis, Chart, Mark, Series};
 
 /// Increments up to which each has a marker.
@@ -36,8 +35,8 @@ pub(crate) fn curves(increments: &[IncrementRecord]) -> Option<Curves> {
         series.push(Series::new("after a jump", jumps, Mark::Points));
     }
     let words = least.map(|least| {
-        let force = format(least[1], Dimension::Force).replace('-', "−");
-        (least, format!("pull-off {force}"))
+        let pull = force(least[1]);
+        (least, format!("pull-off {pull}"))
     });
     let chart = Chart {
         words: words.into_iter().collect(),

@@ -25,6 +25,7 @@ use std::path::PathBuf;
 
 use asperity::io::fields::Fields;
 use asperity::study::Results;
+use asperity::units::{Dimension, format};
 
 use crate::draw::{Charts, Mark, Paper, Series};
 use crate::report::Outcome;
@@ -44,6 +45,11 @@ pub(crate) use stored::{Cap, StoredArray, ends_with_tension, in_frame_of};
 pub(crate) use subsurface::{columns as stress_columns, contact as contact_of_section};
 pub(crate) use surfaces::{as_measured, changed, curves as of_surfaces};
 pub(crate) use sweep::curves as of_sweep;
+
+/// Writes a force with its unit. A force that pulls has a minus sign.
+fn force(value: f64) -> String {
+    format(value, Dimension::Force).replace('-', "−")
+}
 
 /// Which figures are drawn, and how.
 #[derive(Debug, Clone, Default)]

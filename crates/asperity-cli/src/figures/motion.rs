@@ -6,7 +6,6 @@ use asperity::motion::{PassRecord, PlasticUpdate, StepRecord};
 use asperity::operator::Operators;
 use asperity::study::{Results, cap_name, pressure_name, temperature_name};
 use asperity::surface::{FunctionalParameters, HeightParameters, Topography};
-use asperity::units::{Dimension, format};
 use asperity::{Field, Grid};
 
 use super::pressure;
@@ -14,7 +13,7 @@ use super::profile::{OverlapFields, Profile, Row, most_loaded};
 use super::sheet::Sheet;
 use super::stored::{Cap, StoredArray, ends_with_tension, of_pressures, touched};
 use super::surfaces;
-use super::{course, rolling};
+use super::{course, force, rolling};
 use crate::draw::{Axis, Chart, Charts, Colours, Maps, Mark, Series, Unit, range_of_heights};
 use crate::report::Outcome;
 
@@ -47,7 +46,7 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
     let before = [StoredArray::read(&first, "lower")?, StoredArray::read(&first, "upper")?];
     let after = [StoredArray::read(&last, "lower")?, StoredArray::read(&last, "upper")?];
     let cap = Cap::read(&last)?;
-    let load = |record: &PassRecord| format!("mean load {}", format(record.mean_load, Dimension::Force));
+    let load = |record: &PassRecord| format!("mean load {}", force(record.mean_load));
     let all = done[pass];
     let of = format!("{}, pass {all}", load(&passes[pass - 1]));
     let throughout = match pass {
@@ -246,7 +245,7 @@ fn pressures(
     let shown: Vec<(String, StoredArray)> = middles
         .iter()
         .map(|step| {
-            let title = format!("position {}: {}", step.step, format(step.load, Dimension::Force));
+            let title = format!("position {}: {}", step.step, force(step.load));
             Ok((title, read(step)?.framed(lower)))
         })
         .collect::<Outcome<_>>()?;
@@ -291,7 +290,7 @@ fn pressures(
     })?;
     sheet.animate("pressure", "pressure on the lower body", of_pressures(range), || {
         let words = kept.iter().map(|step| {
-            let load = format(step.load, Dimension::Force);
+            let load = force(step.load);
             format!("pass {done}, position {}, load {load}", step.step)
         });
         let maps = frames.iter().map(|stored| Maps::new(vec![stored.pressure_within("", range)]));

@@ -3,13 +3,12 @@
 use asperity::Field;
 use asperity::io::fields::{Attribute, Fields};
 use asperity::study::{Case, Results};
-use asperity::units::{Dimension, format};
 use ndarray::Array1;
 
 use super::profile::{OverlapFields, Profile, Row, most_loaded};
 use super::sheet::Sheet;
 use super::stored::{Cap, StoredArray};
-use super::{course, flow, force_distance, friction, loading, pressure, surfaces};
+use super::{course, flow, force, force_distance, friction, loading, pressure, surfaces};
 use crate::draw::{Charts, Colours, Maps, Unit, range_of_heights};
 use crate::report::Outcome;
 
@@ -44,7 +43,7 @@ pub(super) fn draw(
     };
     let p = StoredArray::read(fields, "pressure")?;
     let load = p.field.sum() * p.grid.pitch[0] * p.grid.pitch[1];
-    let of = format!("load {}", format(load, Dimension::Force).replace('-', "−"));
+    let of = format!("load {}", force(load));
     let touching = StoredArray::touching(fields, &p)?;
     let spot = most_loaded(&p.field, &touching);
 

@@ -4,10 +4,9 @@ use asperity::motion::SweepRecord;
 use asperity::solver::Friction;
 use asperity::study::Case;
 use asperity::study::case::Prescribed;
-use asperity::units::{Dimension, format};
 
-use super::Curves;
 use super::sheet::Sheet;
+use super::{Curves, force};
 use crate::draw::{Axis, Chart, Mark, Series, Unit};
 use crate::report::Outcome;
 
@@ -32,7 +31,7 @@ pub(super) fn draw(points: &[SweepRecord], case: &Case, sheet: &mut Sheet) -> Ou
 
 /// The loads of a sweep, as subtitles tell them.
 pub(super) fn loads_in_words(points: &[SweepRecord]) -> String {
-    let [from, to] = loads(points).map(|load| format(load, Dimension::Force));
+    let [from, to] = loads(points).map(force);
     if from == to { format!("load {from}") } else { format!("load {from} to {to}") }
 }
 

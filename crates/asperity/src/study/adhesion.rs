@@ -214,7 +214,7 @@ mod tests {
         let numbers = AdhesionSummary::new(&adhesion, &gap, grid.pitch, Boundary::PERIODIC, 2.0);
         let energy = 0.25 * 2.0 * q * 0.5 * 0.04;
         assert_relative_eq!(numbers.full_contact_energy.unwrap(), energy / 0.3, max_relative = 1e-12);
-        let [slope, laplacian] = moments(&gap, grid.pitch, Boundary::PERIODIC);
+        let [slope, laplacian] = moments(&gap, &grid, Boundary::PERIODIC);
         assert_relative_eq!(slope, 0.2 * q / 2.0f64.sqrt(), max_relative = 1e-3);
         assert_relative_eq!(laplacian, 0.2 * q * q / 2.0f64.sqrt(), max_relative = 1e-3);
     }
@@ -225,7 +225,7 @@ mod tests {
         let numbers = AdhesionSummary::new(
             &Adhesion::new(0.3, 0.2).unwrap(),
             &grid.zeros(),
-            &grid,
+            grid.pitch,
             Boundary::FREE,
             2.0,
         );

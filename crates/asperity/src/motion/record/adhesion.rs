@@ -39,7 +39,7 @@ columns! {
         /// Drag by adhesion: the energy lost over the distance slid.
         pub adhesive_drag: Newton,
         /// Largest difference between the load of a position from afar and that of bodies that come from the position before, over the mean
-        /// magnitude of the load; of every eighth position. 0 with `history = "path"`.
+        /// magnitude of the load; of every eighth position. 0, not measured, with `history = "path"` or `plastic_update = "step"`.
         pub history_difference: f64,
     }
 }

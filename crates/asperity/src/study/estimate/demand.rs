@@ -98,7 +98,7 @@ const PICTURES: f64 = 60e6;
 /// Memory of the pictures of the animation of a motion.
 const ANIMATION: f64 = 12e6;
 /// Number of fields of a static contact that are drawn at a time.
-const DRAWN: f64 = 7.0;
+const DRAWN: f64 = 6.0;
 /// Numbers of each cell for adhesion: the directions of a step of Newton's iteration, usually 25 or less and 60 at most, and the fields
 /// of two states.
 const ATTRACTED: f64 = 40.0;
@@ -572,12 +572,12 @@ const FILM: f64 = 380.0;
 const HEAT: f64 = 90.0;
 /// Work of writing a field, and of each of its cells.
 const FIELD: f64 = 4e5;
-const WRITTEN: f64 = 110.0;
+const WRITTEN: f64 = 55.0;
 /// Work of a figure, and of a picture of an animation.
 const FIGURE: f64 = 3.4e7;
 const FRAME: f64 = 1.4e7;
 /// Work of a cell of a body in the figures.
-const DRAWN_CELL: f64 = 450.0;
+const DRAWN_CELL: f64 = 150.0;
 /// Work of a pressure field on the page, and of each of its cells.
 const SHOWN: f64 = 4e5;
 const SHOWN_CELL: f64 = 190.0;
