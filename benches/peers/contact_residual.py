@@ -57,3 +57,16 @@ class Judge:
         interval = (middle - reach, middle + reach)
         best = minimize_scalar(worst, bounds=interval, method="bounded", options={"xatol": 1e-3 * reach})
         return min(best.fun, worst(middle)) / max(u.std(), np.finfo(float).tiny)
+
+    def adhesive(self, pressure, gap, case):
+        """Residual of a contact with an exponential attraction at its approach, and the cells that touch.
+
+        eta = max|phi| / std(u), phi = c0 (p - max(-sigma(g), p - g/c0)), g = h - delta + u, sigma(g) = w/rho exp(-g/rho)
+        """
+        u = self.displacement(pressure)
+        c0 = self.self_influence
+        deformed = gap - case.approach + u
+        tension = case.work / case.range * np.exp(-np.maximum(deformed, 0) / case.range)
+        pressed = pressure - deformed / c0
+        eta = c0 * np.abs(pressure - np.maximum(-tension, pressed)).max() / u.std()
+        return eta, pressed > -tension

@@ -9,18 +9,6 @@ from SurfaceTopography import Topography
 import runner
 
 
-class Counted:
-    """A function and how often it was called."""
-
-    def __init__(self, function):
-        self.function = function
-        self.calls = 0
-
-    def __call__(self, *arguments, **options):
-        self.calls += 1
-        return self.function(*arguments, **options)
-
-
 def main():
     options = runner.task(method="load")
     shape = options.gap.shape
@@ -31,8 +19,8 @@ def main():
         # Only with a mean displacement of zero is our approach theirs; Polonsky-Keer needs it invertible to start.
         stiffness = 0.0 if options.method == "dual" else None
         substrate = PeriodicFFTElasticHalfSpace(shape, 1.0, shape, stiffness_q0=stiffness)
-    substrate.evaluate_disp = Counted(substrate.evaluate_disp)
-    substrate.evaluate_force = Counted(substrate.evaluate_force)
+    substrate.evaluate_disp = runner.Counted(substrate.evaluate_disp)
+    substrate.evaluate_force = runner.Counted(substrate.evaluate_force)
     system = make_system(substrate=substrate, surface=Topography(-options.gap, shape, periodic=not free))
     tolerance = options.tolerance * options.gap.std()
     start = time.perf_counter()

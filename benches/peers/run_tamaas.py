@@ -1,20 +1,11 @@
 """Tamaas under a load: Polonsky-Keer-Rey, or its KatoSaturated where a hardness is given."""
 
-import re
 import time
 
 import numpy as np
 import tamaas
 
 import runner
-
-
-def iterations(log):
-    """A block of the log begins at 0 and ends with its number of iterations; KatoSaturated writes several."""
-    line = re.compile(r"^\s*(\d+)\s+[-+0-9.einfa]+\s+[-+0-9.einfa]+\s*$", re.MULTILINE)
-    steps = [int(step) for step in line.findall(log)]
-    ends = [step for step, following in zip(steps, steps[1:] + [0]) if following == 0]
-    return sum(end + 1 for end in ends)
 
 
 def main():
@@ -43,7 +34,8 @@ def main():
         solver.solve(options.mean)
         seconds = time.perf_counter() - start
     pressure = np.array(model.traction).reshape(options.gap.shape)
-    runner.answer(options, pressure, seconds, each * iterations(captured.text))
+    count = runner.tamaas_iterations(captured.text)
+    runner.answer(options, pressure, seconds, each * count, iterations=count)
 
 
 main()

@@ -8,6 +8,7 @@ The composite modulus and the pitch are 1. One line of JSON goes to standard out
 import argparse
 import json
 import os
+import re
 import sys
 import tempfile
 
@@ -28,10 +29,10 @@ def task(**extra):
     return argparse.Namespace(gap=np.load(path), **options)
 
 
-def answer(options, pressure, seconds, convolutions):
+def answer(options, pressure, seconds, convolutions, **more):
     """Writes the pressure and prints the cost."""
     np.save(options.pressure, pressure)
-    print(json.dumps({"solve_seconds": seconds, "convolutions": convolutions}), flush=True)
+    print(json.dumps({"solve_seconds": seconds, "convolutions": convolutions, **more}), flush=True)
 
 
 class Captured:
@@ -52,3 +53,26 @@ class Captured:
             os.close(saved)
         self.file.seek(0)
         self.text = self.file.read().decode()
+
+
+class Counted:
+    """A function and how often it was called."""
+
+    def __init__(self, function):
+        self.function = function
+        self.calls = 0
+
+    def __call__(self, *arguments, **options):
+        self.calls += 1
+        return self.function(*arguments, **options)
+
+
+def tamaas_iterations(log):
+    """The number of iterations in a log of Tamaas.
+
+    A block of the log begins at 0 and ends with its number of iterations; KatoSaturated writes several.
+    """
+    line = re.compile(r"^\s*(\d+)\s+[-+0-9.einfa]+\s+[-+0-9.einfa]+\s*$", re.MULTILINE)
+    steps = [int(step) for step in line.findall(log)]
+    ends = [step for step, following in zip(steps, steps[1:] + [0]) if following == 0]
+    return sum(end + 1 for end in ends)

@@ -28,22 +28,32 @@ class Run(NamedTuple):
     capped: float
     seconds: float
     convolutions: float
+    iterations: float | None = None
 
     @property
     def miss(self):
+        """How far the answer is from what is wanted: met below 1."""
         return max(self.eta, self.load_error) / WANTED
+
+    @property
+    def merit(self):
+        """The less, the better among the variants of a program."""
+        return (self.miss >= 1, self.seconds)
 
 
 class Bench:
     """One case, and all that is run on it."""
+
+    ours = ASPERITY
 
     def __init__(self, case, judge, gap, limit):
         self.case, self.judge, self.gap, self.limit = case, judge, gap, limit
 
     def run(self, program, tolerance, options=(), limit=None):
         answer = run(program, self.case, tolerance, options, limit or self.limit)
-        if answer is None:
-            return None
+        return answer and self.judged(answer)
+
+    def judged(self, answer):
         p = answer.pressure
         return Run(
             self.judge.eta(p, self.gap, self.case.hardness),
@@ -52,6 +62,7 @@ class Bench:
             (p >= self.case.hardness * (1 - 1e-12)).sum() / (p > 0).sum(),
             answer.report["solve_seconds"],
             answer.report["convolutions"],
+            answer.report.get("iterations"),
         )
 
     def tightened(self, program, options, start, limit):
@@ -81,18 +92,21 @@ class Bench:
             limit = self.limit if chosen is None else min(self.limit, 2 * chosen[2].seconds + 10)
             step, outcome = self.tightened(program, options, chosen[1] if chosen else start, limit)
             if outcome is None:
-                if chosen:
+                if chosen and program.ordered:
                     break
                 continue
-            if chosen and (outcome.miss >= 1 or outcome.convolutions >= chosen[2].convolutions):
-                break
+            if chosen and program.ordered:
+                if outcome.miss >= 1 or outcome.convolutions >= chosen[2].convolutions:
+                    break
+            elif chosen and outcome.merit >= chosen[2].merit:
+                continue
             chosen = options, step, outcome
         return chosen
 
     def beside(self, program, options, step, repeat):
         """Ours and the peer's, in turns."""
         pairs = [
-            (self.run(ASPERITY, WANTED), self.run(program, tolerance(step), options)) for _ in range(repeat)
+            (self.run(self.ours, WANTED), self.run(program, tolerance(step), options)) for _ in range(repeat)
         ]
         return [pair for pair in pairs if None not in pair]
 
@@ -133,8 +147,8 @@ class Table:
     def __init__(self, about, path):
         self.about, self.path = about, path
         print("\n" + ", ".join(f"{key} {value}" for key, value in about.items()) + "\n")
-        print("| contact area | p/E* | program | η | load error | convolutions | seconds | ratio |")
-        print("|---|---|---|---|---|---|---|---|", flush=True)
+        print("| contact area | p/E* | program | η | load error | convolutions | iterations | seconds | ratio |")
+        print("|---|---|---|---|---|---|---|---|---|", flush=True)
 
     def row(self, case, program, outcome, seconds, ratio, remark=""):
         values = {
@@ -147,14 +161,15 @@ class Table:
         }
         cells = [f"{case.mean:g}", program.name + remark]
         if outcome is None:
-            cells = ["", *cells, "", "", "", f"> {seconds:.0f}", f"> {ratio:.0f}"]
+            cells = ["", *cells, "", "", "", "", f"> {seconds:.0f}", f"> {ratio:.0f}"]
         else:
             values |= outcome._asdict() | {"seconds": seconds}
             area = f"{100 * outcome.area:.1f} %"
             if math.isfinite(case.hardness):
                 area += f", {100 * outcome.capped:.0f} % of it at H = {case.hardness:g} E*"
             cells = [area, *cells, f"{outcome.eta:.1e}", f"{outcome.load_error:.0e}"]
-            cells += [f"{outcome.convolutions:.4g}", f"{seconds:.3g}", f"{ratio:.3g}" if ratio else ""]
+            cells += [f"{outcome.convolutions:.4g}", f"{outcome.iterations or ''}"]
+            cells += [f"{seconds:.3g}", f"{ratio:.3g}" if ratio else ""]
         print("| " + " | ".join(cells) + " |", flush=True)
         if self.path:
             with open(self.path, "a") as file:
