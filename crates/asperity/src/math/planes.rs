@@ -1,4 +1,4 @@
-//! Real Fourier transforms of many planes of one shape, with operations on each bin of all planes.
+//! Real Fourier transforms of many planes of one shape.
 
 use std::sync::Arc;
 
@@ -7,8 +7,8 @@ use crate::math::parallel::{self, Pool};
 use asperity_transforms::num_complex::Complex64;
 use asperity_transforms::{ComplexToReal, Fft, Precision, RealToComplex};
 
-/// Padding between the columns of neighbouring planes. Without it, columns with a power of two as length would map to
-/// the same cache lines.
+/// Padding between the harmonics of neighbouring frequencies. Without it, those of a power of two of cells would map to the
+/// same cache lines.
 const ROOM: usize = 4;
 /// Number of rows that are transposed at a time: two cache lines of complex numbers.
 const BLOCK: usize = 8;
@@ -24,14 +24,14 @@ pub(crate) fn together(numbers: usize) -> usize {
 /// Plans for planes of `cells`, which are padded with zeros to the `shape` of the transforms.
 ///
 /// The rows are transformed first, with the planes in parallel. Then the columns are transformed, with the ky in
-/// parallel; here the caller has access to all planes. The inverse reverses the order. A single thread computes each
-/// number.
+/// parallel; here the caller has access to all planes. Columns exist only for the ky of the moment, since padding makes
+/// them longer than their harmonics. The inverse reverses the order. A single thread computes each number.
 ///
 /// | what | indexed |
 /// |---|---|
 /// | planes | `[plane, ix, iy]` |
-/// | transforms of their rows | `[plane, ky, ix]`, ky = 0 … ny/2 |
-/// | columns | `[ky, plane, kx]`, with [`Planes::stride`] numbers from plane to plane, of which `shape[0]` count |
+/// | harmonics: transforms of their rows | `[plane, ky, ix]`, ky = 0 … ny/2, with some room behind each ky |
+/// | a column | `[kx]`, of one plane and one ky |
 ///
 /// Forward transforms are unnormalised. Inverse transforms are divided by the number of bins.
 pub(crate) struct Planes {
@@ -75,19 +75,19 @@ impl Planes {
         self.shape[1] / 2 + 1
     }
 
-    /// Numbers from column to column.
+    /// Numbers from frequency to frequency in the harmonics of a plane.
     pub(crate) fn stride(&self) -> usize {
-        self.shape[0] + ROOM
+        self.cells[0] + ROOM
     }
 
-    /// Allocates memory for the row transforms of this number of `planes`.
-    pub(crate) fn rows(&self, planes: usize) -> Vec<Complex64> {
-        vec![Complex64::default(); planes * self.half() * self.cells[0]]
-    }
-
-    /// Allocates memory for the columns of this number of `planes`.
-    pub(crate) fn columns(&self, planes: usize) -> Vec<Complex64> {
+    /// Allocates memory for the harmonics of this number of `planes`.
+    pub(crate) fn harmonics(&self, planes: usize) -> Vec<Complex64> {
         vec![Complex64::default(); planes * self.half() * self.stride()]
+    }
+
+    /// Allocates memory for a column.
+    pub(crate) fn column(&self) -> Vec<Complex64> {
+        vec![Complex64::default(); self.shape[0]]
     }
 
     /// Creates scratch memory for [`Planes::column_forward`] and [`Planes::column_back`].
@@ -96,15 +96,31 @@ impl Planes {
         vec![Complex64::default(); length]
     }
 
+    /// Returns the harmonics of a `plane` at `ky`, one for each cell along x.
+    pub(crate) fn at<'a>(&self, harmonics: &'a [Complex64], plane: usize, ky: usize) -> &'a [Complex64] {
+        &harmonics[(plane * self.half() + ky) * self.stride()..][..self.cells[0]]
+    }
+
+    /// Divides the `harmonics` by frequency: returns, for each ky, those of all planes.
+    pub(crate) fn by_frequency<'a>(&self, harmonics: &'a mut [Complex64]) -> Vec<Vec<&'a mut [Complex64]>> {
+        let (half, stride) = (self.half(), self.stride());
+        let planes = harmonics.len() / (half * stride);
+        let mut frequencies: Vec<_> = (0..half).map(|_| Vec::with_capacity(planes)).collect();
+        for (n, part) in harmonics.chunks_exact_mut(stride).enumerate() {
+            frequencies[n % half].push(&mut part[..self.cells[0]]);
+        }
+        frequencies
+    }
+
     /// Transforms the rows of the contiguous `planes`. Returns which of them have nonzero values. It writes
-    /// nothing for planes of zeros.
+    /// nothing for planes of zeros, and for those that are missing.
     ///
     /// # Panics
     /// If a length does not fit.
-    pub(crate) fn rows_forward(&self, planes: &[&[f64]], rows: &mut [Complex64]) -> Vec<bool> {
+    pub(crate) fn rows_forward(&self, planes: &[Option<&[f64]>], harmonics: &mut [Complex64]) -> Vec<bool> {
         let [nx, ny] = self.cells;
-        let half = self.half();
-        assert_eq!(rows.len(), planes.len() * half * nx, "room for the rows");
+        let (half, stride) = (self.half(), self.stride());
+        assert_eq!(harmonics.len(), planes.len() * half * stride, "room for the harmonics");
         let make = || {
             (
                 vec![0.0; self.shape[1]],
@@ -112,22 +128,27 @@ impl Planes {
                 self.along_y.make_scratch_vec(),
             )
         };
+        let is_zero = |values: &[f64]| values.iter().all(|v| *v == 0.0);
         let each = |(values, block, scratch): &mut (Vec<f64>, Vec<Complex64>, Vec<Complex64>),
-                    (plane, to): (&&[f64], &mut [Complex64])| {
+                    (plane, to): (&Option<&[f64]>, &mut [Complex64])| {
+            let Some(plane) = plane else { return false };
             assert_eq!(plane.len(), nx * ny, "shape of a plane");
-            if plane.iter().all(|v| *v == 0.0) {
+            if is_zero(plane) {
                 return false;
             }
-            for first in (0..nx).step_by(BLOCK) {
-                let count = BLOCK.min(nx - first);
-                for (n, spectrum) in block.chunks_exact_mut(half).take(count).enumerate() {
-                    let row = &plane[(first + n) * ny..][..ny];
+            for (first, rows) in (0..nx).step_by(BLOCK).zip(plane.chunks(BLOCK * ny)) {
+                for (row, spectrum) in rows.chunks_exact(ny).zip(block.chunks_exact_mut(half)) {
+                    if is_zero(row) {
+                        spectrum.fill(Complex64::default());
+                        continue;
+                    }
                     values[..ny].copy_from_slice(row);
                     values[ny..].fill(0.0);
                     let forward = self.along_y.process_with_scratch(values, spectrum, scratch);
                     forward.expect("lengths come from the plan");
                 }
-                for (ky, column) in to.chunks_exact_mut(nx).enumerate() {
+                let count = rows.len() / ny;
+                for (ky, column) in to.chunks_exact_mut(stride).enumerate() {
                     for (n, value) in column[first..first + count].iter_mut().enumerate() {
                         *value = block[n * half + ky];
                     }
@@ -135,38 +156,67 @@ impl Planes {
             }
             true
         };
-        let planes = planes.iter().zip(rows.chunks_exact_mut(half * nx));
+        let planes = planes.iter().zip(harmonics.chunks_exact_mut(half * stride));
         parallel::each(planes, together(nx * ny), &Pool::default(), make, each)
     }
 
-    /// Pads the result of [`Planes::rows_forward`] for a plane at `ky` with zeros, and transforms it into a `column`.
+    /// Pads the `harmonics` of a plane at one ky with zeros, and transforms them into a `column`.
     pub(crate) fn column_forward(
         &self,
-        rows: &[Complex64],
-        [plane, ky]: [usize; 2],
+        harmonics: &[Complex64],
         column: &mut [Complex64],
         scratch: &mut [Complex64],
     ) {
-        let nx = self.cells[0];
-        column[..nx].copy_from_slice(&rows[(plane * self.half() + ky) * nx..][..nx]);
-        column[nx..].fill(Complex64::default());
-        self.along_x.process_with_scratch(&mut column[..self.shape[0]], scratch);
+        let (inside, padding) = column.split_at_mut(self.cells[0]);
+        inside.copy_from_slice(harmonics);
+        padding.fill(Complex64::default());
+        self.along_x.process_with_scratch(column, scratch);
     }
 
-    /// Transforms a `column` back in place.
-    pub(crate) fn column_back(&self, column: &mut [Complex64], scratch: &mut [Complex64]) {
-        self.back_x.process_with_scratch(&mut column[..self.shape[0]], scratch);
+    /// Transforms a `column` back in place, and stores the `harmonics` of the plane at its ky.
+    pub(crate) fn column_back(
+        &self,
+        column: &mut [Complex64],
+        harmonics: &mut [Complex64],
+        scratch: &mut [Complex64],
+    ) {
+        self.back_x.process_with_scratch(column, scratch);
+        harmonics.copy_from_slice(&column[..self.cells[0]]);
     }
 
-    /// Computes the planes from `columns` that have been transformed back.
+    /// Transforms one plane. Returns its columns, `[ky, kx]`.
+    ///
+    /// # Panics
+    /// If the length does not fit.
+    pub(crate) fn forward(&self, plane: &[f64]) -> Vec<Complex64> {
+        let mut harmonics = self.harmonics(1);
+        let mut columns = vec![Complex64::default(); self.half() * self.shape[0]];
+        if self.rows_forward(&[Some(plane)], &mut harmonics) == [true] {
+            parallel::each(
+                columns.chunks_exact_mut(self.shape[0]).enumerate(),
+                together(self.shape[0]),
+                &Pool::default(),
+                || self.scratch(),
+                |scratch, (ky, column)| self.column_forward(self.at(&harmonics, 0, ky), column, scratch),
+            );
+        }
+        columns
+    }
+
+    /// Computes the planes from `harmonics`. Each row is passed to `finish`, with its plane and its ix.
     ///
     /// # Panics
     /// If a length does not fit.
-    pub(crate) fn rows_back(&self, columns: &[Complex64], planes: &mut [f64]) {
+    pub(crate) fn rows_back(
+        &self,
+        harmonics: &[Complex64],
+        planes: &mut [f64],
+        finish: impl Fn([usize; 2], &mut [f64]) + Sync,
+    ) {
         let [nx, ny] = self.cells;
         let (half, stride) = (self.half(), self.stride());
         let count = planes.len() / (nx * ny);
-        assert_eq!(columns.len(), count * half * stride, "number of columns");
+        assert_eq!(harmonics.len(), count * half * stride, "number of harmonics");
         let scale = 1.0 / (self.shape[0] * self.shape[1]) as f64;
         let make = || {
             (
@@ -175,21 +225,22 @@ impl Planes {
                 self.back_y.make_scratch_vec(),
             )
         };
-        let planes = planes.chunks_exact_mut(nx * ny).enumerate();
+        let planes = planes.chunks_exact_mut(nx * ny).zip(harmonics.chunks_exact(half * stride));
         parallel::each(
-            planes,
+            planes.enumerate(),
             together(nx * ny),
             &Pool::default(),
             make,
-            |(values, block, scratch), (plane, to)| {
+            |(values, block, scratch), (plane, (to, from))| {
                 for (first, rows) in (0..nx).step_by(BLOCK).zip(to.chunks_mut(BLOCK * ny)) {
-                    for ky in 0..half {
-                        let from = &columns[(ky * count + plane) * stride..][first..];
-                        for (n, value) in from.iter().take(rows.len() / ny).enumerate() {
+                    let count = rows.len() / ny;
+                    for (ky, column) in from.chunks_exact(stride).enumerate() {
+                        for (n, value) in column[first..first + count].iter().enumerate() {
                             block[n * half + ky] = *value;
                         }
                     }
-                    for (row, spectrum) in rows.chunks_exact_mut(ny).zip(block.chunks_exact_mut(half)) {
+                    let rows = rows.chunks_exact_mut(ny).zip(block.chunks_exact_mut(half));
+                    for (n, (row, spectrum)) in rows.enumerate() {
                         spectrum[0].im = 0.0;
                         if self.shape[1].is_multiple_of(2) {
                             spectrum[half - 1].im = 0.0;
@@ -197,6 +248,7 @@ impl Planes {
                         let back = self.back_y.process_with_scratch(spectrum, values, scratch);
                         back.expect("lengths come from the plan");
                         row.iter_mut().zip(values.iter()).for_each(|(r, v)| *r = *v * scale);
+                        finish([plane, first + n], row);
                     }
                 }
             },
@@ -217,31 +269,40 @@ mod tests {
         {
             let field = |seed: usize| {
                 Field::from_shape_fn(cells, |(i, j)| {
-                    ((7 * i + 3 * j * j + seed * (i + 1) * j) % 11) as f64 - 4.0
+                    // One row is zero.
+                    if i == 3 { 0.0 } else { ((7 * i + 3 * j * j + seed * (i + 1) * j) % 11) as f64 - 4.0 }
                 })
             };
             let fields = [field(0), Field::zeros(cells), field(2)];
             let planes = Planes::new(shape, cells);
-            let mut rows = planes.rows(3);
-            let slices: Vec<&[f64]> = fields.iter().map(|f| f.as_slice().unwrap()).collect();
-            assert_eq!(planes.rows_forward(&slices, &mut rows), [true, false, true]);
-            let (mut columns, mut scratch) = (planes.columns(2), planes.scratch());
-            let stride = planes.stride();
-            for ky in 0..planes.half() {
-                for (plane, from) in [0, 2].into_iter().enumerate() {
-                    let column = &mut columns[(ky * 2 + plane) * stride..][..stride];
-                    planes.column_forward(&rows, [from, ky], column, &mut scratch);
-                    let expected = RealFft2::new(shape).forward(&fields[from]);
+            let slices: Vec<Option<&[f64]>> =
+                fields.iter().map(|field| field.as_slice()).chain([None]).collect();
+            let mut harmonics = planes.harmonics(4);
+            assert_eq!(planes.rows_forward(&slices, &mut harmonics), [true, false, true, false]);
+            let (mut column, mut scratch) = (planes.column(), planes.scratch());
+            let columns = planes.forward(slices[2].unwrap());
+            for (ky, mut of_planes) in planes.by_frequency(&mut harmonics).into_iter().enumerate() {
+                for plane in [0, 2] {
+                    planes.column_forward(of_planes[plane], &mut column, &mut scratch);
+                    let expected = RealFft2::new(shape).forward(&fields[plane]);
                     for kx in 0..shape[0] {
                         assert!((column[kx] - expected[[kx, ky]]).norm() < 1e-12, "{shape:?} at {kx}, {ky}");
                     }
-                    planes.column_back(column, &mut scratch);
+                    if plane == 2 {
+                        assert_eq!(column, columns[ky * shape[0]..][..shape[0]]);
+                    }
+                    planes.column_back(&mut column, of_planes[plane], &mut scratch);
                 }
             }
-            let mut back = vec![0.0; 2 * cells[0] * cells[1]];
-            planes.rows_back(&columns, &mut back);
-            let expected = fields[0].iter().chain(&fields[2]);
-            assert!(back.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{shape:?}");
+            let mut back = vec![0.0; 4 * cells[0] * cells[1]];
+            planes.rows_back(&harmonics, &mut back, |[plane, ix], row| {
+                row.iter_mut().for_each(|value| *value += (plane * ix) as f64);
+            });
+            for ((plane, field), back) in fields.iter().enumerate().zip(back.chunks(cells[0] * cells[1])) {
+                for (((ix, _), expected), found) in field.indexed_iter().zip(back) {
+                    assert!((found - expected - (plane * ix) as f64).abs() < 1e-12, "{shape:?}");
+                }
+            }
         }
     }
 }

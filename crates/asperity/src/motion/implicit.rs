@@ -53,15 +53,7 @@ impl Solver<'_> {
         let gap = stacked(self.positions.iter().map(|position| pair.initial_gap(position)));
         let bounds =
             self.positions.iter().map(|position| pair.bounds(position, friction)).collect::<Vec<_>>();
-        let caps = bounds.iter().zip(self.positions).map(|(bounds, position)| {
-            let shape = pair.grid(position.columns).shape;
-            Field::from_shape_vec(
-                shape,
-                (0..shape[0] * shape[1]).map(|cell| bounds.upper().at(cell)).collect(),
-            )
-            .expect("a value for each cell")
-        });
-        let caps = Bounds::up_to(stacked(caps));
+        let caps = Bounds::up_to(self.stacked_caps(pair, &bounds));
         let start = stacked(outcome.contacts.iter().map(|contact| contact.pressure_field(grid.shape[1])));
         let params = Params { method: Method::PolonskyKeer, ..*params };
         let watch = OneOfMany(self.watch);
@@ -87,6 +79,21 @@ impl Solver<'_> {
                     .with_gap(&at_position, before.gap.is_some())
             };
         Ok(contacts.map(contact).collect())
+    }
+
+    /// Returns the upper bounds at all positions, stacked; a number if they are all the same.
+    fn stacked_caps(&self, pair: &Pair, bounds: &[Bounds]) -> CellValues {
+        let uniform = bounds[0].upper().uniform();
+        if let Some(cap) = uniform
+            && bounds.iter().all(|bounds| bounds.upper().uniform() == uniform)
+        {
+            return CellValues::Uniform(cap);
+        }
+        let caps = bounds.iter().zip(self.positions).map(|(bounds, position)| {
+            let shape = pair.grid(position.columns).shape;
+            Field::from_shape_fn(shape, |(i, j)| bounds.upper().at(i * shape[1] + j))
+        });
+        CellValues::Field(stacked(caps))
     }
 }
 

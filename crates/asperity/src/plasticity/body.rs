@@ -1,5 +1,6 @@
 //! An elasto-plastic body.
 
+use std::ops::Range;
 use std::slice::{ChunksExact, ChunksExactMut};
 use std::sync::Arc;
 
@@ -314,9 +315,7 @@ impl PlasticBody {
         let Trial { predictor, strain, stress, .. } = &mut self.trial;
         let layers = layers_mut(predictor).zip(layers(stress)).zip(layers(strain));
         parallel::tasks(layers, |((y, stress), strain)| {
-            each_cell(stress, strain, stiffness, |cell, cells, g| {
-                (0..COMPONENTS).for_each(|c| y[c * cells + cell] = g[c]);
-            });
+            each_run(stress, strain, stiffness, |at, g| y[at..][..g.len()].copy_from_slice(g));
         });
     }
 
@@ -327,13 +326,30 @@ impl PlasticBody {
         let Self { law, state, trial, .. } = self;
         let Trial { predictor, strain: trial, flows, .. } = trial;
         let yields = law.yield_stress();
+        // Less, for the rounding errors of the comparison.
+        let elastic_square = (law.elastic_below() * (1.0 - 1e-9)).powi(2);
         let layers =
             layers_mut(trial).zip(flows.as_slice_mut().expect("standard layout").chunks_exact_mut(cells));
         let moved = parallel::tasks(layers.enumerate(), |(layer, (trial, flows))| {
             let before = PreviousStates::new(layer, state);
             let y = layer_of(predictor, layer);
-            let mut moved = 0.0f64;
+            let (mut squares, mut moved) = ([0.0; RUN], 0.0f64);
             for (cell, flows) in flows.iter_mut().enumerate() {
+                // Most cells are far from flow, and without a trial strain.
+                if start == Start::PreviousStates {
+                    if cell % RUN == 0 {
+                        let run = cell..cells.min(cell + RUN);
+                        before.driving_squares(y, stiffness, run.clone(), &mut squares);
+                        for c in 0..COMPONENTS {
+                            let at = c * cells + run.start..c * cells + run.end;
+                            trial[at.clone()].copy_from_slice(&before.strain[at]);
+                        }
+                    }
+                    if squares[cell % RUN] < elastic_square {
+                        *flows = false;
+                        continue;
+                    }
+                }
                 let state = before.at(cell);
                 let y = tensor(y, cell, cells);
                 let next = law.flow(&y, stiffness, &state);
@@ -360,14 +376,17 @@ impl PlasticBody {
         let Trial { predictor, strain, stress, .. } = &self.trial;
         let layers = layers(predictor).zip(layers(stress)).zip(layers(strain));
         let largest = parallel::tasks(layers, |((y, stress), strain)| {
-            let mut largest = 0.0f64;
-            each_cell(stress, strain, stiffness, |cell, cells, g| {
-                for c in 0..COMPONENTS {
-                    let f = (g[c] - y[c * cells + cell]).abs();
-                    largest = if f > largest || f.is_nan() { f } else { largest };
+            let (mut largest, mut is_nan) = ([0.0f64; LANES], false);
+            each_run(stress, strain, stiffness, |at, g| {
+                for (g, y) in g.chunks(LANES).zip(y[at..].chunks(LANES)) {
+                    for ((largest, g), y) in largest.iter_mut().zip(g).zip(y) {
+                        let f = (g - y).abs();
+                        *largest = if f > *largest { f } else { *largest };
+                        is_nan |= f.is_nan();
+                    }
                 }
             });
-            largest
+            if is_nan { f64::NAN } else { largest.into_iter().fold(0.0, f64::max) }
         });
         let largest = largest.into_iter().fold(0.0, |a, b| if a > b || a.is_nan() { a } else { b });
         largest / self.law.yield_stress()
@@ -517,6 +536,27 @@ impl<'a> PreviousStates<'a> {
         }
     }
 
+    /// Computes 3/2 ξ:ξ of a run of cells, ξ = y − κ ε − X.
+    fn driving_squares(&self, y: &[f64], stiffness: Pascal, run: Range<usize>, squares: &mut [f64; RUN]) {
+        let cells = self.accumulated.len();
+        squares.fill(0.0);
+        for c in 0..COMPONENTS {
+            let weight = if c < 3 { 1.5 } else { 3.0 };
+            let at = c * cells + run.start..c * cells + run.end;
+            let parts = squares.iter_mut().zip(&y[at.clone()]).zip(&self.strain[at.clone()]);
+            match self.back {
+                None => parts.for_each(|((square, y), strain)| {
+                    let xi = y - stiffness * strain;
+                    *square += weight * xi * xi;
+                }),
+                Some(back) => parts.zip(&back[at]).for_each(|(((square, y), strain), back)| {
+                    let xi = y - stiffness * strain - back;
+                    *square += weight * xi * xi;
+                }),
+            }
+        }
+    }
+
     #[inline]
     fn at(&self, cell: usize) -> CellState {
         let cells = self.accumulated.len();
@@ -555,11 +595,33 @@ fn response(stress: &Tensor, strain: &Tensor, stiffness: Pascal) -> Tensor {
     std::array::from_fn(|c| stress[c] - if c < 3 { mean } else { 0.0 } + stiffness * strain[c])
 }
 
-/// Calls `look` for each cell of a layer, with its index, the number of cells in the layer, and g.
-fn each_cell(stress: &[f64], strain: &[f64], stiffness: Pascal, mut look: impl FnMut(usize, usize, Tensor)) {
+/// Number of cells of a layer that are processed together.
+const RUN: usize = 128;
+/// Number of partial maxima.
+const LANES: usize = 8;
+
+/// Computes g = dev σ + κ ε of a layer, and calls `look` for each component of each run of cells, with its place in the
+/// layer.
+fn each_run(stress: &[f64], strain: &[f64], stiffness: Pascal, mut look: impl FnMut(usize, &[f64])) {
     let cells = stress.len() / COMPONENTS;
-    for cell in 0..cells {
-        look(cell, cells, response(&tensor(stress, cell, cells), &tensor(strain, cell, cells), stiffness));
+    let (mut mean, mut g) = ([0.0; RUN], [0.0; RUN]);
+    for first in (0..cells).step_by(RUN) {
+        let count = RUN.min(cells - first);
+        let [xx, yy, zz] = [0, 1, 2].map(|c| &stress[c * cells + first..][..count]);
+        for (((mean, xx), yy), zz) in mean.iter_mut().zip(xx).zip(yy).zip(zz) {
+            *mean = (xx + yy + zz) / 3.0;
+        }
+        for c in 0..COMPONENTS {
+            if c == 3 {
+                mean.fill(0.0);
+            }
+            let at = c * cells + first;
+            let parts = stress[at..][..count].iter().zip(&strain[at..][..count]).zip(&mean);
+            g.iter_mut()
+                .zip(parts)
+                .for_each(|(g, ((stress, strain), mean))| *g = stress - mean + stiffness * strain);
+            look(at, &g[..count]);
+        }
     }
 }
 

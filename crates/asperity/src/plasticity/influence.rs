@@ -3,13 +3,12 @@
 use asperity_transforms::num_complex::Complex64;
 use ndarray::Zip;
 
-use super::waves::INDEPENDENT;
 use super::{COMPONENTS, Layers};
 use crate::grid::{Field, Grid};
 use crate::kernel::{Traction, harmonic_stress, stress_table};
 use crate::math::convolution::{Parity, Plans};
 use crate::math::fft::angular_frequency;
-use crate::math::{Planes, parallel};
+use crate::math::parallel;
 use crate::operator::Boundary;
 use crate::stress::Component;
 use crate::units::Metre;
@@ -53,82 +52,82 @@ impl Influence {
         Self { spectra, odd: Component::ALL.map(|component| traction.odd(component)), thickness }
     }
 
-    /// Adds the stress under a `traction`, given by its column at `ky`, to the columns of all components of all layers.
-    pub(super) fn add(&self, planes: &Planes, ky: usize, traction: &[Complex64], columns: &mut [Complex64]) {
-        let nx = planes.shape()[0];
-        for (plane, column) in columns.chunks_exact_mut(planes.stride()).enumerate() {
-            let (spectrum, factor) = self.at(plane, ky);
-            let [odd, _] = self.odd[plane % COMPONENTS];
-            let (front, back) = column[..nx].split_at_mut(nx / 2 + 1);
-            let (given, given_back) = traction[..nx].split_at(nx / 2 + 1);
-            for ((to, p), s) in front.iter_mut().zip(given).zip(spectrum) {
-                *to += factor.apply(*p) * *s;
-            }
-            let sign = if odd { -1.0 } else { 1.0 };
-            for ((to, p), s) in back.iter_mut().rev().zip(given_back.iter().rev()).zip(&spectrum[1..]) {
-                *to += factor.apply(*p) * (sign * s);
-            }
-        }
+    /// Adds the stress under a `traction`, given by its column at `ky`, to the `column` of a component of a layer.
+    pub(super) fn add(&self, [plane, ky]: [usize; 2], traction: &[Complex64], column: &mut [Complex64]) {
+        let (spectrum, turn, sign) = self.at(plane, ky);
+        let middle = column.len() / 2 + 1;
+        let rear = if self.odd[plane % COMPONENTS][0] { -sign } else { sign };
+        turn.add(traction[..middle].iter(), spectrum.iter().map(|s| sign * s), column[..middle].iter_mut());
+        turn.add(
+            traction[middle..].iter().rev(),
+            spectrum[1..].iter().map(|s| rear * s),
+            column[middle..].iter_mut().rev(),
+        );
     }
 
-    /// Applies the transpose: the displacement of the surface of the body along the traction, by traceless plastic strain,
-    /// given by its columns at `ky`.
+    /// Adds the part of a component of traceless plastic strain, given by its `column` at `ky`, to the transpose: the
+    /// displacement of the surface of the body along the traction.
     pub(super) fn transpose(
         &self,
-        planes: &Planes,
-        ky: usize,
-        columns: &[Complex64],
+        [plane, ky]: [usize; 2],
+        column: &[Complex64],
         displacement: &mut [Complex64],
     ) {
-        let (nx, stride) = (planes.shape()[0], planes.stride());
-        displacement.fill(Complex64::default());
-        for (layer, thickness) in self.thickness.iter().enumerate() {
-            let (below, _) = self.at(layer * COMPONENTS + Component::Zz as usize, ky);
-            for component in INDEPENDENT {
-                let plane = layer * COMPONENTS + component;
-                let (spectrum, factor) = self.at(plane, ky);
-                // εzz = −εxx − εyy; shears count twice.
-                let normal = component < 3;
-                let weight = if normal { *thickness } else { 2.0 * thickness };
-                let of =
-                    |bin: usize| weight * if normal { spectrum[bin] - below[bin] } else { spectrum[bin] };
-                let sign = if self.odd[component][0] { -1.0 } else { 1.0 };
-                let back = factor.conjugate();
-                let (front, rear) = columns[plane * stride..][..nx].split_at(nx / 2 + 1);
-                let (to_front, to_rear) = displacement[..nx].split_at_mut(nx / 2 + 1);
-                for (bin, (to, strain)) in to_front.iter_mut().zip(front).enumerate() {
-                    *to += back.apply(*strain) * of(bin);
-                }
-                for (bin, (to, strain)) in to_rear.iter_mut().rev().zip(rear.iter().rev()).enumerate() {
-                    *to += back.apply(*strain) * (sign * of(bin + 1));
-                }
-            }
-        }
+        let (layer, component) = (plane / COMPONENTS, plane % COMPONENTS);
+        let (spectrum, turn, sign) = self.at(plane, ky);
+        let (below, ..) = self.at(layer * COMPONENTS + Component::Zz as usize, ky);
+        // εzz = −εxx − εyy; shears count twice.
+        let (weight, less) = if component < 3 { (1.0, 1.0) } else { (2.0, 0.0) };
+        // The conjugate power of i.
+        let weight = weight * self.thickness[layer] * if turn == Turn::Quarter { -sign } else { sign };
+        let middle = column.len() / 2 + 1;
+        let rear = if self.odd[component][0] { -weight } else { weight };
+        let of = |weight: f64| move |(s, below): (&f64, &f64)| weight * (s - less * below);
+        turn.add(
+            column[..middle].iter(),
+            spectrum.iter().zip(below).map(of(weight)),
+            displacement[..middle].iter_mut(),
+        );
+        turn.add(
+            column[middle..].iter().rev(),
+            spectrum[1..].iter().zip(&below[1..]).map(of(rear)),
+            displacement[middle..].iter_mut().rev(),
+        );
     }
 
-    fn at(&self, plane: usize, ky: usize) -> (&[f64], Power) {
+    /// Returns the real factor of a component of a layer at `ky`, and the power of i.
+    fn at(&self, plane: usize, ky: usize) -> (&[f64], Turn, f64) {
         let spectrum = self.spectra[plane].row(ky).to_slice().expect("rows are contiguous");
-        let odd = self.odd[plane % COMPONENTS];
-        (spectrum, Power(odd.iter().filter(|odd| **odd).count()))
+        match self.odd[plane % COMPONENTS] {
+            [false, false] => (spectrum, Turn::None, 1.0),
+            [true, true] => (spectrum, Turn::None, -1.0),
+            _ => (spectrum, Turn::Quarter, 1.0),
+        }
     }
 }
 
-/// A power of i.
-#[derive(Clone, Copy)]
-struct Power(usize);
+/// A factor 1 or i.
+#[derive(Clone, Copy, PartialEq)]
+enum Turn {
+    None,
+    Quarter,
+}
 
-impl Power {
-    fn conjugate(self) -> Self {
-        Self((4 - self.0) % 4)
-    }
-
+impl Turn {
+    /// Adds the numbers in `from`, times the `weights` and this factor.
     #[inline]
-    fn apply(self, value: Complex64) -> Complex64 {
-        match self.0 {
-            0 => value,
-            1 => Complex64::new(-value.im, value.re),
-            2 => -value,
-            _ => Complex64::new(value.im, -value.re),
+    fn add<'a>(
+        self,
+        from: impl Iterator<Item = &'a Complex64>,
+        weights: impl Iterator<Item = f64>,
+        to: impl Iterator<Item = &'a mut Complex64>,
+    ) {
+        let all = to.zip(from).zip(weights);
+        match self {
+            Self::None => all.for_each(|((to, value), weight)| *to += *value * weight),
+            Self::Quarter => {
+                all.for_each(|((to, value), weight)| *to += Complex64::new(-value.im, value.re) * weight);
+            }
         }
     }
 }

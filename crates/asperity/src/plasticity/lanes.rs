@@ -1,6 +1,6 @@
 //! Four numbers processed in parallel.
 
-use std::ops::{Add, AddAssign, Mul, Neg, Sub};
+use std::ops::{Add, Mul, Neg, Sub};
 
 use asperity_transforms::num_complex::Complex64;
 
@@ -32,11 +32,16 @@ impl Lanes {
         Self([-b, a, -d, c])
     }
 
-    /// Multiplies by a factor that changes its sign with q_x.
+    /// A factor that changes its sign with q_x.
     #[inline(always)]
-    pub(super) fn times_odd(self, factor: f64) -> Self {
-        let [a, b, c, d] = self.0;
-        Self([a * factor, b * factor, -c * factor, -d * factor])
+    pub(super) fn odd(factor: f64) -> Self {
+        Self([factor, factor, -factor, -factor])
+    }
+
+    /// Mean of both amplitudes, for waves that are the same.
+    #[inline(always)]
+    pub(super) fn mean(self) -> Complex64 {
+        0.5 * (self.plus() + self.minus())
     }
 }
 
@@ -47,13 +52,6 @@ impl Add for Lanes {
     fn add(self, other: Self) -> Self {
         let ([a, b, c, d], [e, f, g, h]) = (self.0, other.0);
         Self([a + e, b + f, c + g, d + h])
-    }
-}
-
-impl AddAssign for Lanes {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
     }
 }
 
@@ -74,6 +72,16 @@ impl Neg for Lanes {
     fn neg(self) -> Self {
         let [a, b, c, d] = self.0;
         Self([-a, -b, -c, -d])
+    }
+}
+
+impl Mul for Lanes {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        let ([a, b, c, d], [e, f, g, h]) = (self.0, other.0);
+        Self([a * e, b * f, c * g, d * h])
     }
 }
 

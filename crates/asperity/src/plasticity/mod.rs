@@ -62,6 +62,9 @@ pub use volume::Volume;
 /// Components of a symmetric tensor, in the order of [`crate::stress::Component::ALL`].
 const COMPONENTS: usize = 6;
 
+/// Independent components of plastic strain; zz follows from volume preservation.
+const INDEPENDENT: [usize; 5] = [0, 1, 3, 4, 5];
+
 /// A symmetric tensor in each cell of each layer: `[layer, component, ix, iy]`, with the components in the order of
 /// [`crate::stress::Component::ALL`].
 pub type TensorField = ndarray::Array4<f64>;

@@ -19,23 +19,28 @@
 //! σ12 = 2 e0[12] + 2 o0[23] − τ12       σ23 = −2 o0[12] − 2 e0[23]
 //! ```
 //!
-//! Two terms are added: the stress of the mirror image (τ13, τ23 reversed, ζ = q(z + z′), no local term), and the stress
-//! under the pressure that makes the surface traction-free. Chiu, J. Appl. Mech. 44, 587 (1977); 45, 302 (1978).
+//! Chiu, J. Appl. Mech. 44, 587 (1977); 45, 302 (1978). The part from above z has only three amplitudes:
 //!
-//! The strain is uniform in each layer, and the stress is its mean over each layer, so that the operator is symmetric. Sums
-//! passed through a layer of thickness X/q decay by e^−X. The cost is linear in the number of layers, and nothing is
-//! stored.
+//! ```text
+//! u = e0[a (d + 2 τ13)]     v = e0[(k − 1)(τ11 + τ33)] + e1[a (d + 2 τ13)]     t = e0[2 (τ12 + τ23)]
+//! σ11 = 2u − v     σ22 = 2νu     σ33 = v     σ13 = v − u     σ12 = t     σ23 = −t
+//! ```
+//!
+//! The part from below has the same with the signs of τ13, τ23, σ13 and σ23 reversed. Over a depth X/q without strain,
+//! v becomes e^−X (v + X u), and u and t decay by e^−X.
+//!
+//! Two terms are added to those from above: the mirror image (τ13, τ23 reversed), which has the amplitudes u′, v′, t′ from
+//! below at the surface, and the pressure 2v′ that makes the surface traction-free. Together they are u = u′ − 2v′, v = −v′,
+//! t = t′.
+//!
+//! The strain is uniform in each layer, and the stress is its mean over each layer, so that the operator is symmetric. The
+//! cost is linear in the number of layers, and nothing is stored.
 
-use asperity_transforms::num_complex::Complex64;
-
+use super::COMPONENTS;
 use super::lanes::Lanes;
 use super::layers::Layers;
-use crate::math::Planes;
 use crate::math::fft::angular_frequency;
 use crate::units::{Metre, Pascal};
-
-/// Components of a symmetric tensor.
-const COMPONENTS: usize = 6;
 
 /// Parameters of the residual stress other than the strain.
 pub(super) struct Sweep {
@@ -50,11 +55,27 @@ pub(super) struct Sweep {
 
 /// Scratch memory for the recursions of a wave.
 pub(super) struct SweepScratch {
+    /// 1 − e^−X of each layer.
+    lost: Vec<f64>,
     decay: Vec<Decay>,
-    tau: Vec<[Lanes; 5]>,
-    /// Sums from below: e0 of 11, 33, 13, 12, 23, e1 of d and 13.
-    below: Vec<[Lanes; 7]>,
-    stress: Vec<[Lanes; COMPONENTS]>,
+    sources: Vec<Sources>,
+    /// Amplitudes u, v, t from below at the bottom of each layer.
+    below: Vec<[Lanes; 3]>,
+    /// The same wave in the other direction.
+    other: Vec<[Lanes; COMPONENTS]>,
+}
+
+/// Eigenstress of a layer in the frame of the wave.
+#[derive(Clone, Copy, Default)]
+struct Sources {
+    /// a (τ11 − τ33).
+    difference: Lanes,
+    /// (k − 1)(τ11 + τ33).
+    sum: Lanes,
+    /// 2a τ13, 2 τ12, 2 τ23.
+    along: Lanes,
+    across: Lanes,
+    below: Lanes,
 }
 
 /// Decay of a wave over a layer of thickness X/q.
@@ -73,9 +94,9 @@ struct Decay {
 }
 
 impl Decay {
-    /// Computes the decay with absolute errors of about 1e-16, also for terms that vanish with X.
-    fn over(thickness: f64) -> Self {
-        let lost = -(-thickness).exp_m1();
+    /// Computes the decay with absolute errors of about 1e-16, also for terms that vanish with X, from X and 1 − e^−X.
+    #[inline]
+    fn over(thickness: f64, lost: f64) -> Self {
         let whole = 1.0 - lost;
         let mean = lost / thickness;
         Self {
@@ -86,6 +107,41 @@ impl Decay {
             own: [0.5 * (1.0 - mean), 0.5 * (1.0 + whole) - mean],
         }
     }
+}
+
+/// Computes 1 − e^−x for x ≥ 0, to about 2e-16 of the result. It has no branches, so that it is computed for several
+/// numbers at a time.
+#[inline]
+fn lost(x: f64) -> f64 {
+    /// Adding this number rounds to an integer, which the last bits of the sum hold.
+    const ROUND: f64 = 6_755_399_441_055_744.0;
+    /// The first 32 bits of ln 2, and the rest.
+    const LN_2: [f64; 2] = [0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10];
+    // e^−x = 2^−n e^r with |r| ≤ (ln 2)/2. Beyond 700 it is 0 in all sums.
+    let x = x.min(700.0);
+    let shifted = x * std::f64::consts::LOG2_E + ROUND;
+    let n = shifted - ROUND;
+    let scale = f64::from_bits(1023u64.wrapping_sub(shifted.to_bits()) << 52);
+    let r = (n * LN_2[0] - x) + n * LN_2[1];
+    // (e^r − 1)/r by its series; the next term is below 1e-17.
+    let mut sum = 1.0 / 6_227_020_800.0;
+    for factorial in [
+        479_001_600.0,
+        39_916_800.0,
+        3_628_800.0,
+        362_880.0,
+        40_320.0,
+        5_040.0,
+        720.0,
+        120.0,
+        24.0,
+        6.0,
+        2.0,
+        1.0,
+    ] {
+        sum = sum * r + 1.0 / factorial;
+    }
+    (1.0 - scale) - scale * (r * sum)
 }
 
 impl Sweep {
@@ -104,62 +160,48 @@ impl Sweep {
     pub(super) fn scratch(&self) -> SweepScratch {
         let layers = self.thickness.len();
         SweepScratch {
+            lost: vec![0.0; layers],
             decay: vec![Decay::default(); layers],
-            tau: vec![Default::default(); layers],
+            sources: vec![Sources::default(); layers],
             below: vec![Default::default(); layers],
-            stress: vec![Default::default(); layers],
+            other: vec![Default::default(); layers],
         }
     }
 
-    /// Replaces plastic strain by residual stress, for all waves at `ky`: `columns` of [`Planes`], six components for each
-    /// layer. The strain is traceless, so that its zz is not read.
+    /// Replaces plastic strain by residual stress, for the waves in the bins ±`kx` and `ky`: the components of each layer.
+    /// The strain is traceless, so that its zz is not read.
     pub(super) fn residual(
         &self,
-        planes: &Planes,
-        ky: usize,
-        columns: &mut [Complex64],
+        [kx, ky]: [usize; 2],
+        layers: &mut [[Lanes; COMPONENTS]],
         scratch: &mut SweepScratch,
     ) {
         let [nx, ny] = self.shape;
-        let stride = planes.stride();
-        let qy = angular_frequency(ky, ny, self.pitch[1]);
-        for kx in 0..=nx / 2 {
-            let qx = angular_frequency(kx, nx, self.pitch[0]);
-            let opposite = (nx - kx) % nx;
-            if kx == 0 && ky == 0 {
-                self.uniform(columns, stride);
-                continue;
-            }
-            scratch.stress.fill(Default::default());
-            // A wave that alternates from cell to cell runs half in each direction.
-            match 2 * ky == ny {
-                true => {
-                    self.wave([qx, qy], columns, stride, [kx, opposite], 0.5, scratch);
-                    self.wave([qx, -qy], columns, stride, [kx, opposite], 0.5, scratch);
-                }
-                false => self.wave([qx, qy], columns, stride, [kx, opposite], 1.0, scratch),
-            }
-            for (stress, columns) in scratch.stress.iter().zip(columns.chunks_exact_mut(COMPONENTS * stride))
-            {
-                for (stress, column) in stress.iter().zip(columns.chunks_exact_mut(stride)) {
-                    if opposite == kx {
-                        column[kx] = 0.5 * (stress.plus() + stress.minus());
-                    } else {
-                        column[kx] = stress.plus();
-                        column[opposite] = stress.minus();
-                    }
-                }
-            }
+        if [kx, ky] == [0, 0] {
+            return self.uniform(layers);
         }
+        let [qx, qy] = [angular_frequency(kx, nx, self.pitch[0]), angular_frequency(ky, ny, self.pitch[1])];
+        if 2 * ky != ny {
+            return self.wave([qx, qy], layers, scratch);
+        }
+        // A wave that alternates from cell to cell runs half in each direction.
+        let mut other = std::mem::take(&mut scratch.other);
+        other.copy_from_slice(layers);
+        self.wave([qx, qy], layers, scratch);
+        self.wave([qx, -qy], &mut other, scratch);
+        for (stress, other) in layers.iter_mut().zip(&other) {
+            stress.iter_mut().zip(other).for_each(|(one, other)| *one = 0.5 * (*one + *other));
+        }
+        scratch.other = other;
     }
 
     /// Computes the response to the mean strain: the body cannot expand laterally.
-    fn uniform(&self, columns: &mut [Complex64], stride: usize) {
+    fn uniform(&self, layers: &mut [[Lanes; COMPONENTS]]) {
         let plane = self.twice_shear / (1.0 - self.poisson);
-        for columns in columns.chunks_exact_mut(COMPONENTS * stride) {
-            let [xx, yy, xy] = [0, 1, 5].map(|component| columns[component * stride]);
-            let zero = Complex64::default();
-            let stress = [
+        let zero = Lanes::default();
+        for layer in layers {
+            let [xx, yy, .., xy] = *layer;
+            *layer = [
                 -plane * (xx + self.poisson * yy),
                 -plane * (yy + self.poisson * xx),
                 zero,
@@ -167,139 +209,252 @@ impl Sweep {
                 zero,
                 -self.twice_shear * xy,
             ];
-            stress.iter().enumerate().for_each(|(component, s)| columns[component * stride] = *s);
         }
     }
 
-    /// Adds to the stress in the scratch, times `share`, the waves of (±q_x, q_y) ≠ 0 in the bins `at`.
-    fn wave(
-        &self,
-        [qx, qy]: [f64; 2],
-        columns: &[Complex64],
-        stride: usize,
-        at: [usize; 2],
-        share: f64,
-        scratch: &mut SweepScratch,
-    ) {
+    /// Replaces strain by stress for the waves (±q_x, q_y) ≠ 0.
+    fn wave(&self, [qx, qy]: [f64; 2], layers: &mut [[Lanes; COMPONENTS]], scratch: &mut SweepScratch) {
         let q = qx.hypot(qy);
         let (c, s) = (qx / q, qy / q);
         let (cc, ss, cs) = (c * c, s * s, c * s);
-        let SweepScratch { decay, tau, below, stress } = scratch;
+        let (shear, nu) = (self.twice_shear, self.poisson);
+        let k = nu / (1.0 - nu);
+        let a = 1.0 + k;
+        let SweepScratch { lost: lost_in_layers, decay, sources, below, .. } = scratch;
 
         // Upwards from the bottom.
+        let (to_cc, to_ss, to_2cs) = (shear * cc, shear * ss, Lanes::odd(2.0 * shear * cs));
+        let to_across = 2.0 * shear * (cc - ss);
+        let (to_along_c, to_along_s) = (Lanes::odd(2.0 * a * shear * c), 2.0 * a * shear * s);
+        let (to_below_c, to_below_s) = (Lanes::odd(2.0 * shear * c), 2.0 * shear * s);
         let zero = Lanes::default();
-        let (mut b11, mut b33, mut b13, mut b12, mut b23, mut bd, mut b13_1) =
-            (zero, zero, zero, zero, zero, zero, zero);
-        let mut previous = f64::NAN;
-        for layer in (0..self.thickness.len()).rev() {
-            let thickness = self.thickness[layer];
-            decay[layer] = if thickness == previous { decay[layer + 1] } else { Decay::over(q * thickness) };
-            previous = thickness;
-            let columns = &columns[layer * COMPONENTS * stride..];
-            let read = |component: usize| {
-                let column = &columns[component * stride..];
-                self.twice_shear * Lanes::of(column[at[0]], column[at[1]])
+        let [mut u, mut v, mut t] = [zero; 3];
+        for (decay, thickness) in lost_in_layers.iter_mut().zip(&self.thickness) {
+            *decay = lost(q * thickness);
+        }
+        for (layer, strain) in layers.iter().enumerate().rev() {
+            decay[layer] = Decay::over(q * self.thickness[layer], lost_in_layers[layer]);
+            let [xx, yy, _, yz, xz, xy] = *strain;
+            let t11 = to_cc * xx + to_2cs * xy + to_ss * yy;
+            let minus_t33 = shear * (xx + yy);
+            let source = Sources {
+                difference: a * (t11 + minus_t33),
+                sum: (k - 1.0) * (t11 - minus_t33),
+                along: (to_along_c * xz + to_along_s * yz).times_i(),
+                across: to_2cs * (yy - xx) + to_across * xy,
+                below: (to_below_c * yz - to_below_s * xz).times_i(),
             };
-            let (xx, yy, yz, xz, xy) = (read(0), read(1), read(3).times_i(), read(4).times_i(), read(5));
-            let t11 = cc * xx + (2.0 * xy).times_odd(cs) + ss * yy;
-            let t33 = -(xx + yy);
-            let t13 = xz.times_odd(c) + s * yz;
-            let t23 = yz.times_odd(c) - s * xz;
-            let t12 = (yy - xx).times_odd(cs) + (cc - ss) * xy;
-            tau[layer] = [t11, t33, t13, t12, t23];
-            let Decay { whole, thickness, mean: [m0, m1], given: [g0, g1], .. } = decay[layer];
-            let bd_0 = b11 - b33;
-            below[layer] = [
-                m0 * b11,
-                m0 * b33,
-                m0 * b13,
-                m0 * b12,
-                m0 * b23,
-                m0 * bd + m1 * bd_0,
-                m0 * b13_1 + m1 * b13,
-            ];
-            bd = whole * (bd + thickness * bd_0) + g1 * (t11 - t33);
-            b13_1 = whole * (b13_1 + thickness * b13) + g1 * t13;
-            b11 = whole * b11 + g0 * t11;
-            b33 = whole * b33 + g0 * t33;
-            b13 = whole * b13 + g0 * t13;
-            b12 = whole * b12 + g0 * t12;
-            b23 = whole * b23 + g0 * t23;
+            sources[layer] = source;
+            below[layer] = [u, v, t];
+            let Decay { whole, thickness, given: [g0, g1], .. } = decay[layer];
+            let rising = source.difference - source.along;
+            v = whole * (v + thickness * u) + g0 * source.sum + g1 * rising;
+            u = whole * u + g0 * rising;
+            t = whole * t + g0 * (source.across - source.below);
         }
 
-        // The mirror image and the pressure for a traction-free surface, per mean of e^−qz and of qz e^−qz.
-        let k = self.poisson / (1.0 - self.poisson);
-        let a = 1.0 + k;
-        let bd_0 = b11 - b33;
-        let p = 2.0 * ((k - 1.0) * (b11 + b33) + a * bd - (2.0 * a) * b13_1);
-        let image_0 = [
-            (k + 3.0) * b11 - (3.0 * k + 1.0) * b33 - a * bd - (4.0 * a) * b13 + (2.0 * a) * b13_1 - p,
-            (2.0 * k) * bd_0 - (4.0 * k) * b13 - (2.0 * self.poisson) * p,
-            (k - 1.0) * (b11 + b33) + a * bd - (2.0 * a) * b13_1 - p,
-            -2.0 * b11 + (2.0 * k) * b33 + a * bd + (2.0 * a) * (b13 - b13_1),
-            2.0 * (b12 - b23),
-            2.0 * (b23 - b12),
-        ];
-        let image_1 = [
-            (2.0 * a) * b13 - a * bd_0 + p,
-            zero,
-            a * bd_0 - (2.0 * a) * b13 - p,
-            a * bd_0 - (2.0 * a) * b13 - p,
-        ];
-
-        // Downwards from the surface.
-        let (mut a11, mut a33, mut a13, mut a12, mut a23, mut ad, mut a13_1) =
-            (zero, zero, zero, zero, zero, zero, zero);
-        let (mut top, mut top_depth) = (1.0, 0.0);
-        for layer in 0..self.thickness.len() {
+        // Downwards from the surface, with the mirror image and the pressure for a traction-free surface.
+        u = u - 2.0 * v;
+        v = -v;
+        let (cs_odd, cs_2, c_odd) = (Lanes::odd(cs), Lanes::odd(2.0 * cs), Lanes::odd(c));
+        for (layer, stress) in layers.iter_mut().enumerate() {
             let Decay { whole, thickness, mean: [m0, m1], given: [g0, g1], own: [own0, own1] } = decay[layer];
-            let [t11, t33, t13, t12, t23] = tau[layer];
-            let up = &below[layer];
-            let (p0, p1) = (top * m0, top * (top_depth * m0 + m1));
-            top *= whole;
-            top_depth += thickness;
-            let d = t11 - t33;
-            let ad_0 = a11 - a33;
-            let [down11, down33, down13, down12, down23] = [m0 * a11, m0 * a33, m0 * a13, m0 * a12, m0 * a23];
-            let (down_d, down_13) = (m0 * ad + m1 * ad_0, m0 * a13_1 + m1 * a13);
-            let (e11, o11) = (down11 + up[0] + own0 * t11, down11 - up[0]);
-            let (e33, o33) = (down33 + up[1] + own0 * t33, down33 - up[1]);
-            let (e13, o13) = (down13 + up[2] + own0 * t13, down13 - up[2]);
-            let (e12, o12) = (down12 + up[3] + own0 * t12, down12 - up[3]);
-            let (e23, o23) = (down23 + up[4] + own0 * t23, down23 - up[4]);
-            let (e1d, o1d) = (down_d + up[5] + own1 * d, down_d - up[5]);
-            let (e1_13, o1_13) = (down_13 + up[6] + own1 * t13, down_13 - up[6]);
-            ad = whole * (ad + thickness * ad_0) + g1 * d;
-            a13_1 = whole * (a13_1 + thickness * a13) + g1 * t13;
-            a11 = whole * a11 + g0 * t11;
-            a33 = whole * a33 + g0 * t33;
-            a13 = whole * a13 + g0 * t13;
-            a12 = whole * a12 + g0 * t12;
-            a23 = whole * a23 + g0 * t23;
+            let Sources { difference, sum, along, across, below: down } = sources[layer];
+            let [u_below, v_below, t_below] = below[layer];
+            let [xx, yy, .., xy] = *stress;
+            let both = u + u_below;
+            let s_u = m0 * both + own0 * difference;
+            let zz = m0 * (v + v_below) + m1 * both + own0 * sum + own1 * difference;
+            let s13 = m0 * (v - v_below) - (m0 - m1) * (u - u_below) - (own0 - own1) * along;
+            let s12 = m0 * (t + t_below) + own0 * across;
+            let s32 = m0 * (t - t_below) + own0 * down;
 
-            let s11 = (k + 3.0) * e11 - (3.0 * k + 1.0) * e33 - a * e1d + (4.0 * a) * o13 - (2.0 * a) * o1_13
-                + k * t33
-                - t11
-                + p0 * image_0[0]
-                + p1 * image_1[0];
-            // τ22 = −τ11 − τ33.
-            let s22 = (2.0 * k) * (e11 - e33) + (4.0 * k) * o13 + a * t33 + t11 + p0 * image_0[1];
-            let s33 =
-                (k - 1.0) * (e11 + e33) + a * e1d + (2.0 * a) * o1_13 + p0 * image_0[2] + p1 * image_1[2];
-            let s13 = (2.0 * k) * o33 - 2.0 * o11 + a * o1d - (2.0 * a) * (e13 - e1_13)
-                + p0 * image_0[3]
-                + p1 * image_1[3];
-            let s12 = 2.0 * (e12 + o23) - t12 + p0 * image_0[4];
-            let s23 = -2.0 * (o12 + e23) + p0 * image_0[5];
+            let falling = difference + along;
+            v = whole * (v + thickness * u) + g0 * sum + g1 * falling;
+            u = whole * u + g0 * falling;
+            t = whole * t + g0 * (across + down);
 
-            let across = (2.0 * s12).times_odd(cs);
-            let stress = &mut stress[layer];
-            stress[0] += share * (cc * s11 - across + ss * s22);
-            stress[1] += share * (ss * s11 + across + cc * s22);
-            stress[2] += share * s33;
-            stress[3] += -share * (s * s13 + s23.times_odd(c)).times_i();
-            stress[4] += -share * (s13.times_odd(c) - s * s23).times_i();
-            stress[5] += share * ((s11 - s22).times_odd(cs) + (cc - ss) * s12);
+            // Without the local terms k τ33 − τ.
+            let s22 = (2.0 * nu) * s_u;
+            let s11_s22 = (2.0 - 2.0 * nu) * s_u - zz;
+            let turned = cs_2 * s12;
+            let plane = s22 - (k * shear) * (xx + yy);
+            *stress = [
+                plane + cc * s11_s22 - turned - shear * xx,
+                plane + ss * s11_s22 + turned - shear * yy,
+                zz,
+                (c_odd * s32 - s * s13).times_i(),
+                -(c_odd * s13 + s * s32).times_i(),
+                cs_odd * s11_s22 + (cc - ss) * s12 - shear * xy,
+            ];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use asperity_transforms::num_complex::Complex64;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+
+    #[test]
+    fn the_loss_of_a_wave_is_that_of_the_exponential() {
+        let mut x: f64 = 1e-300;
+        while x < 1e4 {
+            let exact = -(-x).exp_m1();
+            assert!((lost(x) - exact).abs() <= 4e-16 * exact, "{x:e}: {:e} is {exact:e}", lost(x));
+            x *= 1.07;
+        }
+        assert_eq!(lost(0.0), 0.0);
+    }
+
+    /// Stress in the frame of the wave, layer by layer: 11, 22, 33, 13, 12, 23, from τ11, τ33, τ13, τ12, τ23, by the sums
+    /// over all layers that define it.
+    fn direct(q: f64, nu: f64, faces: &[f64], tau: &[[Complex64; 5]]) -> Vec<[Complex64; 6]> {
+        let (k, a) = (nu / (1.0 - nu), 1.0 / (1.0 - nu));
+        let stress = |e0: [Complex64; 5], e1: [Complex64; 5], o0: [Complex64; 5], o1: [Complex64; 5]| {
+            let d = |e: [Complex64; 5]| e[0] - e[1];
+            [
+                (k + 3.0) * e0[0] - (3.0 * k + 1.0) * e0[1] - a * d(e1) + 4.0 * a * o0[2] - 2.0 * a * o1[2],
+                2.0 * k * d(e0) + 4.0 * k * o0[2],
+                (k - 1.0) * (e0[0] + e0[1]) + a * d(e1) + 2.0 * a * o1[2],
+                -2.0 * o0[0] + 2.0 * k * o0[1] + a * d(o1) - 2.0 * a * (e0[2] - e1[2]),
+                2.0 * e0[3] + 2.0 * o0[4],
+                -2.0 * o0[3] - 2.0 * e0[4],
+            ]
+        };
+        // Means of e^−ζ and of ζ e^−ζ over a layer, times q/4 times their integrals over another, by Gauss in many parts.
+        let points = |layer: usize| {
+            let (top, thickness) = (faces[layer], faces[layer + 1] - faces[layer]);
+            (0..40).flat_map(move |n| {
+                [-1.0, 1.0].map(|side| top + thickness * (f64::from(n) + 0.5 + side / 12f64.sqrt()) / 40.0)
+            })
+        };
+        let mean = |to: usize, from: usize, apart: &dyn Fn(f64, f64) -> f64| -> [f64; 2] {
+            let thickness = faces[from + 1] - faces[from];
+            let mut sums = [0.0; 2];
+            for z in points(to) {
+                for from in points(from) {
+                    let zeta = q * apart(z, from);
+                    sums[0] += (-zeta).exp();
+                    sums[1] += zeta * (-zeta).exp();
+                }
+            }
+            sums.map(|sum| 0.25 * q * thickness * sum / 6400.0)
+        };
+        let layers = tau.len();
+        let pressure = {
+            let mut up = [[Complex64::default(); 5]; 2];
+            for (from, tau) in tau.iter().enumerate() {
+                let thickness = faces[from + 1] - faces[from];
+                for at in points(from) {
+                    let weight = 0.25 * q * thickness / 80.0 * (-q * at).exp();
+                    for c in 0..5 {
+                        up[0][c] += weight * tau[c];
+                        up[1][c] += weight * q * at * tau[c];
+                    }
+                }
+            }
+            2.0 * stress(up[0], up[1], up[0].map(|v| -v), up[1].map(|v| -v))[2]
+        };
+        (0..layers)
+            .map(|to| {
+                let mut sums = [[Complex64::default(); 5]; 4];
+                let mut image = [[Complex64::default(); 5]; 2];
+                for (from, tau) in tau.iter().enumerate() {
+                    let side = (to as f64 - from as f64).signum() * if to == from { 0.0 } else { 1.0 };
+                    let near = if to == from {
+                        let x = q * (faces[to + 1] - faces[to]);
+                        let lost = -(-x).exp_m1();
+                        [0.5 * (1.0 - lost / x), 0.5 * (2.0 - lost) - lost / x]
+                    } else {
+                        mean(to, from, &|a, b| (a - b).abs())
+                    };
+                    let far = mean(to, from, &|a, b| a + b);
+                    for c in 0..5 {
+                        let mirror = if c == 2 || c == 4 { -1.0 } else { 1.0 };
+                        for n in 0..2 {
+                            sums[n][c] += near[n] * tau[c];
+                            sums[2 + n][c] += side * near[n] * tau[c];
+                            image[n][c] += mirror * far[n] * tau[c];
+                        }
+                    }
+                }
+                let direct = stress(sums[0], sums[1], sums[2], sums[3]);
+                let mirrored = stress(image[0], image[1], image[0], image[1]);
+                let [mut p0, mut p1] = [0.0; 2];
+                for z in points(to) {
+                    p0 += (-q * z).exp() / 80.0;
+                    p1 += q * z * (-q * z).exp() / 80.0;
+                }
+                let surface =
+                    [p1 - p0, -2.0 * nu * p0, -p0 - p1, -p1, 0.0, 0.0].map(|share| share * pressure);
+                let [t11, t33, .., t12, _] = tau[to];
+                let local = [
+                    k * t33 - t11,
+                    k * t33 + t11 + t33,
+                    Complex64::default(),
+                    Complex64::default(),
+                    -t12,
+                    Complex64::default(),
+                ];
+                std::array::from_fn(|c| direct[c] + mirrored[c] + surface[c] + local[c])
+            })
+            .collect()
+    }
+
+    #[test]
+    fn the_recursions_are_the_sums_over_all_layers() {
+        let faces = [0.0, 0.4, 0.7, 1.5, 1.8];
+        let layers = Layers::between(&faces).unwrap();
+        let mut random = ChaCha8Rng::seed_from_u64(9);
+        for (bins, poisson) in [([1, 2], 0.3), ([3, 1], 0.0), ([2, 0], 0.5), ([0, 3], 0.25), ([4, 2], 0.3)] {
+            // In units in which 2μ is 1.
+            let sweep = Sweep::new(&layers, 1.0 + poisson, poisson, [12, 10], [0.9, 1.1]);
+            let mut value = || Complex64::new(random.random_range(-1.0..1.0), random.random_range(-1.0..1.0));
+            let strain: Vec<[[Complex64; 2]; COMPONENTS]> =
+                (0..4).map(|_| std::array::from_fn(|_| [value(), value()])).collect();
+            let mut waves: Vec<[Lanes; COMPONENTS]> =
+                strain.iter().map(|layer| layer.map(|[plus, minus]| Lanes::of(plus, minus))).collect();
+            sweep.residual(bins, &mut waves, &mut sweep.scratch());
+            for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
+                let qx = sign * angular_frequency(bins[0], 12, 0.9);
+                let qy = angular_frequency(bins[1], 10, 1.1);
+                let q = qx.hypot(qy);
+                let (c, s) = (qx / q, qy / q);
+                let i = Complex64::i();
+                let tau: Vec<[Complex64; 5]> = strain
+                    .iter()
+                    .map(|layer| {
+                        let [xx, yy, _, yz, xz, xy] = layer.map(|value| value[side]);
+                        [
+                            c * c * xx + 2.0 * c * s * xy + s * s * yy,
+                            -xx - yy,
+                            i * (c * xz + s * yz),
+                            c * s * (yy - xx) + (c * c - s * s) * xy,
+                            i * (c * yz - s * xz),
+                        ]
+                    })
+                    .collect();
+                for (found, exact) in waves.iter().zip(direct(q, poisson, &faces, &tau)) {
+                    let [s11, s22, s33, s13, s12, s23] = exact;
+                    let expected = [
+                        c * c * s11 - 2.0 * c * s * s12 + s * s * s22,
+                        s * s * s11 + 2.0 * c * s * s12 + c * c * s22,
+                        s33,
+                        -i * (s * s13 + c * s23),
+                        -i * (c * s13 - s * s23),
+                        c * s * (s11 - s22) + (c * c - s * s) * s12,
+                    ];
+                    for (component, (found, expected)) in found.iter().zip(expected).enumerate() {
+                        let found = if side == 0 { found.plus() } else { found.minus() };
+                        let error = (found - expected).norm();
+                        assert!(error < 1e-8, "{bins:?}, ν = {poisson}, {component}: {found} is {expected}");
+                    }
+                }
+            }
         }
     }
 }

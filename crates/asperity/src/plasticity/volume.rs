@@ -2,18 +2,14 @@
 
 use std::sync::OnceLock;
 
-use asperity_transforms::num_complex::Complex64;
-
 use super::images::{Coarsening, Images};
 use super::influence::Influence;
-use super::waves::{Waves, WavesScratch};
+use super::waves::Waves;
 use super::{COMPONENTS, Layers, TensorField};
 use crate::error::{Error, Result, check, check_in};
 use crate::grid::{Field, Grid};
 use crate::kernel::Traction;
 use crate::material::Material;
-use crate::math::parallel::{self, Pool};
-use crate::math::together;
 use crate::operator::Boundary;
 use crate::subsurface::Tractions;
 use crate::units::Dimension;
@@ -46,8 +42,6 @@ pub struct Volume {
     images: Option<Images>,
     /// Whether the stored strain is not zero throughout.
     strained: bool,
-    /// Columns of a field on the surface.
-    surface: Vec<Complex64>,
 }
 
 impl Volume {
@@ -78,7 +72,6 @@ impl Volume {
         let period = if free { grid.shape.map(|n| Coarsening::of(n).period()) } else { grid.shape };
         let waves = Waves::new(&grid, period, &layers, young, poisson);
         let images = free.then(|| Images::new(&grid, &layers, young, poisson));
-        let surface = waves.planes.columns(1);
         Ok(Self {
             grid,
             layers,
@@ -89,7 +82,6 @@ impl Volume {
             waves,
             images,
             strained: false,
-            surface,
         })
     }
 
@@ -172,9 +164,10 @@ impl Volume {
     /// Stores a plastic strain for [`Volume::surface`] and then, once, [`Volume::stress`].
     pub(super) fn take(&mut self, strain: &TensorField) {
         assert_eq!(strain.dim(), self.zeros_dim(), "shape of the strain");
-        self.strained = self.waves.take(strain.as_slice().expect("standard layout"));
+        let strain = strain.as_slice().expect("standard layout");
+        self.strained = self.waves.take(strain);
         if let (true, Some(images)) = (self.strained, &mut self.images) {
-            images.take(strain.view());
+            images.take(strain);
         }
     }
 
@@ -191,20 +184,10 @@ impl Volume {
         }
         self.make_influence(traction);
         let influence = self.influence[traction as usize].get().expect("made before");
-        let (planes, chunk, stride) =
-            (&self.waves.planes, self.waves.at_frequency(), self.waves.planes.stride());
-        let columns = self.surface.chunks_exact_mut(stride).zip(self.waves.columns.chunks_exact(chunk));
-        parallel::each(
-            columns.enumerate(),
-            together(chunk),
-            &Pool::default(),
-            || planes.scratch(),
-            |scratch, (ky, (column, strain))| {
-                influence.transpose(planes, ky, strain, column);
-                planes.column_back(column, scratch);
-            },
+        self.waves.surface(
+            |at, strain, sum| influence.transpose(at, strain, sum),
+            displacement.as_slice_mut().expect("standard layout"),
         );
-        planes.rows_back(&self.surface, displacement.as_slice_mut().expect("standard layout"));
         displacement
     }
 
@@ -212,32 +195,35 @@ impl Volume {
     pub(super) fn stress(&mut self, tractions: Option<&Tractions>, stress: &mut TensorField) {
         let present: Vec<(Traction, &Field)> = tractions.map(|t| t.present().collect()).unwrap_or_default();
         present.iter().for_each(|(traction, _)| self.make_influence(*traction));
-        let planes = &self.waves.planes;
-        let rows: Vec<_> = present
+        let (planes, nx) = (&self.waves.planes, self.period[0]);
+        let tractions: Vec<_> = present
             .iter()
-            .map(|(_, field)| {
+            .map(|(traction, field)| {
                 assert_eq!(field.shape(), self.grid.shape, "shape of the tractions");
-                let mut rows = planes.rows(1);
+                let influence = self.influence[*traction as usize].get().expect("made before");
                 let field = field.as_standard_layout();
-                planes.rows_forward(&[field.as_slice().expect("standard layout")], &mut rows);
-                rows
+                (influence, planes.forward(field.as_slice().expect("standard layout")))
             })
             .collect();
-        let influence = &self.influence;
-        self.waves.back(
+        let images = self.images.as_mut().filter(|_| self.strained);
+        let images = images.map(|images| {
+            images.compute();
+            &*images
+        });
+        self.waves.stress(
             self.strained,
-            |planes, ky, columns, WavesScratch { fft, column, .. }| {
-                for ((traction, _), rows) in present.iter().zip(&rows) {
-                    planes.column_forward(rows, [0, ky], column, fft);
-                    let influence = influence[*traction as usize].get().expect("made before");
-                    influence.add(planes, ky, column, columns);
+            |[plane, ky], column| {
+                for (influence, traction) in &tractions {
+                    influence.add([plane, ky], &traction[ky * nx..][..nx], column);
+                }
+            },
+            |row, stress| {
+                if let Some(images) = images {
+                    images.add(row, stress);
                 }
             },
             stress.as_slice_mut().expect("standard layout"),
         );
-        if let (true, Some(images)) = (self.strained, &mut self.images) {
-            images.remove(stress);
-        }
     }
 
     fn make_influence(&self, traction: Traction) {
