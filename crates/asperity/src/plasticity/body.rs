@@ -1,6 +1,5 @@
 //! An elasto-plastic body.
 
-use std::ops::Range;
 use std::slice::{ChunksExact, ChunksExactMut};
 use std::sync::Arc;
 
@@ -326,30 +325,13 @@ impl PlasticBody {
         let Self { law, state, trial, .. } = self;
         let Trial { predictor, strain: trial, flows, .. } = trial;
         let yields = law.yield_stress();
-        // Less, for the rounding errors of the comparison.
-        let elastic_square = (law.elastic_below() * (1.0 - 1e-9)).powi(2);
         let layers =
             layers_mut(trial).zip(flows.as_slice_mut().expect("standard layout").chunks_exact_mut(cells));
         let moved = parallel::tasks(layers.enumerate(), |(layer, (trial, flows))| {
             let before = PreviousStates::new(layer, state);
             let y = layer_of(predictor, layer);
-            let (mut squares, mut moved) = ([0.0; RUN], 0.0f64);
+            let mut moved = 0.0f64;
             for (cell, flows) in flows.iter_mut().enumerate() {
-                // Most cells are far from flow, and without a trial strain.
-                if start == Start::PreviousStates {
-                    if cell % RUN == 0 {
-                        let run = cell..cells.min(cell + RUN);
-                        before.driving_squares(y, stiffness, run.clone(), &mut squares);
-                        for c in 0..COMPONENTS {
-                            let at = c * cells + run.start..c * cells + run.end;
-                            trial[at.clone()].copy_from_slice(&before.strain[at]);
-                        }
-                    }
-                    if squares[cell % RUN] < elastic_square {
-                        *flows = false;
-                        continue;
-                    }
-                }
                 let state = before.at(cell);
                 let y = tensor(y, cell, cells);
                 let next = law.flow(&y, stiffness, &state);
@@ -533,27 +515,6 @@ impl<'a> PreviousStates<'a> {
             strain: layer_of(strain, layer),
             accumulated: &accumulated[layer * cells..][..cells],
             back: back_stress.as_ref().map(|back| layer_of(back, layer)),
-        }
-    }
-
-    /// Computes 3/2 ξ:ξ of a run of cells, ξ = y − κ ε − X.
-    fn driving_squares(&self, y: &[f64], stiffness: Pascal, run: Range<usize>, squares: &mut [f64; RUN]) {
-        let cells = self.accumulated.len();
-        squares.fill(0.0);
-        for c in 0..COMPONENTS {
-            let weight = if c < 3 { 1.5 } else { 3.0 };
-            let at = c * cells + run.start..c * cells + run.end;
-            let parts = squares.iter_mut().zip(&y[at.clone()]).zip(&self.strain[at.clone()]);
-            match self.back {
-                None => parts.for_each(|((square, y), strain)| {
-                    let xi = y - stiffness * strain;
-                    *square += weight * xi * xi;
-                }),
-                Some(back) => parts.zip(&back[at]).for_each(|(((square, y), strain), back)| {
-                    let xi = y - stiffness * strain - back;
-                    *square += weight * xi * xi;
-                }),
-            }
         }
     }
 

@@ -27,12 +27,6 @@ pub trait FlowLaw: std::fmt::Debug + Send + Sync {
     /// Yield stress in tension of virgin material, Pa.
     fn yield_stress(&self) -> Pascal;
 
-    /// Equivalent stress √(3/2 ξ:ξ), ξ = y − `stiffness` ε − X, Pa, below which no cell flows, whatever its state. If it is
-    /// above 0, [`FlowLaw::flow`] is not evaluated in such cells.
-    fn elastic_below(&self) -> Pascal {
-        0.0
-    }
-
     /// Whether the law has a back stress.
     fn is_kinematic(&self) -> bool;
 }

@@ -111,11 +111,6 @@ impl FlowLaw for J2 {
         self.hardening.initial()
     }
 
-    fn elastic_below(&self) -> Pascal {
-        // The yield stress does not decrease.
-        self.hardening.initial()
-    }
-
     fn is_kinematic(&self) -> bool {
         self.kinematic > 0.0
     }
