@@ -1,6 +1,6 @@
 //! The generalised method of minimal residuals.
 
-/// What [`gmres`] finds.
+/// Result of [`gmres`].
 pub(crate) struct Gmres {
     pub(crate) solution: Vec<f64>,
     pub(crate) products: usize,

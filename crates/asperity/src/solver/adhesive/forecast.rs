@@ -5,15 +5,9 @@ use std::mem;
 use crate::grid::Field;
 use crate::units::Metre;
 
-/// Ratio of successive changes below which the rounds converge, whether or not the distance left has decreased before.
-const FAST: f64 = 0.5;
 /// Largest part of the way to the equilibrium that is not along the last change of the lagged bounds. The rounds converge to the stable
 /// equilibrium that the bodies reach, and one elsewhere is another one.
 const MAX_DEVIATION: f64 = 0.3;
-/// Largest distance across the last change, as a fraction of that change, from which the deviation does not matter.
-const NEAR: f64 = 0.1;
-/// Largest deviation up to which later rounds may turn towards an equilibrium.
-const MAX_TURN: f64 = 0.5;
 /// Largest length of this way, as a multiple of the sum of the changes that the rounds would still cause.
 const MAX_LENGTH: f64 = 3.0;
 
@@ -40,23 +34,13 @@ impl Forecast {
     /// Whether the rounds converge towards an equilibrium with this gap, as far as the last change tells.
     pub(super) fn leads_to(&self, gap: &Field) -> bool {
         let [deviation, times] = self.way_to(gap);
-        (deviation < MAX_DEVIATION || deviation * times < NEAR) && self.is_within(times)
-    }
-
-    /// Whether later rounds may turn towards an equilibrium with this gap.
-    pub(super) fn may_lead_to(&self, gap: &Field) -> bool {
-        let [deviation, times] = self.way_to(gap);
-        deviation < MAX_TURN && self.is_within(times)
+        deviation < MAX_DEVIATION && times > 0.0 && times <= MAX_LENGTH * self.share
     }
 
     /// Whether a gap is farther away than the rounds still go.
     pub(super) fn is_beyond(&self, gap: &Field) -> bool {
         let [_, times] = self.way_to(gap);
         times.abs() > MAX_LENGTH * self.share
-    }
-
-    fn is_within(&self, times: f64) -> bool {
-        times > 0.0 && times <= MAX_LENGTH * self.share
     }
 
     /// Returns the part of the distance to another gap that is not along the last change, as a fraction of that distance, and how
@@ -75,15 +59,15 @@ impl Changes {
         Self { gap: None, change: 0.0, left: 0.0 }
     }
 
-    /// Takes the gap after a round. Returns a forecast if the changes decrease fast, or the distance left has decreased. Near an
-    /// equilibrium that has just vanished the changes decrease, too, but ever more slowly, so that the distance grows from round to round.
+    /// Takes the gap after a round. Returns a forecast if the distance left has decreased. Near an equilibrium that has just vanished
+    /// the changes decrease, too, but ever more slowly, so that the distance grows from round to round.
     pub(super) fn after(&mut self, gap: &Field) -> Option<Forecast> {
         let before = self.gap.replace(gap.clone())?;
         let change = largest_difference(&before, gap);
         let ratio = change / mem::replace(&mut self.change, change);
         let share = if ratio < 1.0 { ratio / (1.0 - ratio) } else { f64::INFINITY };
         let left_before = mem::replace(&mut self.left, change * share);
-        let nearer = ratio < FAST || (self.left < left_before && left_before.is_finite());
+        let nearer = self.left < left_before && left_before.is_finite();
         nearer.then(|| Forecast { gap: gap.clone(), change: gap - &before, share })
     }
 }

@@ -25,15 +25,15 @@ use crate::solver::{
 };
 use crate::units::Newton;
 
-use forecast::{Changes, Forecast};
+use forecast::Changes;
 use newton::NewtonIteration;
 
 /// Tolerance of the contact of a round, as a fraction of the residual of the round before.
 const ROUND_TOLERANCE: f64 = 0.2;
 /// Largest and smallest tolerance of a round; the smallest is a fraction of the tolerance of the solution.
 const ROUND_TOLERANCES: [f64; 2] = [1e-2, 0.3];
-/// Number of rounds with a forecast from one attempt of Newton's iteration to the next. It doubles with each attempt, up to a limit.
-const ROUNDS_BETWEEN: [usize; 2] = [4, 32];
+/// Number of rounds after an attempt of Newton's iteration that fails. It doubles with each failure, up to a limit.
+const ROUNDS_AFTER_FAILURE: [usize; 2] = [4, 32];
 
 /// Solves the frictionless contact of a pair of bodies that attract each other: with the tension σ(g) of the `adhesion`,
 ///
@@ -143,22 +143,18 @@ impl Problem<'_> {
                 return Err(Error::NotConverged { iterations: stats.iterations, residual: eta, tolerance });
             }
             let forecast = changes.after(&gap);
-            if let Some(forecast) = forecast.filter(|_| self.is_smooth()) {
-                if newton.is_due(&forecast) {
-                    let mut attempt = NewtonIteration::new(operator, self, influence, &solution);
-                    let found = attempt.solve(operator, &forecast)?;
-                    stats = stats.and(&attempt.stats);
-                    newton.record(found);
-                }
-                if let Some((pressure, gap)) = newton.accepted(&forecast) {
+            if let Some(forecast) = forecast.filter(|_| newton.is_due() && self.is_smooth()) {
+                let mut attempt = NewtonIteration::new(operator, self, influence, &solution);
+                let found = attempt.solve(operator, &forecast)?;
+                stats = stats.and(&attempt.stats);
+                newton.record(found.is_some());
+                if let Some((pressure, gap)) = found {
                     bounds = self.bounds_at(&gap);
                     start = Some(pressure);
                     eta = tolerance;
                     changes = Changes::new();
-                    newton = Attempts::new();
                     continue;
                 }
-                newton.count_round();
             }
             bounds = next;
             start = Some(solution.pressure);
@@ -227,40 +223,30 @@ const STEP_GROWTH: f64 = 1.4;
 /// Factor of the step when the load rises.
 const STEP_REDUCTION: f64 = 0.4;
 
-/// Attempts of Newton's iteration, and what they found.
+/// When to attempt Newton's iteration.
 struct Attempts {
     /// Rounds to wait.
     wait: usize,
-    /// Rounds to wait after the next attempt.
+    /// Rounds to wait after the next failure.
     next: usize,
-    /// Pressure and gap of the last equilibrium found. It may be another one than that towards which the rounds converge.
-    candidate: Option<(Field, Field)>,
 }
 
 impl Attempts {
     fn new() -> Self {
-        Self { wait: 0, next: ROUNDS_BETWEEN[0], candidate: None }
+        Self { wait: 0, next: ROUNDS_AFTER_FAILURE[0] }
     }
 
-    /// Whether an attempt is due. None is while the rounds may still turn towards the equilibrium found before.
-    fn is_due(&self, forecast: &Forecast) -> bool {
-        let waits = self.candidate.as_ref().is_some_and(|(_, gap)| forecast.may_lead_to(gap));
-        self.wait == 0 && !waits
-    }
-
-    /// Takes the equilibrium that an attempt has found.
-    fn record(&mut self, found: Option<(Field, Field)>) {
-        self.wait = self.next;
-        self.next = (2 * self.next).min(ROUNDS_BETWEEN[1]);
-        self.candidate = found.or(self.candidate.take());
-    }
-
-    /// Returns pressure and gap of the equilibrium found, once the rounds lead there.
-    fn accepted(&mut self, forecast: &Forecast) -> Option<(Field, Field)> {
-        self.candidate.take_if(|(_, gap)| forecast.leads_to(gap))
-    }
-
-    fn count_round(&mut self) {
+    /// Counts a round. Returns whether an attempt is due.
+    fn is_due(&mut self) -> bool {
+        let due = self.wait == 0;
         self.wait = self.wait.saturating_sub(1);
+        due
+    }
+
+    fn record(&mut self, succeeded: bool) {
+        if !succeeded {
+            self.wait = self.next;
+            self.next = (2 * self.next).min(ROUNDS_AFTER_FAILURE[1]);
+        }
     }
 }

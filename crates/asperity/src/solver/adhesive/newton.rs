@@ -85,7 +85,7 @@ impl<'a> NewtonIteration<'a> {
         }
     }
 
-    /// Returns pressure and gap of the stable equilibrium that the iteration finds, unless it goes beyond the forecast.
+    /// Returns pressure and gap of the stable equilibrium that the iteration finds, if the rounds lead there.
     pub(super) fn solve(
         &mut self,
         operator: &mut dyn Operator,
@@ -106,7 +106,8 @@ impl<'a> NewtonIteration<'a> {
                 Some(self.approach),
             );
             if state.eta < tolerance {
-                return Ok(self.is_stable.then(|| (mem::take(&mut self.pressure), gap)));
+                let is_right = self.is_stable && forecast.leads_to(&gap);
+                return Ok(is_right.then(|| (mem::take(&mut self.pressure), gap)));
             }
             if forecast.is_beyond(&gap) {
                 return Ok(None);
