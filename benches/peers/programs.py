@@ -12,8 +12,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR", HERE.parents[1] / "target"))
-EXAMPLES = TARGET / "release" / "examples"
-SOLVE_GAP = EXAMPLES / "solve_gap"
+SOLVE_GAP = TARGET / "release" / "examples" / "solve_gap"
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS", "RAYON_NUM_THREADS")
 ENVIRONMENT = os.environ | dict.fromkeys(THREADS, "1")
 
@@ -31,7 +30,7 @@ class Program(NamedTuple):
 
 
 ASPERITY = Program("asperity", [SOLVE_GAP])
-ADHESIVE_ASPERITY = Program("asperity", [EXAMPLES / "solve_adhesive_gap"])
+ADHESIVE_ASPERITY = Program("asperity", [SOLVE_GAP], ["boundary=periodic"])
 PROGRAMS = ["polonsky-keer", "tamaas", "contactmechanics", "dual", "slippy", "aspher"]
 ADHESIVE_PROGRAMS = ["tamaas", "adhesion"]
 

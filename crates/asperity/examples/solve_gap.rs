@@ -2,10 +2,11 @@
 //!
 //! ```text
 //! solve_gap gap.npy mean=0.01 [pitch=1] [modulus=1] [hardness=inf] [boundary=free] [method=active-set]
-//!           [tolerance=1e-6] [repeat=1] [pressure=out.npy]
+//!           [work=0.01 range=0.5] [tolerance=1e-6] [repeat=1] [pressure=out.npy]
 //! ```
 //!
-//! `gap.npy` contains the undeformed gap. `load` may be given instead of the mean pressure `mean`. With `repeat` every
+//! `gap.npy` contains the undeformed gap. `load` or `approach` may be given instead of the mean pressure `mean`. With a
+//! `work` of adhesion the bodies attract each other exponentially over the `range`, and come from afar. With `repeat` every
 //! solve starts afresh, and the median time is printed. `benches/peers/` runs it beside other programs.
 #![expect(clippy::print_stdout, reason = "the line of JSON is what it is for")]
 
@@ -13,8 +14,10 @@ use std::collections::HashMap;
 use std::error::Error;
 use std::time::Instant;
 
+use asperity::adhesion::Adhesion;
+use asperity::grid::CellValues;
 use asperity::operator::{Boundary, Edge, FreeFft, Operator, PeriodicFft};
-use asperity::solver::{Bounds, Control, Method, Params, solve_normal};
+use asperity::solver::{Bounds, Control, Method, Params, solve_adhesive, solve_normal};
 use asperity::surface::{ReadOptions, Topography};
 use asperity::{Choice, Grid};
 
@@ -28,7 +31,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let pitch = number("pitch", 1.0)?;
     let grid = Grid::new([gap.nrows(), gap.ncols()], [pitch; 2])?;
     let hardness = number("hardness", f64::INFINITY)?;
-    let load = number("load", number("mean", f64::NAN)? * grid.area())?;
+    let control = match options.contains_key("approach") {
+        true => Control::Approach(number("approach", f64::NAN)?),
+        false => Control::Load(number("load", number("mean", f64::NAN)? * grid.area())?),
+    };
+    let adhesion = match options.contains_key("work") {
+        true => Some(Adhesion::new(number("work", f64::NAN)?, number("range", f64::NAN)?)?),
+        false => None,
+    };
     let boundary = Boundary([choice(&options, "boundary", Edge::Free)?; 2]);
     let method: Method = choice(&options, "method", Method::ActiveSet)?;
     let params = Params::default().with_method(method).with_tolerance(number("tolerance", 1e-6)?);
@@ -43,8 +53,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let setup = start.elapsed().as_secs_f64();
     let solve = |operator: &mut dyn Operator| {
         let start = Instant::now();
-        let solution =
-            solve_normal(operator, &gap, &Bounds::up_to(hardness), Control::Load(load), None, &params);
+        let solution = match &adhesion {
+            Some(adhesion) => {
+                let upper = CellValues::Uniform(hardness);
+                solve_adhesive(operator, &gap, adhesion, &upper, control, None, &params)
+            }
+            None => solve_normal(operator, &gap, &Bounds::up_to(hardness), control, None, &params),
+        };
         solution.map(|solution| (solution, start.elapsed().as_secs_f64()))
     };
     let (solution, first) = solve(operator.as_mut())?;
@@ -74,9 +89,12 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Reads the arguments `key=value`.
 fn options(arguments: impl Iterator<Item = String>) -> Result<HashMap<String, String>, Box<dyn Error>> {
-    const KEYS: [&str; 10] = [
+    const KEYS: [&str; 13] = [
         "mean",
         "load",
+        "approach",
+        "work",
+        "range",
         "pitch",
         "modulus",
         "hardness",
