@@ -314,7 +314,9 @@ impl PlasticBody {
         let Trial { predictor, strain, stress, .. } = &mut self.trial;
         let layers = layers_mut(predictor).zip(layers(stress)).zip(layers(strain));
         parallel::tasks(layers, |((y, stress), strain)| {
-            each_run(stress, strain, stiffness, |at, g| y[at..][..g.len()].copy_from_slice(g));
+            each_cell(stress, strain, stiffness, |cell, cells, g| {
+                (0..COMPONENTS).for_each(|c| y[c * cells + cell] = g[c]);
+            });
         });
     }
 
@@ -358,17 +360,14 @@ impl PlasticBody {
         let Trial { predictor, strain, stress, .. } = &self.trial;
         let layers = layers(predictor).zip(layers(stress)).zip(layers(strain));
         let largest = parallel::tasks(layers, |((y, stress), strain)| {
-            let (mut largest, mut is_nan) = ([0.0f64; LANES], false);
-            each_run(stress, strain, stiffness, |at, g| {
-                for (g, y) in g.chunks(LANES).zip(y[at..].chunks(LANES)) {
-                    for ((largest, g), y) in largest.iter_mut().zip(g).zip(y) {
-                        let f = (g - y).abs();
-                        *largest = if f > *largest { f } else { *largest };
-                        is_nan |= f.is_nan();
-                    }
+            let mut largest = 0.0f64;
+            each_cell(stress, strain, stiffness, |cell, cells, g| {
+                for c in 0..COMPONENTS {
+                    let f = (g[c] - y[c * cells + cell]).abs();
+                    largest = if f > largest || f.is_nan() { f } else { largest };
                 }
             });
-            if is_nan { f64::NAN } else { largest.into_iter().fold(0.0, f64::max) }
+            largest
         });
         let largest = largest.into_iter().fold(0.0, |a, b| if a > b || a.is_nan() { a } else { b });
         largest / self.law.yield_stress()
@@ -556,33 +555,11 @@ fn response(stress: &Tensor, strain: &Tensor, stiffness: Pascal) -> Tensor {
     std::array::from_fn(|c| stress[c] - if c < 3 { mean } else { 0.0 } + stiffness * strain[c])
 }
 
-/// Number of cells of a layer that are processed together.
-const RUN: usize = 128;
-/// Number of partial maxima.
-const LANES: usize = 8;
-
-/// Computes g = dev σ + κ ε of a layer, and calls `look` for each component of each run of cells, with its place in the
-/// layer.
-fn each_run(stress: &[f64], strain: &[f64], stiffness: Pascal, mut look: impl FnMut(usize, &[f64])) {
+/// Calls `look` for each cell of a layer, with its index, the number of cells in the layer, and g.
+fn each_cell(stress: &[f64], strain: &[f64], stiffness: Pascal, mut look: impl FnMut(usize, usize, Tensor)) {
     let cells = stress.len() / COMPONENTS;
-    let (mut mean, mut g) = ([0.0; RUN], [0.0; RUN]);
-    for first in (0..cells).step_by(RUN) {
-        let count = RUN.min(cells - first);
-        let [xx, yy, zz] = [0, 1, 2].map(|c| &stress[c * cells + first..][..count]);
-        for (((mean, xx), yy), zz) in mean.iter_mut().zip(xx).zip(yy).zip(zz) {
-            *mean = (xx + yy + zz) / 3.0;
-        }
-        for c in 0..COMPONENTS {
-            if c == 3 {
-                mean.fill(0.0);
-            }
-            let at = c * cells + first;
-            let parts = stress[at..][..count].iter().zip(&strain[at..][..count]).zip(&mean);
-            g.iter_mut()
-                .zip(parts)
-                .for_each(|(g, ((stress, strain), mean))| *g = stress - mean + stiffness * strain);
-            look(at, &g[..count]);
-        }
+    for cell in 0..cells {
+        look(cell, cells, response(&tensor(stress, cell, cells), &tensor(strain, cell, cells), stiffness));
     }
 }
 

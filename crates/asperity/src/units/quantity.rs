@@ -449,13 +449,10 @@ impl Dimension {
         if !self.takes_prefixes() {
             return (1e-3..1e6).contains(&value.abs()).then_some(("", 0));
         }
-        let Scale { power, largest, smallest, .. } = self.scale();
-        let suits = |exponent: i32| value.abs() >= 10f64.powi(power * exponent) * self.smallest(exponent);
-        let prefixes = PREFIXES
-            .iter()
-            .rev()
-            .filter(|(_, exponent)| (smallest..=largest).contains(exponent) && exponent % 3 == 0);
-        prefixes.copied().find(|(_, exponent)| suits(*exponent))
+        let scale = self.scale();
+        let suits =
+            |exponent: i32| value.abs() >= 10f64.powi(scale.power * exponent) * self.smallest(exponent);
+        scale.prefixes().rev().find(|(_, exponent)| suits(*exponent))
     }
 
     /// Whether the unit is written with prefixes.
@@ -612,6 +609,14 @@ struct Scale {
     smallest: i32,
 }
 
+impl Scale {
+    /// The prefixes in which values are written, with their exponents, in ascending order.
+    fn prefixes(&self) -> impl DoubleEndedIterator<Item = (&'static str, i32)> {
+        let written = self.smallest..=self.largest;
+        PREFIXES.into_iter().filter(move |(_, exponent)| written.contains(exponent) && exponent % 3 == 0)
+    }
+}
+
 #[derive(Clone, Copy)]
 enum Base {
     Of(&'static str),
@@ -665,10 +670,10 @@ fn find_unit(text: &str, unit: &str, expected: Dimension) -> Result<(i32, f64), 
 
 /// Suggests a unit that differs by one slip: another case, or one letter added, missing, wrong or swapped.
 fn suggest(unit: &str, expected: Dimension) -> Option<String> {
-    let Scale { base, largest, smallest, .. } = expected.scale();
-    let mut candidates: Vec<_> = PREFIXES
-        .iter()
-        .filter(|(_, exponent)| exponent % 3 == 0 && (smallest..=largest).contains(exponent))
+    let scale = expected.scale();
+    let base = scale.base;
+    let mut candidates: Vec<_> = scale
+        .prefixes()
         .filter(|(prefix, _)| prefix.is_empty() || expected.takes_prefixes())
         .map(|(prefix, _)| format!("{prefix}{}{}", base.symbol(), base.suffix()))
         .collect();
