@@ -1,10 +1,11 @@
-"""Computes the Contact-Mechanics Challenge on several grids and writes the tables of docs/challenge.md.
+"""Computes the Contact-Mechanics Challenge on several grids and writes the tables of the documents.
 
 python benches/challenge/challenge.py run FOLDER      computes what FOLDER lacks, by the example `contact_challenge`
-python benches/challenge/challenge.py write FOLDER    writes the tables from FOLDER into docs/challenge.md
+python benches/challenge/challenge.py write FOLDER    writes the tables from FOLDER into docs/challenge.md and docs/performance.md
 """
 
 import json
+import os
 import re
 import statistics
 import subprocess
@@ -17,16 +18,21 @@ BUILD = ["cargo", "build", "--release", "-p", "asperity", "--no-default-features
 WHOLE = "100"
 LOADS = "0.02,0.05,0.1,0.2,0.5,1,2,5"
 GRIDS = [512, 1024, 2048]
+# Grids of which only the contact at 250 kPa is computed, from a cold start. The largest takes 12.5 GB.
+COLD_GRIDS = [2048, 4096, 8192, 16384]
 SEEDS = [1, 2, 3, 4, 5, 6]
 SEEDED = 512
 # A piece of the surface on which a grid resolves the true range.
 PIECE, PIECE_GRIDS, PIECE_LOADS = "0.47", [256, 512, 1024], "1,2,5,10,20"
 NAMES = {"none": "without adhesion", "grid": "range of the grid", "true": "2.071 nm"}
 
+COLD = [(cells, 1, "none", WHOLE, "1") for cells in COLD_GRIDS]
 RUNS = [
+    *COLD,
     *[(cells, 1, kind, WHOLE, LOADS) for cells in GRIDS[:-1] for kind in ("none", "grid")],
     (GRIDS[-1], 1, "none", WHOLE, LOADS),
     (GRIDS[-1], 1, "grid", WHOLE, "1"),
+    (4096, 1, "grid", WHOLE, "1"),
     (512, 1, "true", WHOLE, LOADS),
     *[(SEEDED, seed, kind, WHOLE, LOADS) for seed in SEEDS[1:] for kind in ("none", "grid")],
     *[(cells, 1, kind, PIECE, PIECE_LOADS) for cells in PIECE_GRIDS for kind in ("none", "grid") if (cells, kind) != (1024, "grid")],
@@ -35,38 +41,39 @@ RUNS = [
 ]
 
 
-def path(folder, cells, seed, kind, width, _=None):
-    return Path(folder) / f"{cells}-{seed}-{kind}-{width}.json"
+def path(folder, cells, seed, kind, width, loads):
+    return Path(folder) / f"{cells}-{seed}-{kind}-{width}-{loads}.json"
 
 
 def run(folder):
     Path(folder).mkdir(parents=True, exist_ok=True)
     subprocess.run(BUILD, cwd=ROOT, check=True)
-    for cells, seed, kind, width, loads in RUNS:
-        out = path(folder, cells, seed, kind, width)
+    for key in RUNS:
+        out = path(folder, *key)
         if not out.exists():
-            command = [PROGRAM, str(cells), str(seed), kind, width, loads]
-            done = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-            out.write_text(done)
+            with subprocess.Popen([PROGRAM, *map(str, key)], stdout=subprocess.PIPE, text=True) as process:
+                done = process.stdout.read()
+                _, status, usage = os.wait4(process.pid, 0)
+                process.returncode = os.waitstatus_to_exitcode(status)
+            if process.returncode:
+                raise SystemExit(f"{PROGRAM.name} {key} ended with {process.returncode}")
+            out.write_text(done + json.dumps({"peak_bytes": 1024 * usage.ru_maxrss}) + "\n")
             print(out.name, flush=True)
 
 
 class Run:
-    """The states of one run, and the distributions at 250 kPa."""
+    """The states of one run, the distributions at 250 kPa, and the peak memory in bytes."""
 
     def __init__(self, lines):
         self.head, *rest = map(json.loads, lines)
         self.states = {row["load"]: row for row in rest if "load" in row}
         self.distributions = next((row for row in rest if "patches" in row), None)
+        self.peak = rest[-1]["peak_bytes"]
 
 
-def load(folder):
-    runs = {}
-    for key in RUNS:
-        file = path(folder, *key)
-        if file.exists() and len(lines := file.read_text().splitlines()) > 1:
-            runs[key[:4]] = Run(lines)
-    return runs
+def load(folder, keys):
+    files = {key[:4]: path(folder, *key) for key in keys}
+    return {key: Run(file.read_text().splitlines()) for key, file in files.items() if file.exists()}
 
 
 def table(head, rows):
@@ -145,10 +152,35 @@ def distribution(runs, key, unit):
     return table([f"{unit}, {cells}²", "without adhesion", "range of the grid"], rows)
 
 
+def cold(runs):
+    """Cost and result of the contact at 250 kPa from a cold start."""
+    rows = []
+    for (cells, *_), run in runs.items():
+        at = run.states[1.0]
+        rows.append([
+            f"{cells}²", f"{1e9 * run.head['pitch']:.1f}", f"{1e9 * run.head['shortest']:.0f}", f"{run.head['slope']:.3f}", area(at),
+            f"{1e9 * at['mean_gap']:.1f}", f"{at['convolutions']:.1f}", f"{at['seconds']:.1f}", f"{1e-9 * run.peak:.2f}",
+            f"{run.peak / cells**2:.0f}",
+        ])
+    head = ["grid", "pitch, nm", "shortest wave, nm", "rms slope", "area, %", "mean gap, nm", "convolutions", "solve, s", "peak memory, GB",
+            "bytes per cell"]
+    return table(head, rows)
+
+
+def put(page, tables):
+    text = page.read_text()
+    for name, made in tables.items():
+        text, count = re.subn(rf"(<!-- table: {name} -->\n\n)(?:\|.*\n)*", lambda match: match.group(1) + made, text)
+        assert count == 1, name
+    page.write_text(text)
+
+
 def write(folder):
-    runs = load(folder)
-    tables = {
-        "grids": grids(runs),
+    large = load(folder, COLD)
+    runs = load(folder, [key for key in RUNS if key not in COLD])
+    put(ROOT / "docs/performance.md", {"challenge": cold(large)})
+    put(ROOT / "docs/challenge.md", {
+        "grids": grids(runs | {key: run for key, run in large.items() if key not in runs}),
         "area": over_load(runs, area, WHOLE, GRIDS, LOADS),
         "gap": over_load(runs, gap(1e-9, 1), WHOLE, GRIDS, LOADS),
         "seeds": seeds(runs),
@@ -156,13 +188,7 @@ def write(folder):
         "gaps": distribution(runs, "gap_um", "g, µm"),
         "patches": distribution(runs, "patch_area_um2", "patch, µm²"),
         "piece": over_load(runs, area, PIECE, PIECE_GRIDS, PIECE_LOADS),
-    }
-    page = ROOT / "docs/challenge.md"
-    text = page.read_text()
-    for name, made in tables.items():
-        text, count = re.subn(rf"(<!-- table: {name} -->\n\n)(?:\|.*\n)*", lambda match: match.group(1) + made, text)
-        assert count == 1, name
-    page.write_text(text)
+    })
 
 
 if __name__ == "__main__":

@@ -68,7 +68,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let heights = roughness.generate(&grid, seed)?.into_heights();
     let summit = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let gap = heights.mapv(|z| summit - z);
+    let gap = heights.mapv_into(|z| summit - z);
     let adhesion = match range.as_str() {
         "none" => None,
         "true" => Some(Adhesion::new(WORK, RANGE)?),

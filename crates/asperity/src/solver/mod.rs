@@ -231,21 +231,25 @@ impl Solution {
 
     /// Returns the plastic interference w = δ − h − u ≥ 0 at the capped cells, m; 0 elsewhere.
     pub fn plastic_interference(&self) -> Field {
-        let mut interference = -self.gap();
+        let mut interference = self.gap();
         let cells = interference.iter_mut().zip(&self.pressure).enumerate();
-        cells.for_each(|(cell, (w, p))| *w = if self.bounds.caps(cell, *p) { w.max(0.0) } else { 0.0 });
+        cells.for_each(|(cell, (w, p))| *w = if self.bounds.caps(cell, *p) { (-*w).max(0.0) } else { 0.0 });
         interference
     }
 
     /// Returns the volume ΔA Σ w of the [`Solution::plastic_interference`].
     pub fn plastic_volume(&self) -> CubicMetre {
-        self.grid.cell_area() * self.plastic_interference().sum()
+        let cells = self.initial_gap.iter().zip(&self.displacement).zip(&self.pressure).enumerate();
+        let capped = cells.filter(|(cell, (_, p))| self.bounds.caps(*cell, **p));
+        let depths = capped.map(|(_, ((h, u), _))| (self.approach - (h + u)).max(0.0));
+        self.grid.cell_area() * depths.fold(0.0, |sum, depth| sum + depth)
     }
 
     /// Returns the elastic energy ½ ΔA Σ p u. Under a periodic boundary it excludes the mean displacement, which
     /// is free.
     pub fn elastic_energy(&self) -> Joule {
-        0.5 * self.grid.cell_area() * (&self.pressure * &self.displacement).sum()
+        let rows = self.pressure.rows().into_iter().zip(self.displacement.rows());
+        0.5 * self.grid.cell_area() * rows.map(|(p, u)| p.dot(&u)).sum::<f64>()
     }
 }
 

@@ -270,12 +270,23 @@ impl<'a> Iteration<'a> {
             restarts: 0,
         };
         make_feasible(&mut iteration, settings);
-        iteration.each(Block::convolve_in_single);
+        iteration.first_residual();
         if let (true, Control::Approach(approach)) = (far, settings.control) {
             iteration.scale_to_least_energy(approach);
         }
         iteration.each(Block::keep_feasible);
         iteration
+    }
+
+    /// Computes the first residual, at the prescribed approach or at the multiplier of the load.
+    fn first_residual(&mut self) {
+        self.each(Block::respond_to_pressure);
+        let approach = match self.settings.control {
+            Control::Approach(approach) => approach,
+            Control::Load(_) => self.merged(|block| block.multiplier_of_response()).approach(),
+        };
+        let approach = if approach.is_finite() { approach } else { 0.0 };
+        self.each(|block| block.refer_to(approach));
     }
 
     /// Performs a task on each block, in parallel for several blocks.
@@ -447,6 +458,7 @@ impl<'a> Iteration<'a> {
     /// Performs an outer step: predicts the sets, moves the other cells to their bounds, and solves for the free
     /// cells by conjugate gradients. Returns the norms, unless the pressure has changed since.
     fn outer_step(&mut self, state: Residual, wanted: f64) -> Option<ResidualNorms> {
+        self.each(Block::prepare_steps);
         self.predict_sets(state.approach);
         if self.free_cells == 0.0 {
             self.become_feasible(0.0);
@@ -517,12 +529,9 @@ impl<'a> Iteration<'a> {
         }
         let [sum] = self.merged(|block| [block.predict_residual(approach)]);
         let mean = self.mean(sum);
-        let [sum, ..] = self.merged(|block| {
-            block.subtract_mean(mean);
-            block.precondition()
-        });
+        let [sum, ..] = self.merged(|block| block.precondition_predicted(mean));
         let (mean, damping) = (self.mean(sum), self.damping);
-        let [added, borne] = self.merged(|block| block.direct_free_cells(mean, damping));
+        let [added, borne] = self.merged(|block| block.direct_all_cells(mean, damping));
         if let Control::Load(_) = self.settings.control {
             // The load does not change: the free cells take the difference in proportion to their pressures.
             let (each, per_pressure) =
@@ -533,7 +542,10 @@ impl<'a> Iteration<'a> {
         self.each(|block| block.step_to_bounds(!in_double));
         if in_double {
             self.restore_the_sum();
-            self.each(Block::convolve);
+            self.each(|block| {
+                block.convolve();
+                block.prepare_steps();
+            });
         }
     }
 
