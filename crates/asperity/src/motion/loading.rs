@@ -38,8 +38,8 @@ pub struct Stage {
 /// cap, and shrinks nowhere.
 ///
 /// # Errors
-/// The errors of [`solver::solve_frictional`] and of the outputs; [`Error::Unsupported`] without stages;
-/// [`Error::Interrupted`].
+/// The errors of [`solver::solve_frictional`], with several increments in an [`Error::AtIncrement`]; those of the outputs;
+/// [`Error::Unsupported`] without stages; [`Error::Interrupted`].
 ///
 /// # Panics
 /// If the bodies have different shapes.
@@ -89,8 +89,13 @@ impl Course for StagedLoading<'_> {
         };
         let Stage { loading, increments } = self.stages[stage];
         let loading = origin.towards(loading, step as f64 / increments as f64);
-        let watch = StaticWatch::new(watch, done, Stage::increments(self.stages), loading.normal);
-        self.bodies.load(stage + 1, loading, origin, state, &watch).map(Some)
+        let all = Stage::increments(self.stages);
+        let watch = StaticWatch::new(watch, done, all, loading.normal);
+        self.bodies.load(stage + 1, loading, origin, state, &watch).map(Some).map_err(|source| match source {
+            source if all == 1 => source,
+            Error::Interrupted => source,
+            source => Error::AtIncrement { increment: done + 1, source: Box::new(source) },
+        })
     }
 
     fn report<'a>(&'a self, state: &'a LoadingState) -> Step<'a> {

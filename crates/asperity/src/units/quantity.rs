@@ -505,13 +505,12 @@ impl Dimension {
                 ("mm³/J", -9, 1.0),
                 ("m3/J", 0, 1.0),
             ],
-            Self::RemovalRate => &[("1/Pa/m", 0, 1.0), ("1/(Pa*m)", 0, 1.0)],
+            Self::RemovalRate => &[("1/Pa/m", 0, 1.0)],
             Self::Conductivity => &[("W/m/K", 0, 1.0), ("W/mK", 0, 1.0), ("W/(mK)", 0, 1.0)],
             Self::ThermalInsulance => &[("m2 K/W", 0, 1.0), ("m^2 K/W", 0, 1.0), ("m2K/W", 0, 1.0)],
             Self::ElectricalConductivity => &[("MS/m", 6, 1.0), ("S/cm", 2, 1.0)],
             Self::Resistivity => &[
                 ("ohm m", 0, 1.0),
-                ("ohm*m", 0, 1.0),
                 ("ohm cm", -2, 1.0),
                 ("uohm cm", -8, 1.0),
                 ("µΩ cm", -8, 1.0),
@@ -542,9 +541,7 @@ impl Dimension {
                 &[("ohm", 0, 1.0), ("mohm", -3, 1.0), ("uohm", -6, 1.0), ("kohm", 3, 1.0)]
             }
             Self::Viscosity => &[
-                ("Pa*s", 0, 1.0),
                 ("Pas", 0, 1.0),
-                ("mPa*s", -3, 1.0),
                 ("mPas", -3, 1.0),
                 ("cP", -3, 1.0),
                 ("P", -1, 1.0),
@@ -659,10 +656,12 @@ const PREFIXES: [(&str, i32); 12] = [
 ];
 
 fn find_unit(text: &str, unit: &str, expected: Dimension) -> Result<(i32, f64), UnitError> {
-    if let Some(found) = expected.unit(unit) {
+    // Products have a blank, an asterisk or a dot.
+    let spaced = unit.replace(['*', '·', '⋅'], " ");
+    if let Some(found) = expected.unit(&spaced) {
         return Ok(found);
     }
-    if let Some(found) = Dimension::ALL.into_iter().find(|dimension| dimension.unit(unit).is_some()) {
+    if let Some(found) = Dimension::ALL.into_iter().find(|dimension| dimension.unit(&spaced).is_some()) {
         return Err(UnitError::WrongDimension { text: text.to_owned(), found, expected });
     }
     Err(UnitError::Unknown { unit: unit.to_owned(), expected, suggestion: suggest(unit, expected) })
@@ -824,6 +823,10 @@ mod tests {
             ("1.7 uohm cm", Dimension::Resistivity, 1.7e-8),
             ("1e-12 Ω m²", Dimension::ElectricalInsulance, 1e-12),
             ("1e-8 ohm cm2", Dimension::ElectricalInsulance, 1e-12),
+            ("18 uPa*s", Dimension::Viscosity, 18e-6),
+            ("46 W/(m*K)", Dimension::Conductivity, 46.0),
+            ("46 W/(m·K)", Dimension::Conductivity, 46.0),
+            ("1e-7 mm3/(N*m)", Dimension::WearCoefficient, 1e-16),
             ("0.46 J/(g K)", HeatCapacity, 460.0),
             ("7850 kg/m3", Density, 7850.0),
             ("7.85 g/cm3", Density, 7850.0),

@@ -204,9 +204,10 @@ fn a_pair_is_pulled_until_adhesion_does_not_hold() {
         assert_eq!(increment.adhesion.unwrap().jumps, 0);
         assert!(increment.contact_area > 0.0 && increment.adhesion.unwrap().adhesive_load > 0.0);
     }
-    let Err(Error::PullOff { load, least }) = load(&[0.5, 0.0, -1.0, -1.5, -1.6, -1.7]) else {
+    let Err(Error::AtIncrement { increment: 6, source }) = load(&[0.5, 0.0, -1.0, -1.5, -1.6, -1.7]) else {
         panic!("it holds")
     };
+    let Error::PullOff { load, least } = *source else { panic!("{source}") };
     assert!(load == -1.7 && (least + 1.6234).abs() < 8e-3, "{least}");
 }
 
