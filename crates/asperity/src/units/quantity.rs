@@ -509,12 +509,9 @@ impl Dimension {
             Self::Conductivity => &[("W/m/K", 0, 1.0), ("W/mK", 0, 1.0), ("W/(mK)", 0, 1.0)],
             Self::ThermalInsulance => &[("m2 K/W", 0, 1.0), ("m^2 K/W", 0, 1.0), ("m2K/W", 0, 1.0)],
             Self::ElectricalConductivity => &[("MS/m", 6, 1.0), ("S/cm", 2, 1.0)],
-            Self::Resistivity => &[
-                ("ohm m", 0, 1.0),
-                ("ohm cm", -2, 1.0),
-                ("uohm cm", -8, 1.0),
-                ("µΩ cm", -8, 1.0),
-            ],
+            Self::Resistivity => {
+                &[("ohm m", 0, 1.0), ("ohm cm", -2, 1.0), ("uohm cm", -8, 1.0), ("µΩ cm", -8, 1.0)]
+            }
             Self::ElectricalInsulance => {
                 &[("ohm m2", 0, 1.0), ("ohm m^2", 0, 1.0), ("ohm cm2", -4, 1.0), ("Ω cm²", -4, 1.0)]
             }
@@ -540,12 +537,7 @@ impl Dimension {
             Self::ElectricalResistance => {
                 &[("ohm", 0, 1.0), ("mohm", -3, 1.0), ("uohm", -6, 1.0), ("kohm", 3, 1.0)]
             }
-            Self::Viscosity => &[
-                ("Pas", 0, 1.0),
-                ("mPas", -3, 1.0),
-                ("cP", -3, 1.0),
-                ("P", -1, 1.0),
-            ],
+            Self::Viscosity => &[("Pas", 0, 1.0), ("mPas", -3, 1.0), ("cP", -3, 1.0), ("P", -1, 1.0)],
             Self::VolumeFlow => &[
                 ("l/min", -3, 1.0 / 60.0),
                 ("ml/min", -6, 1.0 / 60.0),

@@ -2,9 +2,11 @@
 
 use std::mem;
 
+use ndarray::Array2;
+
 use crate::error::Result;
 use crate::grid::{Field, SingleField};
-use crate::math::{Gmres, gmres};
+use crate::math::{Gmres, gmres, parallel};
 use crate::operator::Operator;
 use crate::solver::adhesive::Problem;
 use crate::solver::adhesive::forecast::Forecast;
@@ -45,8 +47,8 @@ pub(super) struct NewtonIteration<'a> {
     approach: Metre,
     preconditioner: Preconditioner,
     sets: Sets,
-    single: SingleField,
-    preconditioned: SingleField,
+    /// The values of the cells in contact that are preconditioned.
+    contact: SingleField,
     /// Whether the last steps show no negative eigenvalue: a stable equilibrium has none.
     is_stable: bool,
     /// Cost so far.
@@ -56,9 +58,9 @@ pub(super) struct NewtonIteration<'a> {
 /// Linear equations of a step, cell by cell.
 struct Step {
     /// Under load control, a change of the pressures with the sum 1: the preconditioned unit displacement of the cells in contact.
-    unit: Option<Field>,
+    unit: Option<SingleField>,
     /// D of the open cells.
-    softening: Field,
+    softening: SingleField,
 }
 
 impl<'a> NewtonIteration<'a> {
@@ -78,8 +80,7 @@ impl<'a> NewtonIteration<'a> {
             approach: from.approach,
             preconditioner: Preconditioner::new(operator),
             sets: Sets::new(shape),
-            single: SingleField::zeros(shape),
-            preconditioned: SingleField::zeros(shape),
+            contact: SingleField::zeros(shape),
             is_stable: true,
             stats: Stats::default(),
         }
@@ -120,12 +121,8 @@ impl<'a> NewtonIteration<'a> {
             if stagnations > MAX_STAGNATIONS {
                 return Ok(None);
             }
-            let (pressure, stiffness) = (&self.pressure, 1.0 / self.influence);
-            let flat = |field: &'_ Field, cell: usize| field.as_slice().expect("standard layout")[cell];
-            self.sets.assign(
-                |cells| cells.map(|cell| flat(pressure, cell) - flat(&gap, cell) * stiffness),
-                &bounds,
-            );
+            let (pressure, gaps, stiffness) = (flat(&self.pressure), flat(&gap), 1.0 / self.influence);
+            self.sets.assign(|cells| cells.map(|cell| pressure[cell] - gaps[cell] * stiffness), &bounds);
             if matches!(self.problem.control, Control::Load(_)) && self.sets.free_cells() == 0 {
                 return Ok(None);
             }
@@ -139,113 +136,155 @@ impl<'a> NewtonIteration<'a> {
         Ok(None)
     }
 
-    /// Performs a step whose equations hold to a fraction `aim` of their right-hand side. Returns false if the step has no solution in
-    /// double precision.
+    /// Performs a step whose equations hold to a fraction `aim` of their right-hand side. They are solved in single precision, and the
+    /// displacement of the solution is computed in double precision. Returns false if the step has no solution.
     fn step(&mut self, operator: &mut dyn Operator, gap: &Field, aim: f64) -> bool {
         let shape = gap.raw_dim();
-        let (adhesion, influence) = (self.problem.adhesion, self.influence);
-        let mut cells = self.sets.of().iter().zip(gap);
-        let softening = Field::from_shape_simple_fn(shape, || {
-            let (set, g) = cells.next().expect("a cell");
-            if *set == Set::Lower { adhesion.softening(*g) } else { 0.0 }
-        });
         let unit = matches!(self.problem.control, Control::Load(_)).then(|| {
-            let mut unit = self.on_contact(&Field::ones(shape));
-            unit /= unit.sum();
+            let mut unit = SingleField::zeros(shape);
+            let [sum, ..] = self.on_contact(&vec![1.0; gap.len()], flat_mut(&mut unit));
+            unit.mapv_inplace(|p| (f64::from(p) / sum) as f32);
             unit
         });
-        let step = Step { unit, softening };
-        let upper = self.problem.upper;
-        let mut right: Vec<f64> = self
-            .sets
-            .of()
-            .iter()
-            .zip(gap)
-            .zip(&self.pressure)
-            .enumerate()
-            .map(|(cell, ((set, g), p))| match set {
-                Set::Free => -g,
-                Set::Upper => influence * (upper.at(cell) - p),
-                Set::Lower => -influence * (p + adhesion.tension(*g)),
-            })
-            .collect();
-        if step.unit.is_some() {
-            let mean = self.mean_in_contact(&right);
-            let of = self.sets.of().iter().zip(&step.softening);
-            // The approach changes by the mean gap first; the open cells follow.
-            right.iter_mut().zip(of).for_each(|(r, (set, d))| match set {
-                Set::Free => *r -= mean,
-                Set::Lower => *r += influence * d * mean,
-                Set::Upper => {}
-            });
-        }
-        let mut response = Field::zeros(shape);
-        let product = |v: &[f64]| {
-            let change = self.change(&step, v);
-            operator.apply(&change, &mut response);
+        let step = Step { unit, softening: self.softening(gap) };
+        let right = self.right(&step, gap);
+        let (mut change, mut response) = (SingleField::zeros(shape), SingleField::zeros(shape));
+        let product = |unknowns: &[f32]| {
+            self.change(&step, unknowns, &mut change);
+            operator.apply_single(&change, &mut response);
             self.left(&step, &change, &response)
         };
         let Gmres { solution, products, is_positive } = gmres(product, right, aim, MAX_PRODUCTS);
         self.is_stable &= is_positive;
-        let change = self.change(&step, &solution);
-        operator.apply(&change, &mut response);
+        self.change(&step, &solution, &mut change);
         self.stats.iterations += products;
         self.stats.convolutions += (products + 1) as f64;
         if !change.iter().all(|p| p.is_finite()) {
             return false;
         }
+        let mut change = change.mapv(f64::from);
+        if let Some(unit) = &step.unit {
+            // The load does not change by the rounding.
+            let sum = change.sum();
+            change.zip_mut_with(unit, |p, unit| *p -= sum * f64::from(*unit));
+        }
+        let mut response = Field::zeros(shape);
+        operator.apply(&change, &mut response);
         self.pressure += &change;
         self.displacement += &response;
         if step.unit.is_some() {
-            let gaps = (&response + gap).into_iter().collect::<Vec<_>>();
-            self.approach += self.mean_in_contact(&gaps);
+            response += gap;
+            self.approach += self.mean_in_contact(flat(&response));
         }
         true
     }
 
-    /// Returns the change of the pressures for preconditioned unknowns.
-    fn change(&mut self, step: &Step, unknowns: &[f64]) -> Field {
-        let shape = self.pressure.raw_dim();
-        let unknowns = Field::from_shape_vec(shape, unknowns.to_vec()).expect("an unknown for each cell");
-        let mut change = self.on_contact(&unknowns);
-        let cells = change.iter_mut().zip(&unknowns).zip(self.sets.of());
-        cells.filter(|(_, set)| **set != Set::Free).for_each(|((p, y), _)| *p = y / self.influence);
+    /// Returns D of the open cells.
+    fn softening(&self, gap: &Field) -> SingleField {
+        let (bands, adhesion) = (self.sets.bands(), self.problem.adhesion);
+        let mut softening = SingleField::zeros(gap.raw_dim());
+        let parts = bands.cut_mut(flat_mut(&mut softening)).zip(bands.cut(flat(gap)));
+        parallel::map(parts.zip(bands.cut(self.sets.of())), |((softening, gap), sets)| {
+            let open = softening.iter_mut().zip(gap).zip(sets).filter(|(_, set)| **set == Set::Lower);
+            open.for_each(|((d, g), _)| *d = adhesion.softening(*g) as f32);
+        });
+        softening
+    }
+
+    /// Returns the right-hand side of the equations.
+    fn right(&self, step: &Step, gap: &Field) -> Vec<f32> {
+        let (bands, influence) = (self.sets.bands(), self.influence);
+        let Problem { adhesion, upper, .. } = self.problem;
+        // The approach changes by the mean gap first; the open cells follow.
+        let mean = if step.unit.is_some() { self.mean_in_contact(flat(gap)) } else { 0.0 };
+        let mut right = vec![0.0; gap.len()];
+        let parts = bands.cut_mut(&mut right).zip(bands.cut(self.sets.of())).zip(bands.cut(flat(gap)));
+        let parts = parts.zip(bands.cut(flat(&self.pressure))).zip(bands.cut(flat(&step.softening)));
+        parallel::map(parts.enumerate(), |(band, ((((right, sets), gap), pressure), softening))| {
+            let cells = right.iter_mut().zip(sets).zip(gap).zip(pressure).zip(softening).enumerate();
+            for (cell, ((((right, set), g), p), d)) in cells {
+                let value = match set {
+                    Set::Free => mean - g,
+                    Set::Upper => influence * (upper.at(bands.first(band) + cell) - p),
+                    Set::Lower => -influence * (p + adhesion.tension(*g) + f64::from(*d) * mean),
+                };
+                *right = value as f32;
+            }
+        });
+        right
+    }
+
+    /// Computes the change of the pressures for preconditioned unknowns.
+    fn change(&mut self, step: &Step, unknowns: &[f32], change: &mut SingleField) {
+        let [contact, ..] = self.on_contact(unknowns, flat_mut(change));
+        let (bands, stiffness) = (self.sets.bands(), (1.0 / self.influence) as f32);
+        let parts = bands.cut_mut(flat_mut(change)).zip(bands.cut(unknowns)).zip(bands.cut(self.sets.of()));
+        let others = parallel::map(parts, |((change, unknowns), sets)| {
+            let mut sum = 0.0;
+            for ((p, y), set) in change.iter_mut().zip(unknowns).zip(sets) {
+                if *set != Set::Free {
+                    *p = y * stiffness;
+                    sum += f64::from(*p);
+                }
+            }
+            sum
+        });
         if let Some(unit) = &step.unit {
-            let sum = change.sum();
-            change.scaled_add(-sum, unit);
+            let sum = (contact + others.iter().sum::<f64>()) as f32;
+            let parts = bands.cut_mut(flat_mut(change)).zip(bands.cut(flat(unit)));
+            parallel::map(parts, |(change, unit)| {
+                change.iter_mut().zip(unit).for_each(|(p, unit)| *p -= sum * unit);
+            });
         }
-        change
     }
 
     /// Returns the left-hand side of the equations for a change of the pressures and its response.
-    fn left(&self, step: &Step, change: &Field, response: &Field) -> Vec<f64> {
-        let mean = match step.unit {
-            Some(_) => self.mean_in_contact(response.as_slice().expect("standard layout")),
-            None => 0.0,
-        };
-        let cells = self.sets.of().iter().zip(change).zip(response).zip(&step.softening);
-        let left = cells.map(|(((set, p), u), d)| match set {
-            Set::Free => u - mean,
-            Set::Upper => self.influence * p,
-            Set::Lower => self.influence * (p - d * (u - mean)),
+    fn left(&self, step: &Step, change: &SingleField, response: &SingleField) -> Vec<f32> {
+        let mean = if step.unit.is_some() { self.mean_in_contact(flat(response)) as f32 } else { 0.0 };
+        let (bands, influence) = (self.sets.bands(), self.influence as f32);
+        let mut left = vec![0.0; change.len()];
+        let parts = bands.cut_mut(&mut left).zip(bands.cut(self.sets.of())).zip(bands.cut(flat(change)));
+        let parts = parts.zip(bands.cut(flat(response))).zip(bands.cut(flat(&step.softening)));
+        parallel::map(parts, |((((left, sets), change), response), softening)| {
+            let cells = left.iter_mut().zip(sets).zip(change).zip(response).zip(softening);
+            for ((((left, set), p), u), d) in cells {
+                *left = match set {
+                    Set::Free => u - mean,
+                    Set::Upper => influence * p,
+                    Set::Lower => influence * (p - d * (u - mean)),
+                };
+            }
         });
-        left.collect()
+        left
     }
 
     /// Returns the mean of some values over the cells in contact.
-    fn mean_in_contact(&self, values: &[f64]) -> f64 {
-        let cells = values.iter().zip(self.sets.of()).filter(|(_, set)| **set == Set::Free);
-        cells.map(|(value, _)| value).sum::<f64>() / self.sets.free_cells() as f64
+    fn mean_in_contact<T: Copy + Into<f64> + Sync>(&self, values: &[T]) -> f64 {
+        let parts = self.sets.bands().cut(values).zip(self.sets.in_bands());
+        let sums =
+            parallel::map(parts, |(values, free)| free.cells().map(|cell| values[cell].into()).sum::<f64>());
+        sums.iter().sum::<f64>() / self.sets.free_cells() as f64
     }
 
-    /// Applies the preconditioner of the contact to the cells in contact; the others are 0.
-    fn on_contact(&mut self, values: &Field) -> Field {
-        let Self { sets, preconditioner, single, preconditioned, .. } = self;
-        let cells = single.iter_mut().zip(values).zip(sets.of());
-        cells.for_each(|((r, value), set)| *r = if *set == Set::Free { *value as f32 } else { 0.0 });
-        let [r, z] = [&mut *single, &mut *preconditioned].map(|f| f.as_slice_mut().expect("standard layout"));
-        z.fill(0.0);
-        preconditioner.apply(sets, r, z);
-        preconditioned.mapv(f64::from)
+    /// Applies the preconditioner of the contact to the cells in contact; the others are 0. Returns the sum of the result first.
+    fn on_contact(&mut self, values: &[f32], preconditioned: &mut [f32]) -> [f64; 3] {
+        let Self { sets, preconditioner, contact, .. } = self;
+        let bands = sets.bands();
+        let parts = bands.cut_mut(flat_mut(contact)).zip(bands.cut(values)).zip(bands.cut(sets.of()));
+        parallel::map(parts, |((contact, values), sets)| {
+            let cells = contact.iter_mut().zip(values).zip(sets);
+            cells.for_each(|((r, value), set)| *r = if *set == Set::Free { *value } else { 0.0 });
+        });
+        preconditioner.apply(sets, flat(contact), preconditioned)
     }
+}
+
+/// Returns the values of a field by flat index.
+fn flat<T>(field: &Array2<T>) -> &[T] {
+    field.as_slice().expect("standard layout")
+}
+
+/// Returns the mutable values of a field by flat index.
+fn flat_mut<T>(field: &mut Array2<T>) -> &mut [T] {
+    field.as_slice_mut().expect("standard layout")
 }
