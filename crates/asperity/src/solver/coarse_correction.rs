@@ -99,8 +99,8 @@ impl CoarseCorrection {
         self.weight.mapv_inplace(|count| 1.0 / (count / self.cells + MIN_COVER));
     }
 
-    /// Restricts `r` to the nodes and solves there.
-    pub(super) fn solve(&mut self, sets: &Sets, r: &[f32]) {
+    /// Restricts the residual `r` of each cell to the nodes and solves there.
+    pub(super) fn solve(&mut self, sets: &Sets, r: &(impl Fn(usize) -> f32 + Sync)) {
         self.restrict(sets, r);
         self.stiffness.apply(&self.restricted, &mut self.solved);
         self.solved +=
@@ -110,28 +110,37 @@ impl CoarseCorrection {
 
     /// Writes the local part of the residual to `rest`, for the free cells of `rows`, whose first begins at
     /// `rest[0]`: `(I − T) A r` with the smoothing T = P D Pᵀ.
-    pub(super) fn without_smooth_part(&self, sets: &Sets, rows: Range<usize>, r: &[f32], rest: &mut [f32]) {
+    pub(super) fn without_smooth_part(
+        &self,
+        sets: &Sets,
+        rows: Range<usize>,
+        r: &(impl Fn(usize) -> f32 + Sync),
+        rest: &mut [f32],
+    ) {
         let columns = sets.bands().columns();
         let scale = 1.0 / self.cells;
         let first = rows.start * columns;
         self.bilinear.interpolate(sets, rows, &self.restricted, |cell, wide| {
-            rest[cell - first] = r[cell] - scale * wide;
+            rest[cell - first] = r(cell) - scale * wide;
         });
     }
 
     /// Removes the smooth part of `z`, and adds the coarse solution for the last `r`: `(I − T)ᵀ z + P D B D Pᵀ A
     /// r`. Returns Σ z, Σ r and Σ r z of the free cells.
-    pub(super) fn join(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) -> [f64; 3] {
-        self.restrict(sets, z);
+    pub(super) fn join(
+        &mut self,
+        sets: &Sets,
+        r: &(impl Fn(usize) -> f32 + Sync),
+        z: &mut [f32],
+    ) -> [f64; 3] {
+        self.restrict(sets, &|cell| z[cell]);
         self.solved.scaled_add(-1.0 / self.cells, &self.restricted);
         let bands = sets.bands();
-        let parts = bands.rows().zip(bands.cut(r)).zip(bands.cut_mut(z));
-        Merged::of_parts(parallel::map(parts, |((rows, r), z)| {
+        Merged::of_parts(parallel::map(bands.rows().zip(bands.cut_mut(z)), |(rows, z)| {
             let (first, mut sums) = (rows.start * bands.columns(), [0.0; 3]);
             self.bilinear.interpolate(sets, rows, &self.solved, |cell, wide| {
-                let cell = cell - first;
-                z[cell] += wide;
-                let (r, z) = (f64::from(r[cell]), f64::from(z[cell]));
+                z[cell - first] += wide;
+                let [r, z] = [r(cell), z[cell - first]].map(f64::from);
                 sums = [sums[0] + z, sums[1] + r, sums[2] + r * z];
             });
             sums
@@ -139,8 +148,8 @@ impl CoarseCorrection {
     }
 
     /// Computes the restricted residual D Pᵀ A r.
-    fn restrict(&mut self, sets: &Sets, r: &[f32]) {
-        self.bilinear.restrict(sets, |cell| r[cell], &mut self.restricted);
+    fn restrict(&mut self, sets: &Sets, r: &(impl Fn(usize) -> f32 + Sync)) {
+        self.bilinear.restrict(sets, r, &mut self.restricted);
         self.restricted *= &self.weight;
     }
 }
@@ -219,7 +228,7 @@ impl Bilinear {
     }
 
     /// Applies the transpose: distributes `value` of each free cell to the nodes around it.
-    fn restrict(&self, sets: &Sets, value: impl Fn(usize) -> f32 + Sync + Send, nodes: &mut SingleField) {
+    fn restrict(&self, sets: &Sets, value: impl Fn(usize) -> f32 + Sync, nodes: &mut SingleField) {
         let shape = [nodes.nrows(), nodes.ncols()];
         let bands: Vec<_> =
             sets.bands().rows().map(|rows| self.own_of(rows)).filter(|rows| !rows.is_empty()).collect();

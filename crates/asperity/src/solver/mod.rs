@@ -239,10 +239,10 @@ impl Solution {
 
     /// Returns the volume ΔA Σ w of the [`Solution::plastic_interference`].
     pub fn plastic_volume(&self) -> CubicMetre {
-        let cells = self.initial_gap.iter().zip(&self.displacement).zip(&self.pressure).enumerate();
-        let capped = cells.filter(|(cell, (_, p))| self.bounds.caps(*cell, **p));
-        let depths = capped.map(|(_, ((h, u), _))| (self.approach - (h + u)).max(0.0));
-        self.grid.cell_area() * depths.fold(0.0, |sum, depth| sum + depth)
+        match self.capped_cells() {
+            0 => 0.0,
+            _ => self.grid.cell_area() * self.plastic_interference().sum(),
+        }
     }
 
     /// Returns the elastic energy ½ ΔA Σ p u. Under a periodic boundary it excludes the mean displacement, which

@@ -40,8 +40,8 @@ pub(super) struct Preconditioner {
     /// Contribution of each band to the rows above it.
     above: Vec<Vec<f32>>,
     scratch: Pool<Scratch>,
-    /// The scales √(c/cᵢ) of the cells, and the scaled residual; none if cells do not differ.
-    scaled: Option<(Vec<f32>, Vec<f32>)>,
+    /// The scales √(c/cᵢ) of the cells; none if cells do not differ.
+    scales: Option<Vec<f32>>,
 }
 
 /// Sets, residual and preconditioned residual of a slab and the rows on either side. With these rows the cells of
@@ -75,10 +75,7 @@ impl Preconditioner {
             patterns: vec![Vec::new(); count],
             above: vec![vec![0.0; ROWS_ABOVE * bands.columns()]; count],
             scratch: Pool::default(),
-            scaled: scales(operator).map(|scales| {
-                let residual = vec![0.0; scales.len()];
-                (scales, residual)
-            }),
+            scales: scales(operator),
         }
     }
 
@@ -130,24 +127,24 @@ impl Preconditioner {
         });
     }
 
-    /// Computes the preconditioned residual `z = M r`: fields on the grid that are zero where it is not free. Returns Σ z, Σ r and
-    /// Σ r z of the free cells.
-    pub(super) fn apply(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) -> [f64; 3] {
-        let Some((scales, mut scaled)) = self.scaled.take() else { return self.apply_alike(sets, r, z) };
-        scaled.iter_mut().zip(r).zip(&scales).for_each(|((scaled, r), scale)| *scaled = scale * r);
-        self.apply_alike(sets, &scaled, z);
+    /// Computes the preconditioned residual `z = M r`, which is zero where the grid is not free, from a function for the residual
+    /// of each free cell. Returns Σ z, Σ r and Σ r z of the free cells.
+    pub(super) fn apply(&mut self, sets: &Sets, r: impl Fn(usize) -> f32 + Sync, z: &mut [f32]) -> [f64; 3] {
+        let Some(scales) = self.scales.take() else { return self.apply_alike(sets, &r, z) };
+        self.apply_alike(sets, &|cell| scales[cell] * r(cell), z);
         z.iter_mut().zip(&scales).for_each(|(z, scale)| *z *= scale);
-        self.scaled = Some((scales, scaled));
-        products(sets, r, z)
+        self.scales = Some(scales);
+        products(sets, &r, z)
     }
 
     /// [`Self::apply`] for cells that do not differ.
-    fn apply_alike(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) -> [f64; 3] {
+    fn apply_alike(&mut self, sets: &Sets, r: &(impl Fn(usize) -> f32 + Sync), z: &mut [f32]) -> [f64; 3] {
         let Some(mut around) = self.around.take() else { return self.apply_on_rows(sets, r, z) };
         let SlabWithNeighbours { sets: all, residual, preconditioned } = &mut around;
-        residual[self.halo.own()].copy_from_slice(r);
+        let own = residual[self.halo.own()].iter_mut().enumerate();
+        own.for_each(|(cell, value)| *value = if sets.is_free(cell) { r(cell) } else { 0.0 });
         self.halo.fill(residual);
-        self.apply_on_rows(all, residual, preconditioned);
+        self.apply_on_rows(all, &|cell| residual[cell], preconditioned);
         z.copy_from_slice(&preconditioned[self.halo.own()]);
         self.around = Some(around);
         products(sets, r, z)
@@ -155,7 +152,7 @@ impl Preconditioner {
 
     /// [`Self::apply_alike`] on the rows of a rank and its neighbouring rows. The values on the neighbouring rows
     /// are not valid.
-    fn apply_on_rows(&mut self, sets: &Sets, r: &[f32], z: &mut [f32]) -> [f64; 3] {
+    fn apply_on_rows(&mut self, sets: &Sets, r: &(impl Fn(usize) -> f32 + Sync), z: &mut [f32]) -> [f64; 3] {
         let Self { sparse, coarse, patterns, above, scratch, .. } = self;
         coarse.solve(sets, r);
         let bands = sets.bands();
@@ -197,11 +194,12 @@ impl Preconditioner {
 }
 
 /// Returns Σ z, Σ r and Σ r z of the free cells.
-fn products(sets: &Sets, r: &[f32], z: &[f32]) -> [f64; 3] {
+fn products(sets: &Sets, r: &(impl Fn(usize) -> f32 + Sync), z: &[f32]) -> [f64; 3] {
     let bands = sets.bands();
-    let parts = bands.cut(r).zip(bands.cut(z)).zip(sets.in_bands());
-    Merged::of_parts(parallel::map(parts, |((r, z), free)| {
-        let cells = free.cells().map(|cell| [f64::from(r[cell]), f64::from(z[cell])]);
+    let parts = bands.cut(z).zip(sets.in_bands()).enumerate();
+    Merged::of_parts(parallel::map(parts, |(band, (z, free))| {
+        let first = bands.first(band);
+        let cells = free.cells().map(|cell| [r(first + cell), z[cell]].map(f64::from));
         cells.fold([0.0; 3], |sums, [r, z]| [sums[0] + z, sums[1] + r, sums[2] + r * z])
     }))
 }
@@ -261,7 +259,7 @@ mod tests {
                 .map(|&cell| {
                     let (mut unit, mut z) = (vec![0.0; grid.cells()], vec![0.0; grid.cells()]);
                     unit[cell] = 1.0;
-                    preconditioner.apply(&sets, &unit, &mut z);
+                    preconditioner.apply(&sets, |cell| unit[cell], &mut z);
                     assert!((0..grid.cells()).all(|cell| sets.is_free(cell) || z[cell] == 0.0));
                     free.iter().map(|cell| z[*cell]).collect()
                 })
@@ -293,7 +291,7 @@ mod tests {
             let mut image = |cell: usize| {
                 let (mut unit, mut z) = (vec![0.0; grid.cells()], vec![f32::NAN; grid.cells()]);
                 unit[cell] = 1.0;
-                preconditioner.apply(&sets, &unit, &mut z);
+                preconditioner.apply(&sets, |cell| unit[cell], &mut z);
                 z
             };
             let (there, back, own) = (image(a)[b], image(b)[a], image(a)[a]);
@@ -310,7 +308,7 @@ mod tests {
         unit[cell] = 1.0;
         let mut preconditioner = Preconditioner::new(operator);
         preconditioner.adapt(&sets);
-        preconditioner.apply(&sets, &unit, &mut z);
+        preconditioner.apply(&sets, |cell| unit[cell], &mut z);
         z
     }
 

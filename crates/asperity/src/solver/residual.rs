@@ -164,29 +164,30 @@ impl ResidualSums {
         lanes.sums()
     }
 
-    /// [`Self::of`] for the cells with these pressures, gaps h, and residuals δ − h − u at an approach δ, the `datum`, with
-    /// a function for their bounds. It is faster.
+    /// [`Self::of`] for the cells with these pressures, approaches h + u and gaps h, with a function for their bounds.
+    /// It is faster.
     pub(super) fn of_fields(
-        [pressure, gap]: [&[f64]; 2],
-        (residual, datum): (&[f32], Metre),
+        [pressure, touch, gap]: [&[f64]; 3],
         bounds: impl Fn(usize) -> Interval,
         approach: Metre,
         self_influence: f64,
     ) -> Self {
-        let cell = |cell: usize, p: f64, r: f32, h: f64| {
-            let touch = datum - f64::from(r);
-            Cell { pressure: p, displacement: touch - h, touch, bounds: bounds(cell) }
+        let cell = |cell: usize, p: f64, touch: f64, h: f64| Cell {
+            pressure: p,
+            displacement: touch - h,
+            touch,
+            bounds: bounds(cell),
         };
-        let displacement = residual.first().zip(gap.first()).map_or(0.0, |(r, h)| datum - f64::from(*r) - h);
-        let ((p, p_rest), (r, r_rest), (h, h_rest)) = (chunks(pressure), chunks(residual), chunks(gap));
-        let mut lanes = Lanes::<LANES>::new(displacement, approach, self_influence);
-        for (number, ((p, r), h)) in p.iter().zip(r).zip(h).enumerate() {
-            lanes.add(std::array::from_fn(|lane| cell(number * LANES + lane, p[lane], r[lane], h[lane])));
+        let datum = touch.first().zip(gap.first()).map_or(0.0, |(touch, h)| touch - h);
+        let ((p, p_rest), (t, t_rest), (h, h_rest)) = (chunks(pressure), chunks(touch), chunks(gap));
+        let mut lanes = Lanes::<LANES>::new(datum, approach, self_influence);
+        for (number, ((p, t), h)) in p.iter().zip(t).zip(h).enumerate() {
+            lanes.add(std::array::from_fn(|lane| cell(number * LANES + lane, p[lane], t[lane], h[lane])));
         }
-        let mut last = Lanes::new(displacement, approach, self_influence);
+        let mut last = Lanes::new(datum, approach, self_influence);
         let first = p.len() * LANES;
-        for (number, ((p, r), h)) in p_rest.iter().zip(r_rest).zip(h_rest).enumerate() {
-            last.add([cell(first + number, *p, *r, *h)]);
+        for (number, ((p, t), h)) in p_rest.iter().zip(t_rest).zip(h_rest).enumerate() {
+            last.add([cell(first + number, *p, *t, *h)]);
         }
         match (p.is_empty(), p_rest.is_empty()) {
             (_, true) => lanes.sums(),
@@ -210,7 +211,7 @@ impl ResidualSums {
 const LANES: usize = 4;
 
 /// Splits values into groups of [`LANES`], and the rest.
-fn chunks<T>(values: &[T]) -> (&[[T; LANES]], &[T]) {
+fn chunks(values: &[f64]) -> (&[[f64; LANES]], &[f64]) {
     values.as_chunks()
 }
 

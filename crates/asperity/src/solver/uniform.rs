@@ -265,7 +265,7 @@ impl CellPreconditioner {
         alone.iter().for_each(|(cell, _)| r[*cell] = 0.0);
         match bodies {
             Some(bodies) => {
-                bodies.apply(sets, r, z);
+                bodies.apply(sets, |cell| r[cell], z);
             }
             None => z.fill(0.0),
         }

@@ -335,9 +335,7 @@ mod tests {
                     [&fields, &others].map(|fields| fields.read(name).unwrap().into_field().unwrap());
                 let size = expected.iter().fold(0.0, |m: f64, value| m.max(value.abs()));
                 let error = (found - expected).iter().fold(0.0, |m: f64, e| m.max(e.abs()));
-                // The displacement follows from a residual in single precision.
-                let most = if name == "displacement" { 3e-7 } else { 1e-10 };
-                assert!(error <= most * size, "{name}, {contact}: {error:e} of {size:e}");
+                assert!(error <= 1e-10 * size, "{name}, {contact}: {error:e} of {size:e}");
             }
             let [found, expected] =
                 [together.summary().unwrap(), expected].map(|summary| match summary.outcome {

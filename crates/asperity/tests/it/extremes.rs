@@ -343,7 +343,7 @@ fn has_numbers_only(value: &serde_json::Value) -> bool {
 
 /// Whether a case may fail with this error: it concerns the case, not a defect of the program.
 fn is_an_answer(error: &Error) -> bool {
-    if let Error::AtPosition { source, .. } = error {
+    if let Error::AtPosition { source, .. } | Error::AtIncrement { source, .. } = error {
         return is_an_answer(source);
     }
     matches!(

@@ -270,23 +270,12 @@ impl<'a> Iteration<'a> {
             restarts: 0,
         };
         make_feasible(&mut iteration, settings);
-        iteration.first_residual();
+        iteration.each(Block::convolve_in_single);
         if let (true, Control::Approach(approach)) = (far, settings.control) {
             iteration.scale_to_least_energy(approach);
         }
         iteration.each(Block::keep_feasible);
         iteration
-    }
-
-    /// Computes the first residual, at the prescribed approach or at the multiplier of the load.
-    fn first_residual(&mut self) {
-        self.each(Block::respond_to_pressure);
-        let approach = match self.settings.control {
-            Control::Approach(approach) => approach,
-            Control::Load(_) => self.merged(|block| block.multiplier_of_response()).approach(),
-        };
-        let approach = if approach.is_finite() { approach } else { 0.0 };
-        self.each(|block| block.refer_to(approach));
     }
 
     /// Performs a task on each block, in parallel for several blocks.
@@ -572,7 +561,7 @@ impl<'a> Iteration<'a> {
             if self.settings.watch.stop() {
                 break;
             }
-            let [sum, drift, product] = self.merged(Block::precondition);
+            let [sum, drift, product] = self.merged(|block| block.precondition(datum));
             let mean = self.mean(sum);
             let product = product - mean * drift;
             let beta = product / product_before;

@@ -47,8 +47,6 @@ pub(super) struct NewtonIteration<'a> {
     approach: Metre,
     preconditioner: Preconditioner,
     sets: Sets,
-    /// The values of the cells in contact that are preconditioned.
-    contact: SingleField,
     /// Whether the last steps show no negative eigenvalue: a stable equilibrium has none.
     is_stable: bool,
     /// Cost so far.
@@ -80,7 +78,6 @@ impl<'a> NewtonIteration<'a> {
             approach: from.approach,
             preconditioner: Preconditioner::new(operator),
             sets: Sets::new(shape),
-            contact: SingleField::zeros(shape),
             is_stable: true,
             stats: Stats::default(),
         }
@@ -268,14 +265,7 @@ impl<'a> NewtonIteration<'a> {
 
     /// Applies the preconditioner of the contact to the cells in contact; the others are 0. Returns the sum of the result first.
     fn on_contact(&mut self, values: &[f32], preconditioned: &mut [f32]) -> [f64; 3] {
-        let Self { sets, preconditioner, contact, .. } = self;
-        let bands = sets.bands();
-        let parts = bands.cut_mut(flat_mut(contact)).zip(bands.cut(values)).zip(bands.cut(sets.of()));
-        parallel::map(parts, |((contact, values), sets)| {
-            let cells = contact.iter_mut().zip(values).zip(sets);
-            cells.for_each(|((r, value), set)| *r = if *set == Set::Free { *value } else { 0.0 });
-        });
-        preconditioner.apply(sets, flat(contact), preconditioned)
+        self.preconditioner.apply(&self.sets, |cell| values[cell], preconditioned)
     }
 }
 

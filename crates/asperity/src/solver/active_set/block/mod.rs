@@ -21,11 +21,11 @@ use crate::units::{Metre, Pascal};
 /// Radius in cells of the influence that predicts a residual without a convolution.
 const NEAR_FIELD: usize = 4;
 
-/// One contact in the iteration: pressure, residual and direction of its cells.
+/// One contact in the iteration: pressure, displacement, direction and residual of its cells.
 ///
-/// The pressure is in double precision. Directions and their responses are in single precision, which is sufficient for
-/// steps that are small compared with the values they correct. The error bound of the displacement includes them. The
-/// residual is in single precision, too: it is small where it matters, at the cells in contact or about to touch.
+/// Pressure and displacement are in double precision. Directions and their responses are in single precision, which
+/// is sufficient for steps that are small compared with the values they correct. The error bound of the displacement
+/// includes them.
 pub(super) struct Block<'a> {
     site: &'a dyn Site,
     /// The bands of rows for parallel work.
@@ -33,19 +33,14 @@ pub(super) struct Block<'a> {
     preconditioner: Preconditioner,
     /// The current pressure p, possibly a little outside its bounds.
     pressure: Field,
-    /// The residual r = δ − h − u of each cell at the approach `datum`: minus the gap of the open cells.
-    residual: SingleField,
-    /// The approach δ of the residual.
-    datum: Metre,
-    /// The displacement u of the present pressure, if it was computed in double precision. Direction and response are empty then.
-    displacement: Option<Field>,
+    /// The approach h + u at which each cell touches.
+    touch: Field,
     /// Error bound of the displacement due to single precision.
     rounding: Metre,
     /// The last feasible pressure. The energy of feasible pressures only decreases.
     feasible: Field,
-    /// The residual under the last feasible pressure and its approach, during a line search from it, or always with a
-    /// near copy.
-    feasible_residual: Option<(SingleField, Metre)>,
+    /// The approaches h + u under the last feasible pressure, during a line search from it, or always with a near copy.
+    feasible_touch: Option<Field>,
     /// Whether search directions are convolved with the near copy of the operator.
     near: bool,
     /// Error bound due to single precision of the residual under the last feasible pressure, if the operator itself
@@ -96,12 +91,10 @@ impl<'a> Block<'a> {
             bands: Bands::of(shape),
             preconditioner,
             pressure,
-            residual: SingleField::zeros(shape),
-            datum: 0.0,
-            displacement: None,
+            touch: Field::zeros(shape),
             rounding: 0.0,
             feasible: Field::zeros(shape),
-            feasible_residual: None,
+            feasible_touch: None,
             sets: Sets::new(shape),
             direction: SingleField::zeros(shape),
             response: SingleField::zeros(shape),
@@ -172,16 +165,8 @@ impl<'a> Block<'a> {
 
     /// Returns pressure and displacement.
     pub(super) fn into_fields(self) -> (Field, Field) {
-        let Self { site, bands, pressure, residual, datum, displacement, .. } = self;
-        // They would stand beside the displacement.
-        drop((self.feasible, self.feasible_residual, self.direction, self.response));
-        drop((self.sets, self.preconditioner));
-        let displacement = displacement.unwrap_or_else(|| {
-            let mut displacement = site.initial_gap().into_owned();
-            zip(bands, &mut displacement, &residual, |h, r| *h = datum - *h - f64::from(*r));
-            displacement
-        });
-        (pressure, displacement)
+        let displacement = self.touch - &*self.site.initial_gap();
+        (self.pressure, displacement)
     }
 
     /// Number of free cells.

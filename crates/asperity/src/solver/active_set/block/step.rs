@@ -3,9 +3,10 @@
 use std::ops;
 
 use super::{Block, NEAR_FIELD, flat, flat_mut, zip};
+use crate::math::sum::sums;
 use crate::math::{indices_where, parallel};
 use crate::ranks::Merged;
-use crate::solver::bounds::with_bounds;
+use crate::solver::bounds::{Interval, with_bounds};
 use crate::solver::feasible::{Range, extremes, within};
 use crate::solver::residual::{Cell, Multiplier, ResidualSums};
 use crate::solver::sets::Set;
@@ -53,15 +54,15 @@ impl Block<'_> {
     /// Returns the contribution of this contact to the multiplier of the load.
     pub(in crate::solver::active_set) fn multiplier(&self) -> Multiplier {
         let bounds = self.site.bounds();
-        let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.residual)));
-        let parts = parallel::map(bands.enumerate(), |(band, (pressure, residual))| {
+        let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));
+        let parts = parallel::map(bands.enumerate(), |(band, (pressure, touch))| {
             let first = self.bands.first(band);
-            let cells = pressure.iter().zip(residual).enumerate();
+            let cells = pressure.iter().zip(touch).enumerate();
             with_bounds!(bounds, of => {
-                Multiplier::of(cells.map(|(cell, (p, r))| Cell {
+                Multiplier::of(cells.map(|(cell, (p, touch))| Cell {
                     pressure: *p,
                     displacement: 0.0,
-                    touch: self.touch(*r),
+                    touch: *touch,
                     bounds: of(first + cell),
                 }))
             })
@@ -77,13 +78,13 @@ impl Block<'_> {
     ) -> ResidualSums {
         let (gap, bounds) = (self.site.initial_gap(), self.site.bounds());
         let self_influence = settings.self_influence;
-        let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.residual)));
+        let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));
         let bands = bands.zip(self.bands.cut(flat(&gap))).enumerate();
-        let parts = parallel::map(bands, |(band, ((pressure, residual), gap))| {
+        let parts = parallel::map(bands, |(band, ((pressure, touch), gap))| {
             let first = self.bands.first(band);
             with_bounds!(bounds, of => {
                 let of = |cell: usize| of(first + cell);
-                ResidualSums::of_fields([pressure, gap], (residual, self.datum), of, approach, self_influence)
+                ResidualSums::of_fields([pressure, touch, gap], of, approach, self_influence)
             })
         });
         Merged::of_parts(parts)
@@ -91,20 +92,16 @@ impl Block<'_> {
 
     /// Changes each pressure by the amount that closes its gap on a single cell with this compliance.
     pub(in crate::solver::active_set) fn step_along_gap(&mut self, approach: Metre, compliance: f64) {
-        let to_approach = approach - self.datum;
-        zip(self.bands, &mut self.pressure, &self.residual, |p, r| {
-            *p += (to_approach + f64::from(*r)) / compliance;
-        });
+        zip(self.bands, &mut self.pressure, &self.touch, |p, touch| *p += (approach - touch) / compliance);
     }
 
     /// Proposes the pressures p + (δ − h − u)·stiffness after one diagonal Newton step. Returns their range.
     pub(in crate::solver::active_set) fn propose(&mut self, approach: Metre, stiffness: f64) -> Range {
-        let to_approach = approach - self.datum;
-        let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.residual)));
+        let bands = self.bands.cut(flat(&self.pressure)).zip(self.bands.cut(flat(&self.touch)));
         let bands = bands.zip(self.bands.cut_mut(flat_mut(&mut self.response)));
-        let parts = parallel::map(bands, |((pressure, residual), proposed)| {
-            for ((y, p), r) in proposed.iter_mut().zip(pressure).zip(residual) {
-                *y = (p + (to_approach + f64::from(*r)) * stiffness) as f32;
+        let parts = parallel::map(bands, |((pressure, touch), proposed)| {
+            for ((y, p), touch) in proposed.iter_mut().zip(pressure).zip(touch) {
+                *y = (p + (approach - touch) * stiffness) as f32;
             }
             extremes(proposed)
         });
@@ -124,11 +121,10 @@ impl Block<'_> {
         stiffness: f64,
         offset: Pascal,
     ) {
-        let (pressure, residual) = (flat(&self.pressure), flat(&self.residual));
-        let to_approach = approach - self.datum;
+        let (pressure, touch) = (flat(&self.pressure), flat(&self.touch));
         let proposed = |cells: ops::Range<usize>| {
-            let cells = pressure[cells.clone()].iter().zip(&residual[cells]);
-            cells.map(|(p, r)| p + (to_approach + f64::from(*r)) * stiffness + offset)
+            let cells = pressure[cells.clone()].iter().zip(&touch[cells]);
+            cells.map(|(p, touch)| p + (approach - touch) * stiffness + offset)
         };
         self.sets.assign(proposed, &self.site.bounds());
         self.preconditioner.adapt(&self.sets);
@@ -164,13 +160,13 @@ impl Block<'_> {
     /// response. Returns its sum.
     pub(in crate::solver::active_set) fn predict_residual(&mut self, approach: Metre) -> f64 {
         self.convolve_near_field();
-        let (bands, to_approach) = (self.bands, approach - self.datum);
-        let parts = bands.cut(flat(&self.residual)).zip(bands.cut_mut(flat_mut(&mut self.response)));
+        let bands = self.bands;
+        let parts = bands.cut(flat(&self.touch)).zip(bands.cut_mut(flat_mut(&mut self.response)));
         let parts = parts.zip(self.sets.in_bands());
-        let [sum] = Merged::of_parts(parallel::map(parts, |((residual, predicted), free)| {
+        let [sum] = Merged::of_parts(parallel::map(parts, |((touch, predicted), free)| {
             let mut sum = 0.0;
             for cell in free.cells() {
-                let w = to_approach + f64::from(residual[cell]) - f64::from(predicted[cell]);
+                let w = approach - touch[cell] - f64::from(predicted[cell]);
                 sum += w;
                 predicted[cell] = w as f32;
             }
@@ -208,17 +204,17 @@ impl Block<'_> {
     /// Computes the preconditioned predicted residual z = M r, without its `mean`, in place of the direction. Returns
     /// Σ z, Σ r and Σ r z.
     pub(in crate::solver::active_set) fn precondition_predicted(&mut self, mean: f64) -> [f64; 3] {
-        let parts = self.bands.cut_mut(flat_mut(&mut self.response)).zip(self.sets.in_bands());
-        parallel::map(parts, |(predicted, free)| {
-            free.cells().for_each(|cell| predicted[cell] -= mean as f32);
-        });
-        self.preconditioner.apply(&self.sets, flat(&self.response), flat_mut(&mut self.direction))
+        let (predicted, mean) = (flat(&self.response), mean as f32);
+        let residual = |cell: usize| predicted[cell] - mean;
+        self.preconditioner.apply(&self.sets, residual, flat_mut(&mut self.direction))
     }
 
-    /// Computes the preconditioned residual z = M r of the free cells, in place of the response. Returns Σ z, Σ r and
-    /// Σ r z.
-    pub(in crate::solver::active_set) fn precondition(&mut self) -> [f64; 3] {
-        self.preconditioner.apply(&self.sets, flat(&self.residual), flat_mut(&mut self.response))
+    /// Computes the preconditioned residual z = M r of the free cells, whose gap closes at the approach `datum`, in place
+    /// of the response. Returns Σ z, Σ r and Σ r z.
+    pub(in crate::solver::active_set) fn precondition(&mut self, datum: Metre) -> [f64; 3] {
+        let touch = flat(&self.touch);
+        let residual = |cell: usize| (datum - touch[cell]) as f32;
+        self.preconditioner.apply(&self.sets, residual, flat_mut(&mut self.response))
     }
 
     /// Sets the direction of the free cells to the damped preconditioned residual without its mean, and that of the other
@@ -231,23 +227,24 @@ impl Block<'_> {
         let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.direction)));
         Merged::of_parts(parallel::map(parts.enumerate(), |(band, ((sets, pressure), direction))| {
             let first = bands.first(band);
-            with_bounds!(bounds, of => {
-                let cells = sets.iter().zip(pressure).zip(direction).enumerate();
-                let mut sums = [0.0; 2];
-                for (cell, ((set, p), d)) in cells {
+            let borne = with_bounds!(bounds, of => {
+                let cells = direction.iter_mut().zip(sets).zip(pressure).enumerate();
+                let mut borne = 0.0;
+                for (cell, ((d, set), p)) in cells {
                     let bounds = of(first + cell);
                     *d = match set {
                         Set::Lower => (bounds.lower - p) as f32,
                         Set::Upper => (bounds.upper - p) as f32,
                         Set::Free => {
-                            sums[1] += bounds.clamp(*p) - bounds.lower;
+                            borne += bounds.clamp(*p) - bounds.lower;
                             damping * (*d - mean)
                         }
                     };
-                    sums[0] += f64::from(*d);
                 }
-                sums
-            })
+                borne
+            });
+            let [added] = sums(direction, |_, d| [f64::from(d)]);
+            [added, borne]
         }))
     }
 
@@ -301,15 +298,13 @@ impl Block<'_> {
     /// Sets the direction to zero. Returns Σ (h + u) of the free cells.
     pub(in crate::solver::active_set) fn reset_direction(&mut self) -> f64 {
         let bands = self.bands;
-        let parts = bands.cut_mut(flat_mut(&mut self.direction)).zip(bands.cut(flat(&self.residual)));
-        let [sum] = Merged::of_parts(parallel::map(
-            parts.zip(self.sets.in_bands()),
-            |((direction, residual), free)| {
+        let parts = bands.cut_mut(flat_mut(&mut self.direction)).zip(bands.cut(flat(&self.touch)));
+        let [sum] =
+            Merged::of_parts(parallel::map(parts.zip(self.sets.in_bands()), |((direction, touch), free)| {
                 direction.fill(0.0);
-                [free.cells().map(|cell| f64::from(residual[cell])).sum()]
-            },
-        ));
-        self.free_cells() as f64 * self.datum - sum
+                [free.cells().map(|cell| touch[cell]).sum()]
+            }));
+        sum
     }
 
     /// Updates the direction to the conjugate direction, d = z − mean + β d, and computes C·d. Returns the
@@ -333,35 +328,45 @@ impl Block<'_> {
         }))
     }
 
-    /// Moves pressure and displacement by `step` times the direction. Computes the residual at the approach `datum`.
-    /// Returns its norm at the free cells and the norm of the violations of the bounds.
+    /// Moves pressure and displacement by `step` times the direction. Computes the residual of the free cells,
+    /// whose gap closes at the approach `datum`. Returns its norm and the norm of the violations of the bounds.
     pub(in crate::solver::active_set) fn step_along_direction(
         &mut self,
         step: f64,
         datum: Metre,
         settings: &Settings,
     ) -> ResidualNorms {
-        let (bands, bounds, self_influence) = (self.bands, self.site.bounds(), settings.self_influence);
-        let parts = bands.cut(self.sets.of()).zip(bands.cut(flat(&self.response)));
-        let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.residual)));
-        let parts = parts.zip(bands.cut(flat(&self.direction)));
-        let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.pressure))).zip(self.sets.in_bands());
-        let change = Step { step, datum: datum - self.datum };
-        let norms = parallel::map(parts.enumerate(), |(band, (((((sets, c), r), d), p), free))| {
-            let [residual, violation, max_residual] = change.take(sets, c, r);
+        let (bands, bounds) = (self.bands, self.site.bounds());
+        let parts = bands.cut(self.sets.of()).zip(bands.cut(flat(&self.direction)));
+        let parts = parts.zip(bands.cut(flat(&self.response)));
+        let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.pressure)));
+        let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.touch))).enumerate();
+        let norms = parallel::map(parts, |(band, ((((sets, d), c), p), touch))| {
             let first = bands.first(band);
-            let outside = with_bounds!(bounds, of => {
-                let mut outside = 0.0;
-                for cell in free.cells() {
-                    p[cell] += step * f64::from(d[cell]);
-                    let beyond = self_influence * (p[cell] - of(first + cell).clamp(p[cell]));
-                    outside += beyond * beyond;
+            let ((sets, sets_rest), (d, d_rest), (c, c_rest)) =
+                (sets.as_chunks(), d.as_chunks(), c.as_chunks());
+            let ((p, p_rest), (touch, touch_rest)) = (p.as_chunks_mut(), touch.as_chunks_mut());
+            let rest = first + p.len() * LANES;
+            let step = Step { step, datum, self_influence: settings.self_influence };
+            with_bounds!(bounds, of => {
+                let mut lanes = [[0.0; LANES]; 3];
+                let chunks = sets.iter().zip(d).zip(c).zip(p).zip(touch).enumerate();
+                for (number, ((((sets, d), c), p), touch)) in chunks {
+                    let of = |lane: usize| of(first + number * LANES + lane);
+                    step.take(*sets, [d, c], [p, touch], of, &mut lanes);
                 }
-                outside
-            });
-            ResidualNorms { residual, violation: violation + outside, max_residual, datum }
+                let mut last = [[0.0; 1]; 3];
+                let cells = sets_rest.iter().zip(d_rest).zip(c_rest).zip(p_rest).zip(touch_rest);
+                for (number, ((((set, d), c), p), touch)) in cells.enumerate() {
+                    let [p, touch] = [p, touch].map(std::array::from_mut);
+                    let [d, c] = [d, c].map(std::array::from_ref);
+                    step.take([*set], [d, c], [p, touch], |_| of(rest + number), &mut last);
+                }
+                let [residual, violation, _] = [0, 1, 2].map(|n| lanes[n].iter().sum::<f64>() + last[n][0]);
+                let max_residual = lanes[2].iter().fold(last[2][0], |most, value| f64::max(most, *value));
+                ResidualNorms { residual, violation, max_residual, datum }
+            })
         });
-        self.datum = datum;
         self.rounding += SINGLE_PRECISION * step * self.max_response;
         Merged::of_parts(norms)
     }
@@ -373,42 +378,30 @@ const LANES: usize = 4;
 /// A step along the direction.
 struct Step {
     step: f64,
-    /// Change of the approach of the residual.
     datum: Metre,
+    self_influence: f64,
 }
 
 impl Step {
-    /// Changes the residuals `r` of some cells by the step, whose direction has the response `c`. Returns the sums of the
-    /// squares of residual and violation, and the largest residual.
-    fn take(&self, sets: &[Set], c: &[f32], r: &mut [f32]) -> [f64; 3] {
-        let ((sets, sets_rest), (c, c_rest), (r, r_rest)) =
-            (sets.as_chunks(), c.as_chunks(), r.as_chunks_mut());
-        let mut lanes = [[0.0; LANES]; 3];
-        for ((sets, c), r) in sets.iter().zip(c).zip(r) {
-            self.add(*sets, c, r, &mut lanes);
-        }
-        let mut last = [[0.0; 1]; 3];
-        for ((set, c), r) in sets_rest.iter().zip(c_rest).zip(r_rest) {
-            self.add([*set], std::array::from_ref(c), std::array::from_mut(r), &mut last);
-        }
-        let [residual, violation, _] = [0, 1, 2].map(|n| lanes[n].iter().sum::<f64>() + last[n][0]);
-        [residual, violation, lanes[2].iter().fold(last[2][0], |most, value| f64::max(most, *value))]
-    }
-
-    /// Changes the residual of each lane, and adds it to the sums of the lane.
+    /// Moves the pressures and approaches h + u of some cells, which the direction `d` and its response `c` change, and
+    /// computes their residuals. Adds to the sums of the squares of residual and violation and to the largest residual
+    /// of each lane. The direction is zero except at free cells.
     #[inline]
-    fn add<const N: usize>(
+    fn take<const N: usize>(
         &self,
         sets: [Set; N],
-        c: &[f32; N],
-        r: &mut [f32; N],
+        [d, c]: [&[f32; N]; 2],
+        [p, touch]: [&mut [f64; N]; 2],
+        bounds: impl Fn(usize) -> Interval,
         [residuals, violations, largest]: &mut [[f64; N]; 3],
     ) {
         for lane in 0..N {
-            let w = f64::from(r[lane]) - self.step * f64::from(c[lane]) + self.datum;
-            r[lane] = w as f32;
+            touch[lane] += self.step * f64::from(c[lane]);
+            p[lane] += self.step * f64::from(d[lane]);
+            let w = self.datum - touch[lane];
+            let outside = self.self_influence * (p[lane] - bounds(lane).clamp(p[lane]));
             let [residual, violation] = match sets[lane] {
-                Set::Free => [w, 0.0],
+                Set::Free => [w, outside],
                 Set::Lower => [0.0, w.max(0.0)],
                 Set::Upper => [0.0, w.min(0.0)],
             };

@@ -106,7 +106,7 @@ impl Influence {
         let [given, found] = &mut self.single;
         for axis in 0..2 {
             cells.iter().zip(displacement).for_each(|(cell, u)| given[*cell] = (scale * u[axis]) as f32);
-            self.preconditioner.apply(&self.sets, given, found);
+            self.preconditioner.apply(&self.sets, |cell| given[cell], found);
             for (cell, q) in cells.iter().zip(&mut shear) {
                 q[axis] = f64::from(found[*cell]) / scale;
             }
