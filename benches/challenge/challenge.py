@@ -18,7 +18,7 @@ BUILD = ["cargo", "build", "--release", "-p", "asperity", "--no-default-features
 WHOLE = "100"
 LOADS = "0.02,0.05,0.1,0.2,0.5,1,2,5"
 GRIDS = [512, 1024, 2048]
-# Grids of which only the contact at 250 kPa is computed, from a cold start. The largest takes 12.5 GB.
+# Grids of which only the contact at 250 kPa is computed, from a cold start. The largest takes 14 GB.
 COLD_GRIDS = [2048, 4096, 8192, 16384]
 SEEDS = [1, 2, 3, 4, 5, 6]
 SEEDED = 512
