@@ -461,6 +461,14 @@ impl Error {
         }
     }
 
+    /// Returns the same error, wrapped by `at` unless it is an interruption.
+    pub(crate) fn unless_interrupted(self, at: impl FnOnce(Box<Self>) -> Self) -> Self {
+        match self {
+            Self::Interrupted => self,
+            other => at(Box::new(other)),
+        }
+    }
+
     /// Returns advice for the user, if there is any: a sentence to print after the error.
     pub fn hint(&self) -> Option<String> {
         match self {

@@ -17,6 +17,16 @@ pub type Field = ndarray::Array2<f64>;
 /// A [`Field`] in single precision, for low-accuracy quantities such as the directions of an iteration.
 pub type SingleField = ndarray::Array2<f32>;
 
+/// Returns the values of a field by flat index.
+pub(crate) fn flat<T>(field: &ndarray::Array2<T>) -> &[T] {
+    field.as_slice().expect("standard layout")
+}
+
+/// Returns the mutable values of a field by flat index.
+pub(crate) fn flat_mut<T>(field: &mut ndarray::Array2<T>) -> &mut [T] {
+    field.as_slice_mut().expect("standard layout")
+}
+
 /// A quantity on the cells of a grid: one value for all cells, or one for each.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CellValues {

@@ -3,6 +3,7 @@
 use asperity_transforms::Precision;
 use asperity_transforms::num_traits::FromPrimitive;
 
+use crate::math::sum::sums;
 use crate::math::{Bands, parallel};
 
 /// Result of [`gmres`].
@@ -70,15 +71,17 @@ pub(crate) fn gmres<T: Precision + Into<f64>>(
         let known: f64 = (n + 1..products).map(|m| triangle[m][n] * turned[m]).sum();
         turned[n] = (turned[n] - known) / triangle[n][n];
     }
-    let mut solution = times(0.0, basis[0].clone());
-    for (v, y) in basis.iter().zip(&turned[..products]) {
-        subtract(&mut solution, -y, v, None);
-    }
+    let weights: Vec<T> = turned[..products].iter().copied().map(number).collect();
+    let mut solution = vec![T::zero(); basis[0].len()];
+    let bands = Bands::of([solution.len(), 1]);
+    parallel::map(bands.cut_mut(&mut solution).enumerate(), |(band, solution)| {
+        for (v, y) in basis.iter().zip(&weights) {
+            let v = &v[bands.first(band)..];
+            solution.iter_mut().zip(v).for_each(|(x, v)| *x = *x + *y * *v);
+        }
+    });
     Gmres { solution, products, is_positive }
 }
-
-/// Number of sums that do not wait for each other.
-const LANES: usize = 8;
 
 /// Subtracts a multiple of the vector `v` from the vector `next`. Returns the scalar product of the result with another
 /// vector, or with itself.
@@ -104,15 +107,8 @@ fn dot<T: Precision + Into<f64>>(a: &[T], b: &[T]) -> f64 {
 }
 
 fn dot_in_band<T: Copy + Into<f64>>(a: &[T], b: &[T]) -> f64 {
-    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
-    let mut lanes = [0.0; LANES];
-    for (a, b) in a.iter().zip(b) {
-        for lane in 0..LANES {
-            lanes[lane] += a[lane].into() * b[lane].into();
-        }
-    }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| (*a).into() * (*b).into()).sum();
-    lanes.iter().sum::<f64>() + rest
+    let [sum] = sums(a, |k, a| [a.into() * b[k].into()]);
+    sum
 }
 
 fn norm<T: Precision + Into<f64>>(a: &[T]) -> f64 {

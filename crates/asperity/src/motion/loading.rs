@@ -91,10 +91,10 @@ impl Course for StagedLoading<'_> {
         let loading = origin.towards(loading, step as f64 / increments as f64);
         let all = Stage::increments(self.stages);
         let watch = StaticWatch::new(watch, done, all, loading.normal);
-        self.bodies.load(stage + 1, loading, origin, state, &watch).map(Some).map_err(|source| match source {
-            source if all == 1 => source,
-            Error::Interrupted => source,
-            source => Error::AtIncrement { increment: done + 1, source: Box::new(source) },
+        let at = |source| Error::AtIncrement { increment: done + 1, source };
+        self.bodies.load(stage + 1, loading, origin, state, &watch).map(Some).map_err(|error| match all {
+            1 => error,
+            _ => error.unless_interrupted(at),
         })
     }
 

@@ -154,15 +154,13 @@ impl Solver<'_> {
                 params,
                 self.watch,
             );
-            let (contact, solution) = contact.map_err(|source| match source {
-                Error::Interrupted => source,
-                source => Error::AtPosition {
-                    pass: self.progress.pass,
-                    position: index + 1,
-                    positions: self.positions.len(),
-                    source: Box::new(source),
-                },
-            })?;
+            let at = |source| Error::AtPosition {
+                pass: self.progress.pass,
+                position: index + 1,
+                positions: self.positions.len(),
+                source,
+            };
+            let (contact, solution) = contact.map_err(|error| error.unless_interrupted(at))?;
             let mut contact = contact.with_gap(&solution, self.gaps[index]);
             if let Some(latest) = earlier.first() {
                 contact.stats.convolutions += latest[index].stats.convolutions;

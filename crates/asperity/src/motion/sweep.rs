@@ -115,10 +115,8 @@ impl Course for Sweep<'_> {
                 let record = record(self.boundary, self.normal.as_mut(), done + 1, &contact, self.params)?;
                 Ok((record, contact))
             });
-        solved.map(Some).map_err(|source| match source {
-            Error::Interrupted => source,
-            source => Error::AtPoint { point: done + 1, points, source: Box::new(source) },
-        })
+        let at = |source| Error::AtPoint { point: done + 1, points, source };
+        solved.map(Some).map_err(|error| error.unless_interrupted(at))
     }
 
     fn report<'a>(&'a self, (record, contact): &'a Self::Solved) -> Step<'a> {

@@ -179,11 +179,9 @@ impl PlasticContact {
         };
         let shifts: Vec<_> = self.sides.iter().map(|side| self.shifts[*side]).collect();
         let mut flowing: Vec<&mut PlasticBody> = self.bodies.iter_mut().collect();
-        let at = |source| match source {
-            Error::Interrupted => source,
-            source => Error::AtIncrement { increment: self.increments, source: Box::new(source) },
-        };
-        let increment = advance(&mut flowing, &mut pressing, Some(&shifts), &self.flow).map_err(at)?;
+        let at = |source| Error::AtIncrement { increment: self.increments, source };
+        let increment = advance(&mut flowing, &mut pressing, Some(&shifts), &self.flow)
+            .map_err(|error| error.unless_interrupted(at))?;
         let ElasticStep { pressure, equilibrium, along, .. } = pressing;
         (self.pressure, self.equilibrium, self.along) = (pressure, equilibrium, along);
         self.shifts = [[0; 2]; 2];

@@ -128,7 +128,7 @@ impl Preconditioner {
     }
 
     /// Computes the preconditioned residual `z = M r`, which is zero where the grid is not free, from a function for the residual
-    /// of each free cell. Returns Σ z, Σ r and Σ r z of the free cells.
+    /// of each free cell. Returns the sums Σ z, Σ r and Σ r z over the free cells.
     pub(super) fn apply(&mut self, sets: &Sets, r: impl Fn(usize) -> f32 + Sync, z: &mut [f32]) -> [f64; 3] {
         let Some(scales) = self.scales.take() else { return self.apply_alike(sets, &r, z) };
         self.apply_alike(sets, &|cell| scales[cell] * r(cell), z);

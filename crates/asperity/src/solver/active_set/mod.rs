@@ -447,7 +447,6 @@ impl<'a> Iteration<'a> {
     /// Performs an outer step: predicts the sets, moves the other cells to their bounds, and solves for the free
     /// cells by conjugate gradients. Returns the norms, unless the pressure has changed since.
     fn outer_step(&mut self, state: Residual, wanted: f64) -> Option<ResidualNorms> {
-        self.each(Block::prepare_steps);
         self.predict_sets(state.approach);
         if self.free_cells == 0.0 {
             self.become_feasible(0.0);
@@ -531,10 +530,7 @@ impl<'a> Iteration<'a> {
         self.each(|block| block.step_to_bounds(!in_double));
         if in_double {
             self.restore_the_sum();
-            self.each(|block| {
-                block.convolve();
-                block.prepare_steps();
-            });
+            self.each(Block::convolve);
         }
     }
 

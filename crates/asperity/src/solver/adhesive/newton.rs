@@ -2,10 +2,8 @@
 
 use std::mem;
 
-use ndarray::Array2;
-
 use crate::error::Result;
-use crate::grid::{Field, SingleField};
+use crate::grid::{Field, SingleField, flat, flat_mut};
 use crate::math::{Gmres, gmres, parallel};
 use crate::operator::Operator;
 use crate::solver::adhesive::Problem;
@@ -139,7 +137,7 @@ impl<'a> NewtonIteration<'a> {
         let shape = gap.raw_dim();
         let unit = matches!(self.problem.control, Control::Load(_)).then(|| {
             let mut unit = SingleField::zeros(shape);
-            let [sum, ..] = self.on_contact(&vec![1.0; gap.len()], flat_mut(&mut unit));
+            let [sum, ..] = self.preconditioner.apply(&self.sets, |_| 1.0, flat_mut(&mut unit));
             unit.mapv_inplace(|p| (f64::from(p) / sum) as f32);
             unit
         });
@@ -213,7 +211,7 @@ impl<'a> NewtonIteration<'a> {
 
     /// Computes the change of the pressures for preconditioned unknowns.
     fn change(&mut self, step: &Step, unknowns: &[f32], change: &mut SingleField) {
-        let [contact, ..] = self.on_contact(unknowns, flat_mut(change));
+        let [contact, ..] = self.preconditioner.apply(&self.sets, |cell| unknowns[cell], flat_mut(change));
         let (bands, stiffness) = (self.sets.bands(), (1.0 / self.influence) as f32);
         let parts = bands.cut_mut(flat_mut(change)).zip(bands.cut(unknowns)).zip(bands.cut(self.sets.of()));
         let others = parallel::map(parts, |((change, unknowns), sets)| {
@@ -262,19 +260,4 @@ impl<'a> NewtonIteration<'a> {
             parallel::map(parts, |(values, free)| free.cells().map(|cell| values[cell].into()).sum::<f64>());
         sums.iter().sum::<f64>() / self.sets.free_cells() as f64
     }
-
-    /// Applies the preconditioner of the contact to the cells in contact; the others are 0. Returns the sum of the result first.
-    fn on_contact(&mut self, values: &[f32], preconditioned: &mut [f32]) -> [f64; 3] {
-        self.preconditioner.apply(&self.sets, |cell| values[cell], preconditioned)
-    }
-}
-
-/// Returns the values of a field by flat index.
-fn flat<T>(field: &Array2<T>) -> &[T] {
-    field.as_slice().expect("standard layout")
-}
-
-/// Returns the mutable values of a field by flat index.
-fn flat_mut<T>(field: &mut Array2<T>) -> &mut [T] {
-    field.as_slice_mut().expect("standard layout")
 }

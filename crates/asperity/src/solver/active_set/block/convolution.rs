@@ -1,7 +1,7 @@
 //! Displacements of a block: by the operator in double or single precision, or by its near copy.
 
-use super::{Block, flat, flat_mut, zip};
-use crate::grid::{Field, SingleField};
+use super::{Block, zip};
+use crate::grid::{Field, SingleField, flat, flat_mut};
 use crate::math::parallel;
 use crate::ranks::{Largest, Merged};
 use crate::solver::SINGLE_PRECISION;
@@ -15,23 +15,14 @@ impl Block<'_> {
         (self.direction, self.response) = Default::default();
         touch_under(self.site, &self.pressure, &mut self.touch);
         self.site.with_operator(&mut |operator| operator.release());
+        let shape = self.touch.raw_dim();
+        (self.direction, self.response) = (SingleField::zeros(shape), SingleField::zeros(shape));
         self.convolutions += 1;
         self.rounding = 0.0;
     }
 
-    /// Allocates direction and response.
-    pub(in crate::solver::active_set) fn prepare_steps(&mut self) {
-        let shape = self.touch.raw_dim();
-        for field in [&mut self.direction, &mut self.response] {
-            if field.is_empty() {
-                *field = SingleField::zeros(shape);
-            }
-        }
-    }
-
     /// Computes h + u from the total pressure in single precision.
     pub(in crate::solver::active_set) fn convolve_in_single(&mut self) {
-        self.prepare_steps();
         zip(self.bands, &mut self.direction, &self.pressure, |d, p| *d = *p as f32);
         self.convolve_direction();
         let gap = self.site.initial_gap();

@@ -8,7 +8,7 @@ pub(super) use step::ResidualNorms;
 
 use ndarray::Array2;
 
-use crate::grid::{Field, SingleField};
+use crate::grid::{Field, SingleField, flat, flat_mut};
 use crate::math::{Bands, parallel};
 use crate::ranks::{Halo, Merged, Slab};
 use crate::solver::bounds::{Interval, with_bounds};
@@ -200,14 +200,4 @@ fn zip<A: Send, B: Sync>(
     parallel::map(bands.cut_mut(flat_mut(field)).zip(bands.cut(flat(other))), |(field, other)| {
         field.iter_mut().zip(other).for_each(|(value, other)| change(value, other));
     });
-}
-
-/// Returns the values of a field by flat index.
-fn flat<T>(field: &Array2<T>) -> &[T] {
-    field.as_slice().expect("standard layout")
-}
-
-/// Returns the mutable values of a field by flat index.
-fn flat_mut<T>(field: &mut Array2<T>) -> &mut [T] {
-    field.as_slice_mut().expect("standard layout")
 }

@@ -1,8 +1,8 @@
 //! Line searches of a block from its last feasible pressure.
 
 use super::convolution::touch_under;
-use super::{Block, flat, zip};
-use crate::grid::Field;
+use super::{Block, zip};
+use crate::grid::{Field, flat};
 use crate::math::parallel;
 use crate::ranks::Merged;
 use crate::units::Metre;

@@ -2,7 +2,8 @@
 
 use std::ops;
 
-use super::{Block, NEAR_FIELD, flat, flat_mut, zip};
+use super::{Block, NEAR_FIELD, zip};
+use crate::grid::{flat, flat_mut};
 use crate::math::sum::sums;
 use crate::math::{indices_where, parallel};
 use crate::ranks::Merged;
@@ -201,16 +202,16 @@ impl Block<'_> {
         });
     }
 
-    /// Computes the preconditioned predicted residual z = M r, without its `mean`, in place of the direction. Returns
-    /// Σ z, Σ r and Σ r z.
+    /// Computes the preconditioned predicted residual z = M r, without the `mean` of r, and writes it over the direction.
+    /// Returns the sums Σ z, Σ r and Σ r z over the free cells.
     pub(in crate::solver::active_set) fn precondition_predicted(&mut self, mean: f64) -> [f64; 3] {
         let (predicted, mean) = (flat(&self.response), mean as f32);
         let residual = |cell: usize| predicted[cell] - mean;
         self.preconditioner.apply(&self.sets, residual, flat_mut(&mut self.direction))
     }
 
-    /// Computes the preconditioned residual z = M r of the free cells, whose gap closes at the approach `datum`, in place
-    /// of the response. Returns Σ z, Σ r and Σ r z.
+    /// Computes the preconditioned residual z = M r of the free cells, whose gap closes at the approach `datum`, and writes
+    /// it over the response. Returns the sums Σ z, Σ r and Σ r z over the free cells.
     pub(in crate::solver::active_set) fn precondition(&mut self, datum: Metre) -> [f64; 3] {
         let touch = flat(&self.touch);
         let residual = |cell: usize| (datum - touch[cell]) as f32;
@@ -383,9 +384,9 @@ struct Step {
 }
 
 impl Step {
-    /// Moves the pressures and approaches h + u of some cells, which the direction `d` and its response `c` change, and
-    /// computes their residuals. Adds to the sums of the squares of residual and violation and to the largest residual
-    /// of each lane. The direction is zero except at free cells.
+    /// Moves the pressures and the approaches h + u of some cells along the direction `d` and its response `c`. Adds their
+    /// residuals and violations to the sums of squares of each lane, and to its largest residual. The direction is zero
+    /// except at the free cells.
     #[inline]
     fn take<const N: usize>(
         &self,
