@@ -29,6 +29,8 @@ const LIGHT: [f64; 3] = [-0.75, -0.15, 0.64];
 const PATCHES: usize = 400;
 /// Fine pixels along a pixel.
 const FINE: usize = 2;
+/// Neighbouring patches that a band of the image leaves out together.
+const SOME: usize = 16;
 
 /// A field in perspective. Values come in SI.
 #[derive(Debug, Clone)]
@@ -196,17 +198,29 @@ impl Relief<'_> {
             let colour = if z.is_finite() { shading.of(z) } else { MISSING };
             (view.fine(place([i, j]), scale), view.lit(colour, around))
         });
-        let triangles = || {
-            let places =
-                (0..counts[0].max(2) - 1).flat_map(|i| (0..counts[1].max(2) - 1).map(move |j| (i, j)));
-            places.flat_map(|(i, j)| {
-                let next = |index: usize, axis: usize| (index + 1).min(counts[axis] - 1);
-                let patch =
-                    [[i, j], [next(i, 0), j], [next(i, 0), next(j, 1)], [i, next(j, 1)]].map(|c| corners[c]);
-                [[patch[0], patch[1], patch[2]], [patch[0], patch[2], patch[3]]]
-            })
+        let next = |index: usize, axis: usize| (index + 1).min(counts[axis] - 1);
+        // Some neighbouring patches, and how far down the lowest and the highest of their corners are.
+        let some = |i: usize, first: usize| {
+            let patches = first..(first + SOME).min(counts[1].max(2) - 1);
+            let ends = (first..=next(patches.end - 1, 1))
+                .flat_map(|j| [i, next(i, 0)].map(|i| corners[[i, j]].0[1]));
+            let ends = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], y| [a.min(y), b.max(y)]);
+            (i, patches, ends)
         };
-        canvas.bands().for_each(|mut band| triangles().for_each(|triangle| band.triangle(triangle)));
+        let rows = 0..counts[0].max(2) - 1;
+        let all: Vec<_> =
+            rows.flat_map(|i| (0..counts[1].max(2) - 1).step_by(SOME).map(move |j| some(i, j))).collect();
+        canvas.bands().for_each(|mut band| {
+            for (i, patches, ends) in &all {
+                let reached = if band.reaches(*ends) { patches.clone() } else { 0..0 };
+                for j in reached {
+                    let (i, [below, right]) = (*i, [next(*i, 0), next(j, 1)]);
+                    let patch = [[i, j], [below, j], [below, right], [i, right]].map(|c| corners[c]);
+                    band.triangle([patch[0], patch[1], patch[2]]);
+                    band.triangle([patch[0], patch[2], patch[3]]);
+                }
+            }
+        });
         canvas.reduced(width, height)
     }
 }
@@ -345,6 +359,12 @@ struct Band<'a> {
 }
 
 impl Band<'_> {
+    /// Whether the band may have pixels between two distances down the canvas.
+    fn reaches(&self, [low, high]: [f64; 2]) -> bool {
+        let (first, end) = (self.first as f64, (self.first + self.pixels.len() / self.width) as f64);
+        low <= end && first <= high.ceil()
+    }
+
     fn triangle(&mut self, triangle: [Corner; 3]) {
         let (corners, colours) = (triangle.map(|corner| corner.0), triangle.map(|corner| corner.1));
         let [a, b, c] = corners;

@@ -131,15 +131,16 @@ impl Profile {
 /// The cell of the largest pressure; of several, such as all at the hardness, that whose surroundings bear the most.
 pub(super) fn most_loaded(pressure: &Field, touching: &Field) -> Option<[usize; 2]> {
     const AROUND: usize = 2;
-    let cells = || pressure.indexed_iter().zip(touching).filter(|(_, touching)| **touching > 0.0);
-    let largest = cells().map(|((_, p), _)| *p).fold(f64::NEG_INFINITY, f64::max);
+    let cells = || pressure.iter().zip(touching).enumerate().filter(|(_, (_, touching))| **touching > 0.0);
+    let largest = cells().map(|(_, (p, _))| *p).fold(f64::NEG_INFINITY, f64::max);
     let around = |&[i, j]: &[usize; 2]| {
         let ends = |at: usize, n: usize| at.saturating_sub(AROUND)..(at + AROUND + 1).min(n);
         let cells = ndarray::s![ends(i, pressure.nrows()), ends(j, pressure.ncols())];
         pressure.slice(cells).sum()
     };
-    let loaded = cells().map(|(cell, _)| cell).filter(|(_, p)| **p >= largest - 1e-6 * largest.abs());
-    loaded.map(|((i, j), _)| [i, j]).max_by(|a, b| around(a).total_cmp(&around(b)))
+    let loaded = cells().filter(|(_, (p, _))| **p >= largest - 1e-6 * largest.abs());
+    let place = |cell: usize| [cell / pressure.ncols(), cell % pressure.ncols()];
+    loaded.map(|(cell, _)| place(cell)).max_by(|a, b| around(a).total_cmp(&around(b)))
 }
 
 /// The part of the elastic displacement along row `iy` that is the lower body's, positive downwards.

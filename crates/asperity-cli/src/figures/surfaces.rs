@@ -20,16 +20,16 @@ pub(crate) fn as_measured([lower, upper]: &[StoredArray; 2]) -> Outcome<[Topogra
     Ok([of(lower)?, of(upper)?.underside()])
 }
 
-/// Curves of both bodies at rest. A curve takes as much memory as several fields, so that they are made one after the other, and each
-/// body is dropped after its own.
+/// Curves of both bodies at rest. The curves of a body take as much memory as several fields, so that those of the second are made
+/// after those of the first, which is dropped before.
 pub(super) fn at_rest([lower, upper]: [StoredArray; 2]) -> Outcome<Vec<Curves>> {
     let of = |stored: StoredArray| Topography::new(stored.grid, stored.field);
     let charts = |body: Topography, title: &str| {
         let states = [("", &body)];
-        [material_ratio(&states, title), spectrum(&states, title)]
+        rayon::join(|| material_ratio(&states, title), || spectrum(&states, title))
     };
-    let [lower_ratio, lower_spectrum] = charts(of(lower)?, BODIES[0]);
-    let [upper_ratio, upper_spectrum] = charts(of(upper)?.underside(), BODIES[1]);
+    let (lower_ratio, lower_spectrum) = charts(of(lower)?, BODIES[0]);
+    let (upper_ratio, upper_spectrum) = charts(of(upper)?.underside(), BODIES[1]);
     Ok(with_points([vec![lower_ratio, upper_ratio], vec![lower_spectrum, upper_spectrum]]))
 }
 

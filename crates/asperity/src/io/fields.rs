@@ -37,6 +37,8 @@ pub struct FieldFile {
     arrays: BTreeMap<String, Digest>,
     /// The file on disk, or the error of its creation.
     draft: Result<FieldDraft>,
+    /// The last array, if it is packed. It is written while the next one is packed.
+    last: Option<PackedArray>,
     /// Whether each value must be a finite number, unless its field may contain others.
     finite: bool,
 }
@@ -74,7 +76,7 @@ impl FieldFile {
     /// [`FieldFile::write`] has succeeded, which also reports earlier errors.
     pub fn new(path: &Path) -> Self {
         let (attributes, arrays) = (BTreeMap::new(), BTreeMap::new());
-        Self { attributes, arrays, draft: FieldDraft::new(path), finite: false }
+        Self { attributes, arrays, draft: FieldDraft::new(path), last: None, finite: false }
     }
 
     /// Creates a file for `path` with the identity of a run. [`FieldFile::write`] rejects a value that is not finite with
@@ -181,18 +183,37 @@ impl FieldFile {
         let finite = self.finite && self.draft.is_ok();
         let digest = || array_digest([unit, axes], shape, [pitch, origin], values.iter());
         let examined = || (digest(), if finite { check_finite(name, shape, values) } else { Ok(()) });
-        let ((digest, checked), packed) = rayon::join(examined, || Packed::new(values, &sizes));
+        let pack = || Packed::new(values, &sizes);
+        let ((digest, checked), (packed, ())) =
+            rayon::join(examined, || rayon::join(pack, || self.write_last()));
         let other = self.arrays.insert(name.to_owned(), digest);
         assert!(other.is_none(), "two arrays named {name}");
         if let (Ok(_), Err(error)) = (&self.draft, checked) {
             self.draft = Err(error);
         }
+        match packed {
+            Some(packed) => {
+                self.last = Some(PackedArray { name: name.to_owned(), shape: sizes, packed, attributes });
+            }
+            None => self.in_draft(|draft| draft.add(name, values, &sizes, attributes)),
+        }
+        self
+    }
+
+    /// Writes the last array, if it has not been written.
+    fn write_last(&mut self) {
+        if let Some(array) = self.last.take() {
+            self.in_draft(|draft| draft.add_packed(array));
+        }
+    }
+
+    /// Performs a task on the file, unless an earlier one has failed.
+    fn in_draft(&mut self, task: impl FnOnce(&mut FieldDraft) -> std::result::Result<(), hdf5_pure::Error>) {
         if let Ok(draft) = &mut self.draft
-            && let Err(error) = draft.add(name, values, &sizes, packed, attributes)
+            && let Err(error) = task(draft)
         {
             self.draft = Err(file_error(&draft.path, error));
         }
-        self
     }
 
     /// Completes the file, and gives it its name.
@@ -200,6 +221,7 @@ impl FieldFile {
     /// # Errors
     /// [`Error::File`].
     pub fn write(mut self) -> Result<()> {
+        self.write_last();
         let digest = content_digest(&self.attributes, &self.arrays);
         self.set(DIGEST, digest.as_str());
         let FieldDraft { path, draft, file, .. } = self.draft?;
@@ -253,31 +275,33 @@ impl FieldDraft {
         name: &str,
         values: &[f64],
         shape: &[u64],
-        packed: Option<Packed>,
-        attributes: [(&str, AttrValue); 4],
+        attributes: Attributes,
     ) -> std::result::Result<(), hdf5_pure::Error> {
-        let Some(packed) = packed else {
-            let chunk = chunk(shape);
-            self.file.root().create_dataset(name, |dataset: &mut DatasetBuilder| {
-                dataset.with_f64_data(values).with_shape(shape);
-                if values.len() >= MIN_COMPRESSED {
-                    dataset.with_chunks(&chunk).with_shuffle().with_deflate(DEFLATE_LEVEL);
-                }
-                for (name, value) in attributes {
-                    dataset.set_attr(name, value);
-                }
-            })?;
-            return self.wait(size_of_val(values));
-        };
-        let image = image::image(shape, &packed.chunk, &packed.chunks, DEFLATE_LEVEL);
+        let chunk = chunk(shape);
+        self.file.root().create_dataset(name, |dataset: &mut DatasetBuilder| {
+            dataset.with_f64_data(values).with_shape(shape);
+            if values.len() >= MIN_COMPRESSED {
+                dataset.with_chunks(&chunk).with_shuffle().with_deflate(DEFLATE_LEVEL);
+            }
+            for (name, value) in attributes {
+                dataset.set_attr(name, value);
+            }
+        })?;
+        self.wait(size_of_val(values))
+    }
+
+    /// Adds a packed array with its attributes.
+    fn add_packed(&mut self, array: PackedArray) -> std::result::Result<(), hdf5_pure::Error> {
+        let PackedArray { name, shape, packed, attributes } = array;
+        let image = image::image(&shape, &packed.chunk, &packed.chunks, DEFLATE_LEVEL);
         drop(packed);
         let bytes = image.len();
         let image = File::from_bytes(image)?;
-        self.file.copy_from(&image, image::NAME, name)?;
+        self.file.copy_from(&image, image::NAME, &name)?;
         drop(image);
         // Attributes with texts do not come with a copy.
         self.file.commit()?;
-        let mut dataset = self.file.dataset(name)?;
+        let mut dataset = self.file.dataset(&name)?;
         for (name, value) in attributes {
             dataset.set_attr(name, value)?;
         }
@@ -294,6 +318,17 @@ impl FieldDraft {
         }
         Ok(())
     }
+}
+
+/// The attributes of an array.
+type Attributes = [(&'static str, AttrValue); 4];
+
+/// A packed array with its attributes.
+struct PackedArray {
+    name: String,
+    shape: Vec<u64>,
+    packed: Packed,
+    attributes: Attributes,
 }
 
 /// Chunks of an array as they are in its file.

@@ -48,6 +48,14 @@ impl RealFft2 {
     /// # Panics
     /// If `field` is larger than the plans.
     pub(crate) fn forward(&self, field: &Field) -> Array2<Complex64> {
+        self.forward_transposed(field).t().as_standard_layout().into_owned()
+    }
+
+    /// [`RealFft2::forward`] with the spectrum indexed `[l, k]`, which takes less memory.
+    ///
+    /// # Panics
+    /// If `field` is larger than the plans.
+    pub(crate) fn forward_transposed(&self, field: &Field) -> Array2<Complex64> {
         assert!(field.nrows() <= self.shape[0] && field.ncols() <= self.shape[1], "shape of the field");
         let mut columns = self.rows_forward(field.nrows(), |ix, row| {
             let values = field.row(ix);
@@ -57,7 +65,7 @@ impl RealFft2 {
         self.each_column(&mut columns, |_, column, scratch| {
             self.along_x.process_with_scratch(column, scratch);
         });
-        columns.t().as_standard_layout().into_owned()
+        columns
     }
 
     /// Computes the first rows and columns, of this `shape`, of the field with this spectrum.
@@ -201,7 +209,7 @@ pub(crate) fn symmetric_transform(half: &Field, [nx, ny]: [usize; 2]) -> Field {
 /// Rows transposed at a time: two cache lines of complex numbers.
 const BLOCK: usize = 8;
 /// Smallest amount of complex numbers per thread.
-pub(super) const SHARE: usize = 1 << 17;
+pub(super) const SHARE: usize = 1 << 16;
 
 /// Transforms the first `rows` rows, which `row` sets, into the first entries of the columns.
 fn transform_rows(

@@ -19,7 +19,7 @@ pub(crate) fn map<T: Send, R: Send>(
 }
 
 /// Smallest number of bands per thread.
-pub(crate) const BANDS_AT_ONCE: usize = 4;
+pub(crate) const BANDS_AT_ONCE: usize = 2;
 
 /// Performs a `task` on each of some parts. Returns the results in their order. Each thread has its own scratch
 /// memory from the `pool`; `new` creates missing memory.

@@ -311,7 +311,7 @@ impl StaticRecord {
             contact_area: solution.grid.cell_area() * solution.contact_cells() as f64,
             apparent_area: solution.grid.area(),
             max_pressure: solution.max_pressure(),
-            mean_gap: solution.gap().mean().unwrap_or(0.0),
+            mean_gap: solution.mean_gap(),
             elastic_energy: solution.elastic_energy(),
             plastic_cells: solution.capped_cells(),
             plastic_volume: solution.plastic_volume(),

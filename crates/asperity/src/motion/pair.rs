@@ -2,9 +2,10 @@
 
 use crate::adhesion::Adhesion;
 use crate::error::{Error, Result};
-use crate::grid::{CellValues, Field, Grid, Placement, check_finite};
+use crate::grid::{CellValues, Field, Grid, Placement, check_finite, flat_mut};
 use crate::kernel::{SharedResponse, response};
 use crate::material::{Compliances, Material, plastic_share};
+use crate::math::{Bands, parallel};
 use crate::motion::body::{Body, State};
 use crate::motion::path::Position;
 use crate::operator::{Boundary, Operators};
@@ -290,11 +291,14 @@ pub(crate) fn opposing_values(
 /// Undeformed gap h = z₂ − z₁ between opposing cells of the lower and of the upper surface.
 pub(crate) fn initial_gap(surfaces: [&Field; 2], position: &Position) -> Field {
     let [lower, upper] = position.placements(surfaces.map(|surface| [surface.nrows(), surface.ncols()]));
-    let mut gap = Field::zeros([position.columns, surfaces[0].ncols()]);
-    for (j, mut row) in gap.outer_iter_mut().enumerate() {
-        let row = row.as_slice_mut().expect("standard layout");
-        upper.for_column(surfaces[1], j, row, |h, z2| *h = z2);
-        lower.for_column(surfaces[0], j, row, |h, z1| *h -= z1);
-    }
+    let shape = [position.columns, surfaces[0].ncols()];
+    let mut gap = Field::zeros(shape);
+    let bands = Bands::of(shape);
+    parallel::map(bands.rows().zip(bands.cut_mut(flat_mut(&mut gap))), |(rows, gap)| {
+        for (j, row) in rows.zip(gap.chunks_mut(shape[1])) {
+            upper.for_column(surfaces[1], j, row, |h, z2| *h = z2);
+            lower.for_column(surfaces[0], j, row, |h, z1| *h -= z1);
+        }
+    });
     gap
 }

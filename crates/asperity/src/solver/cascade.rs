@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
+use crate::math::parallel;
 use crate::ranks::{Largest, Slab};
 use crate::solver::active_set::{self, Answer, Stage};
 use crate::solver::site::Site;
@@ -117,5 +118,5 @@ fn first_guess(
 /// slab that it covers.
 fn prolong(coarse: &Field, first: usize, fine: &Slab) -> Field {
     let offset = fine.rows().start;
-    Field::from_shape_fn(fine.grid().shape, |(i, j)| coarse[[(offset + i) / 2 - first, j / 2]])
+    parallel::field(fine.grid().shape, |i, j| coarse[[(offset + i) / 2 - first, j / 2]])
 }

@@ -44,14 +44,17 @@ pub use watch::Watch;
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use ndarray::Array2;
 
 use crate::choice::choice;
 use crate::error::{Error, Result, check, check_in};
-use crate::grid::{CellValues, Field, Grid};
+use crate::grid::{CellValues, Field, Grid, flat};
+use crate::math::sum::sums;
+use crate::math::{Bands, parallel};
 use crate::operator::Operator;
-use crate::ranks::{Largest, Slab};
+use crate::ranks::{Largest, Merged, Slab};
 use crate::units::{CubicMetre, Dimension, Joule, Metre, Newton, Pascal, SquareMetre};
 
 /// Prescribed load or approach of a contact.
@@ -215,13 +218,24 @@ impl Solution {
         contact
     }
 
-    fn count(&self, is: impl Fn(usize, Pascal) -> bool) -> usize {
-        self.pressure.iter().enumerate().filter(|(cell, p)| is(*cell, **p)).count()
+    fn count(&self, is: impl Fn(usize, Pascal) -> bool + Sync) -> usize {
+        let pressure = flat(&self.pressure);
+        let [count] = self.merged(|cells| [cells.filter(|cell| is(*cell, pressure[*cell])).count() as f64]);
+        count as usize
+    }
+
+    /// Merges the results of a function of some consecutive cells.
+    fn merged<M: Merged + Send>(&self, of: impl Fn(Range<usize>) -> M + Sync) -> M {
+        let bands = Bands::of([self.pressure.nrows(), self.pressure.ncols()]);
+        let cells = bands.rows().map(|rows| rows.start * bands.columns()..rows.end * bands.columns());
+        M::of_parts(parallel::map(cells, of))
     }
 
     /// Returns the largest pressure, at least 0.
     pub fn max_pressure(&self) -> Pascal {
-        self.pressure.iter().copied().fold(0.0, f64::max)
+        let pressure = flat(&self.pressure);
+        let Largest(most) = self.merged(|cells| Largest(pressure[cells].iter().copied().fold(0.0, f64::max)));
+        most
     }
 
     /// Returns the deformed gap g = h + u − δ, m. It is negative at capped cells with interference.
@@ -229,8 +243,21 @@ impl Solution {
         &self.initial_gap + &self.displacement - self.approach
     }
 
+    /// Returns the mean of the [`Solution::gap`], m.
+    pub(crate) fn mean_gap(&self) -> Metre {
+        let [gap, displacement] = [&self.initial_gap, &self.displacement].map(flat);
+        let [sum] = self.merged(|cells| {
+            let displacement = &displacement[cells.clone()];
+            sums(&gap[cells], |cell, h| [h + displacement[cell] - self.approach])
+        });
+        sum / self.pressure.len() as f64
+    }
+
     /// Returns the plastic interference w = δ − h − u ≥ 0 at the capped cells, m; 0 elsewhere.
     pub fn plastic_interference(&self) -> Field {
+        if self.capped_cells() == 0 {
+            return Field::zeros(self.grid.shape);
+        }
         let mut interference = self.gap();
         let cells = interference.iter_mut().zip(&self.pressure).enumerate();
         cells.for_each(|(cell, (w, p))| *w = if self.bounds.caps(cell, *p) { (-*w).max(0.0) } else { 0.0 });
@@ -248,8 +275,12 @@ impl Solution {
     /// Returns the elastic energy ½ ΔA Σ p u. Under a periodic boundary it excludes the mean displacement, which
     /// is free.
     pub fn elastic_energy(&self) -> Joule {
-        let rows = self.pressure.rows().into_iter().zip(self.displacement.rows());
-        0.5 * self.grid.cell_area() * rows.map(|(p, u)| p.dot(&u)).sum::<f64>()
+        let [pressure, displacement] = [&self.pressure, &self.displacement].map(flat);
+        let [work] = self.merged(|cells| {
+            let displacement = &displacement[cells.clone()];
+            sums(&pressure[cells], |cell, p| [p * displacement[cell]])
+        });
+        0.5 * self.grid.cell_area() * work
     }
 }
 

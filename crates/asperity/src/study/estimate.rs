@@ -14,9 +14,12 @@ use super::prepare::{Bodies, MountedSurface};
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid};
 use crate::material::{Compliances, plastic_share};
+use crate::math::sum::sums;
+use crate::math::{Bands, parallel};
 use crate::motion::{
     LoadControl, Motion, Position, Stage, Strategy, check_limit, initial_gap, opposing_values,
 };
+use crate::ranks::Merged;
 use crate::reference::HertzSphere;
 use crate::solver::{Control, Coupling, Creep, Friction, Rolling, Tangential};
 use crate::study::subsurface::Plan;
@@ -653,7 +656,15 @@ fn difference(heights: &Field, axis: usize, cells: usize) -> f64 {
     }
     let far = heights.slice_axis(ndarray::Axis(axis), (cells..).into());
     let near = heights.slice_axis(ndarray::Axis(axis), (..n - cells).into());
-    let sum: f64 = far.iter().zip(near).map(|(far, near)| (far - near).powi(2)).sum();
+    let parts = parallel::map(Bands::of([far.nrows(), far.ncols()]).rows(), |rows| {
+        let squares = rows.map(|row| {
+            let (far, near) = (far.row(row), near.row(row));
+            let near = near.to_slice().expect("rows are contiguous");
+            sums(far.to_slice().expect("rows are contiguous"), |cell, far| [(far - near[cell]).powi(2)])[0]
+        });
+        [squares.sum::<f64>()]
+    });
+    let [sum] = Merged::of_parts(parts);
     (sum / far.len() as f64).sqrt() / cells as f64
 }
 

@@ -5,6 +5,7 @@ use serde::Serialize;
 use crate::choice::choice;
 use crate::error::{Result, check_in};
 use crate::grid::{Field, Grid};
+use crate::math::parallel;
 use crate::ranks::Slab;
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre};
@@ -105,7 +106,7 @@ impl Form {
         let (grid, rows) = (slab.whole_grid(), slab.rows());
         self.check(&grid)?;
         let extent = grid.extent();
-        Ok(Field::from_shape_fn(slab.grid().shape, |(i, iy)| {
+        Ok(parallel::field(slab.grid().shape, |i, iy| {
             let at =
                 |ix| self.height(grid.centre(0, ix) - 0.5 * extent[0], grid.centre(1, iy) - 0.5 * extent[1]);
             let ix = rows.start + i;

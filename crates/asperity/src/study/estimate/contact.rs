@@ -4,9 +4,14 @@
 
 use std::f64::consts::SQRT_2;
 
+use ndarray::s;
+
 use crate::grid::Field;
+use crate::math::sum::sums;
+use crate::math::{Bands, parallel};
 use crate::motion::{Position, initial_gap, largest_spot};
 use crate::operator::Boundary;
+use crate::ranks::Merged;
 use crate::reference::HertzEllipse;
 use crate::solver::Control;
 use crate::units::{self, Dimension, Metre, Pascal};
@@ -44,18 +49,30 @@ impl Paraboloid {
             places[axis].iter().map(|s| s * s - mean).collect::<Vec<f64>>()
         });
         let mean = gap.mean()?;
-        let mut products = [[0.0; 2]; 5];
-        let mut variance = 0.0;
-        for ((i, j), h) in gap.indexed_iter() {
-            let h = h - mean;
-            let terms =
-                [places[0][i], places[1][j], squares[0][i], squares[1][j], places[0][i] * places[1][j]];
-            for (product, term) in products.iter_mut().zip(terms) {
-                product[0] += h * term;
-                product[1] += term * term;
-            }
-            variance += h * h;
-        }
+        // Sums over a row of h, h y, h (y² − its mean) and h².
+        let [y, yy] = [&places[1], &squares[1]];
+        let of_row = |i: usize| {
+            let row = gap.row(i);
+            let row = row.to_slice().expect("standard layout");
+            sums(row, |j, h| [h - mean, (h - mean) * y[j], (h - mean) * yy[j], (h - mean).powi(2)])
+        };
+        let parts = parallel::map(Bands::of(shape).rows(), |rows| {
+            rows.fold([0.0; 6], |sums, i| {
+                let [h, hy, hyy, hh] = of_row(i);
+                let terms = [places[0][i] * h, hy, squares[0][i] * h, hyy, places[0][i] * hy, hh];
+                [0, 1, 2, 3, 4, 5].map(|term| sums[term] + terms[term])
+            })
+        });
+        let [x_sum, y_sum, xx_sum, yy_sum, xy_sum, variance] = Merged::of_parts(parts);
+        let norm = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
+        let (rows, columns) = (shape[0] as f64, shape[1] as f64);
+        let products = [
+            [x_sum, columns * norm(&places[0])],
+            [y_sum, rows * norm(y)],
+            [xx_sum, columns * norm(&squares[0])],
+            [yy_sum, rows * norm(yy)],
+            [xy_sum, norm(&places[0]) * norm(y)],
+        ];
         let coefficient = |[product, norm]: [f64; 2]| if norm > 0.0 { product / norm } else { 0.0 };
         let told = |[product, norm]: [f64; 2]| if norm > 0.0 { product * product / norm } else { 0.0 };
         let planar = variance - told(products[0]) - told(products[1]);
@@ -327,17 +344,16 @@ struct Sides {
 impl Sides {
     fn of(pressure: &Field, axis: usize) -> Self {
         let n = pressure.len_of(ndarray::Axis(axis));
-        let lines = || pressure.axis_iter(ndarray::Axis(axis));
-        let ends = || lines().step_by((n - 1).max(1));
+        let ends = || pressure.axis_iter(ndarray::Axis(axis)).step_by((n - 1).max(1));
         let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-        let [nx, ny] = [pressure.nrows(), pressure.ncols()];
-        let within = |i: usize, n: usize| i > 0 && i + 1 < n;
-        let inside = pressure.indexed_iter().filter(|((i, j), _)| within(*i, nx) && within(*j, ny));
+        let end = |n: usize| (n - 1).max(1);
+        let inside = pressure.slice(s![1..end(pressure.nrows()), 1..end(pressure.ncols())]);
+        let lines = pressure.sum_axis(ndarray::Axis(1 - axis));
         Self {
             rim: most(&mut ends().flat_map(|line| line.to_vec())),
-            inside: most(&mut inside.map(|(_, p)| *p)),
+            inside: inside.fold(0.0, |most, p| if *p > most { *p } else { most }),
             line: most(&mut ends().map(|line| line.sum())),
-            fullest: most(&mut lines().take(n - 1).skip(1).map(|line| line.sum())),
+            fullest: most(&mut lines.iter().copied().take(n - 1).skip(1)),
         }
     }
 }

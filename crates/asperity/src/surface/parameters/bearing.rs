@@ -20,8 +20,6 @@ use crate::units::Metre;
 pub struct BearingCurve {
     /// Descending, relative to the mean.
     heights: Vec<Metre>,
-    /// Sum of the heights before each one.
-    sums: Vec<Metre>,
 }
 
 impl BearingCurve {
@@ -30,20 +28,16 @@ impl BearingCurve {
     /// # Errors
     /// [`Error::NothingDefined`] if all are undefined.
     pub fn new<'a>(samples: impl IntoIterator<Item = &'a f64>) -> Result<Self> {
-        let mut undefined = 0;
-        let defined = samples.into_iter().copied().filter(|z| {
-            undefined += usize::from(z.is_nan());
-            !z.is_nan()
-        });
-        let mut heights: Vec<f64> = defined.collect();
+        let mut heights: Vec<f64> = samples.into_iter().copied().collect();
+        let all = heights.len();
+        heights.retain(|z| !z.is_nan());
         if heights.is_empty() {
-            return Err(Error::NothingDefined { samples: undefined });
+            return Err(Error::NothingDefined { samples: all });
         }
         let mean = heights.iter().sum::<f64>() / heights.len() as f64;
         heights.iter_mut().for_each(|z| *z -= mean);
         heights.par_sort_unstable_by(|a, b| b.total_cmp(a));
-        let sums = heights.iter().scan(0.0, |sum, z| Some(std::mem::replace(sum, *sum + z))).collect();
-        Ok(Self { heights, sums })
+        Ok(Self { heights })
     }
 
     /// Returns Smc, the height at a material ratio from 0 (the highest sample) to 1 (the lowest), relative to the mean.
@@ -88,7 +82,9 @@ impl BearingCurve {
     /// ∫₀ᵖ z(q) dq.
     fn integral(&self, ratio: f64) -> Metre {
         let Place { index, beyond, step } = self.place(ratio);
-        let sum = self.sums[index] + self.heights[index] * (0.5 + beyond) + 0.5 * beyond * beyond * step;
+        let sum = self.heights[..index].iter().sum::<f64>()
+            + self.heights[index] * (0.5 + beyond)
+            + 0.5 * beyond * beyond * step;
         sum / self.heights.len() as f64
     }
 

@@ -96,7 +96,7 @@ impl Topography {
             Slope::Y => y,
             Slope::Magnitude => x.hypot(y),
         };
-        Distribution::of(gradients(self).map(pick).collect(), classes)
+        Distribution::of(gradients(self, 0..self.grid().shape[0]).map(pick).collect(), classes)
     }
 }
 

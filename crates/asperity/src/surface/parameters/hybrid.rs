@@ -2,6 +2,8 @@
 
 use super::row::family;
 use super::slope::gradients;
+use crate::math::{Bands, parallel};
+use crate::ranks::Merged;
 use crate::surface::Topography;
 
 family! {
@@ -27,14 +29,16 @@ family! {
 impl HybridParameters {
     /// Computes the hybrid parameters of `topography`.
     pub fn of(topography: &Topography) -> Self {
-        let (mut squares, mut excess, mut count) = (0.0, 0.0, 0usize);
-        for [x, y] in gradients(topography) {
-            let square = x * x + y * y;
-            squares += square;
-            excess += area_excess(square);
-            count += 1;
-        }
-        Self { sdq: (squares / count as f64).sqrt(), sdr: excess / count as f64 }
+        let parts = parallel::map(Bands::of(topography.grid().shape).rows(), |rows| {
+            let mut sums = [0.0; 3];
+            for [x, y] in gradients(topography, rows) {
+                let square = x * x + y * y;
+                sums = [sums[0] + square, sums[1] + area_excess(square), sums[2] + 1.0];
+            }
+            sums
+        });
+        let [squares, excess, count] = Merged::of_parts(parts);
+        Self { sdq: (squares / count).sqrt(), sdr: excess / count }
     }
 }
 

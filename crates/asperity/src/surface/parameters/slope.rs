@@ -1,5 +1,8 @@
 //! Local slopes, for the hybrid parameters and the distribution of slopes.
 
+use std::ops::Range;
+
+use crate::grid::flat;
 use crate::surface::Topography;
 
 /// Derivative at a sample from the six around it, with `pair(k)` = z₊ₖ − z₋ₖ:
@@ -15,21 +18,23 @@ pub(crate) fn derivative(pair: impl Fn(usize) -> f64, pitch: f64) -> f64 {
 /// Number of samples on either side for a [`derivative`].
 pub(crate) const REACH: usize = 3;
 
-/// Iterates over ∂z/∂x and ∂z/∂y at each sample with three defined neighbours on every side, x slowest.
+/// Iterates over ∂z/∂x and ∂z/∂y at each sample of some `rows` with three defined neighbours on every side, x slowest.
 ///
 /// The slope along a direction with one sample is 0.
-pub(crate) fn gradients(topography: &Topography) -> impl Iterator<Item = [f64; 2]> {
-    let (grid, z) = (*topography.grid(), topography.heights());
+pub(crate) fn gradients(topography: &Topography, rows: Range<usize>) -> impl Iterator<Item = [f64; 2]> {
+    let (grid, z) = (*topography.grid(), flat(topography.heights()));
     let [inner_x, inner_y] = grid.shape.map(|n| {
         let border = if n > 1 { REACH } else { 0 };
         border..n.saturating_sub(border)
     });
-    let along = move |axis: usize, ix: usize, iy: usize| match (grid.shape[axis], axis) {
+    let columns = grid.shape[1];
+    let along = move |axis: usize, cell: usize| match (grid.shape[axis], axis) {
         (1, _) => 0.0,
-        (_, 0) => derivative(|k| z[[ix + k, iy]] - z[[ix - k, iy]], grid.pitch[0]),
-        _ => derivative(|k| z[[ix, iy + k]] - z[[ix, iy - k]], grid.pitch[1]),
+        (_, 0) => derivative(|k| z[cell + k * columns] - z[cell - k * columns], grid.pitch[0]),
+        _ => derivative(|k| z[cell + k] - z[cell - k], grid.pitch[1]),
     };
+    let inner_x = inner_x.start.max(rows.start)..inner_x.end.min(rows.end);
     inner_x
-        .flat_map(move |ix| inner_y.clone().map(move |iy| [along(0, ix, iy), along(1, ix, iy)]))
+        .flat_map(move |ix| inner_y.clone().map(move |iy| [0, 1].map(|axis| along(axis, ix * columns + iy))))
         .filter(|[x, y]| !(x.is_nan() || y.is_nan()))
 }

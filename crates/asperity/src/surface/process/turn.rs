@@ -6,7 +6,7 @@ use ndarray::Axis as Dimension;
 
 use super::spline::{hermite, slopes};
 use crate::error::{Result, check_in};
-use crate::grid::{Field, Grid};
+use crate::grid::{Field, Grid, flat_mut};
 use crate::math::parallel;
 use crate::surface::{Axis, Fill, Topography};
 use crate::units;
@@ -14,9 +14,18 @@ use crate::units;
 impl Topography {
     /// Mirrors the topography: along `axis` the first sample becomes the last.
     pub fn mirror(mut self, axis: Axis) -> Self {
-        self.heights_mut().invert_axis(dimension(axis));
-        let heights = self.heights().as_standard_layout().into_owned();
-        *self.heights_mut() = heights;
+        let [rows, columns] = self.grid().shape;
+        let heights = flat_mut(self.heights_mut());
+        match axis {
+            Axis::X => {
+                let (first, last) = heights.split_at_mut(rows / 2 * columns);
+                first
+                    .chunks_mut(columns)
+                    .zip(last.rchunks_mut(columns))
+                    .for_each(|(a, b)| a.swap_with_slice(b));
+            }
+            Axis::Y => heights.chunks_mut(columns).for_each(<[f64]>::reverse),
+        }
         self
     }
 
@@ -90,13 +99,6 @@ impl Topography {
             }
         });
         Self::new(new, heights)
-    }
-}
-
-fn dimension(axis: Axis) -> Dimension {
-    match axis {
-        Axis::X => Dimension(0),
-        Axis::Y => Dimension(1),
     }
 }
 

@@ -11,9 +11,10 @@ use asperity_transforms::num_complex::Complex64;
 use ndarray::Array2;
 use serde::Serialize;
 
-use crate::grid::{Field, Grid};
+use crate::grid::{Field, Grid, flat};
 use crate::math::RealFft2;
 use crate::math::fft::angular_frequency;
+use crate::math::sum::sums;
 use crate::surface::{Axis, Fill, Topography};
 use crate::units::{RadianPerMetre, SquareMetre};
 
@@ -59,14 +60,18 @@ impl Spectrum {
         let first = heights[[0, 0]];
         heights -= first;
         let weights = window.weights(grid.shape);
-        let mean = (&heights * &weights).sum() / weights.sum();
+        let weight = flat(&weights);
+        let [weighted] = sums(flat(&heights), |cell, z| [z * weight[cell]]);
+        let mean = weighted / weights.sum();
         heights.zip_mut_with(&weights, |z, w| *z = (*z - mean) * w);
         // Neither is needed any more, and each is as large as the topography.
         drop(weights);
-        let transform: Array2<Complex64> = RealFft2::new(grid.shape).forward(&heights);
+        let transform: Array2<Complex64> = RealFft2::new(grid.shape).forward_transposed(&heights);
         drop(heights);
         let scale = grid.cell_area() / grid.cells() as f64;
-        Self { grid, density: transform.mapv(|z| scale * z.norm_sqr()) }
+        let density = transform.mapv(|z| scale * z.norm_sqr());
+        drop(transform);
+        Self { grid, density: density.t().as_standard_layout().into_owned() }
     }
 
     /// C(q), m⁴, at the wave vectors [`Spectrum::wave_vector`]. Those with a negative qy are omitted, because C(−q) = C(q).
