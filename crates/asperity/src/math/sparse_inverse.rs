@@ -118,12 +118,13 @@ impl SparseInverse {
         }
     }
 
-    /// Adds GᵀG r to `z` for the free `cells` of some rows, each with its pattern.
+    /// Adds GᵀG r to `z` for the free `cells` of some rows, each with its pattern. Returns the sum of squares of G r.
     ///
     /// In addition to these rows, `r` and `z` have the [`ROWS_ABOVE`] rows before them, and cells count from the
     /// first cell of these. Before the first row of a grid they are the last rows if it wraps along x, otherwise
     /// zero. `r` is zero for cells that are not free.
-    pub(crate) fn add(&self, cells: impl Iterator<Item = (usize, u8)>, r: &[f32], z: &mut [f32]) {
+    pub(crate) fn add(&self, cells: impl Iterator<Item = (usize, u8)>, r: &[f32], z: &mut [f32]) -> f64 {
+        let mut squares = 0.0;
         let ny = self.shape[1];
         let back = CAUSAL.map(|(di, dj)| (-di * ny as isize - dj) as usize);
         for (cell, pattern) in cells {
@@ -141,7 +142,9 @@ impl SparseInverse {
             neighbours.iter().zip(row).for_each(|(&neighbour, g)| product += g * r[neighbour]);
             z[cell] += row[NEIGHBOURS] * product;
             neighbours.iter().zip(row).for_each(|(&neighbour, g)| z[neighbour] += g * product);
+            squares += f64::from(product) * f64::from(product);
         }
+        squares
     }
 }
 

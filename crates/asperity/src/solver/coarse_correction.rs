@@ -6,13 +6,16 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::grid::{Field, SingleField};
+use crate::math::sum::sums;
 use crate::math::{Convolution, Kernel, fft::angular_frequency, parallel};
 use crate::operator::{Edge, Operator};
 use crate::ranks::{Halo, Merged, Slab};
-use crate::solver::sets::Sets;
+use crate::solver::sets::{Set, Sets};
 
 /// Fine cells per coarse cell, along each axis.
 const COARSENING: usize = 16;
+/// In a row of which no more than one cell in this many is free, each free cell is visited by itself.
+const SPARSE: usize = 4;
 /// Nodes beyond each end of a free axis. Without them the cyclic stiffness would couple opposite borders.
 const MARGIN: usize = 2;
 /// Fraction of free cells added in the weight, so that it stays finite in sparsely covered coarse cells; see
@@ -95,62 +98,43 @@ impl CoarseCorrection {
     pub(super) fn adapt(&mut self, sets: &Sets, free: f64) {
         let (free, all) = (free as f32, self.bilinear.slab.whole_grid().cells() as f32);
         self.open = 1.0 - (free - 1.0) / all;
-        self.bilinear.restrict(sets, |_| 1.0, &mut self.weight);
+        self.bilinear.restrict(sets, None, &mut self.weight);
         self.weight.mapv_inplace(|count| 1.0 / (count / self.cells + MIN_COVER));
     }
 
-    /// Restricts the residual `r` of each cell to the nodes and solves there.
-    pub(super) fn solve(&mut self, sets: &Sets, r: &(impl Fn(usize) -> f32 + Sync)) {
-        self.restrict(sets, r);
+    /// Restricts the residual `r`, which is zero for cells that are not free, to the nodes and solves there. Returns Σ r, and the
+    /// product of r with the coarse solution on the free cells.
+    pub(super) fn solve(&mut self, sets: &Sets, r: &[f32]) -> [f64; 2] {
+        self.bilinear.restrict(sets, Some(r), &mut self.restricted);
+        let sum = self.restricted.iter().copied().map(f64::from).sum();
+        self.restricted *= &self.weight;
         self.stiffness.apply(&self.restricted, &mut self.solved);
         self.solved +=
             self.mean_stiffness * self.restricted.sum() / (self.restricted.len() as f32 * self.open.powi(2));
+        let terms = self.restricted.iter().zip(&self.solved);
+        let product = terms.map(|(r, z)| f64::from(*r) * f64::from(*z)).sum();
         self.solved *= &self.weight;
+        [sum, product]
     }
 
-    /// Writes the local part of the residual to `rest`, for the free cells of `rows`, whose first begins at
-    /// `rest[0]`: `(I − T) A r` with the smoothing T = P D Pᵀ.
-    pub(super) fn without_smooth_part(
-        &self,
-        sets: &Sets,
-        rows: Range<usize>,
-        r: &(impl Fn(usize) -> f32 + Sync),
-        rest: &mut [f32],
-    ) {
-        let columns = sets.bands().columns();
-        let scale = 1.0 / self.cells;
-        let first = rows.start * columns;
-        self.bilinear.interpolate(sets, rows, &self.restricted, |cell, wide| {
-            rest[cell - first] = r(cell) - scale * wide;
-        });
+    /// Removes its smooth part from the residual `r` of the free cells of some rows: `(I − T) A r` with the smoothing
+    /// T = P D Pᵀ.
+    pub(super) fn remove_smooth_part(&self, sets: &Sets, rows: Range<usize>, r: &mut [f32]) {
+        self.bilinear.add(sets, rows, &self.restricted, -1.0 / self.cells, r);
     }
 
     /// Removes the smooth part of `z`, and adds the coarse solution for the last `r`: `(I − T)ᵀ z + P D B D Pᵀ A
-    /// r`. Returns Σ z, Σ r and Σ r z of the free cells.
-    pub(super) fn join(
-        &mut self,
-        sets: &Sets,
-        r: &(impl Fn(usize) -> f32 + Sync),
-        z: &mut [f32],
-    ) -> [f64; 3] {
-        self.restrict(sets, &|cell| z[cell]);
+    /// r`. Returns Σ z of the free cells.
+    pub(super) fn join(&mut self, sets: &Sets, z: &mut [f32]) -> f64 {
+        self.bilinear.restrict(sets, Some(z), &mut self.restricted);
+        self.restricted *= &self.weight;
         self.solved.scaled_add(-1.0 / self.cells, &self.restricted);
         let bands = sets.bands();
-        Merged::of_parts(parallel::map(bands.rows().zip(bands.cut_mut(z)), |(rows, z)| {
-            let (first, mut sums) = (rows.start * bands.columns(), [0.0; 3]);
-            self.bilinear.interpolate(sets, rows, &self.solved, |cell, wide| {
-                z[cell - first] += wide;
-                let [r, z] = [r(cell), z[cell - first]].map(f64::from);
-                sums = [sums[0] + z, sums[1] + r, sums[2] + r * z];
-            });
-            sums
-        }))
-    }
-
-    /// Computes the restricted residual D Pᵀ A r.
-    fn restrict(&mut self, sets: &Sets, r: &(impl Fn(usize) -> f32 + Sync)) {
-        self.bilinear.restrict(sets, r, &mut self.restricted);
-        self.restricted *= &self.weight;
+        let [sum] = Merged::of_parts(parallel::map(bands.rows().zip(bands.cut_mut(z)), |(rows, z)| {
+            self.bilinear.add(sets, rows, &self.solved, 1.0, z);
+            sums(z, |_, z| [f64::from(z)])
+        }));
+        sum
     }
 }
 
@@ -158,6 +142,10 @@ impl CoarseCorrection {
 struct Bilinear {
     /// For each row (column) of cells, the node before it and the fraction of the distance to the next node, 0 … 1.
     along: [Vec<(usize, f32)>; 2],
+    /// The nodes before some columns of cells, and these columns.
+    between: Vec<(usize, Range<usize>)>,
+    /// The fraction of the distance to the next node for each column.
+    shares: Vec<f32>,
     /// Rows of cells between two rows of nodes.
     cells: f64,
     slab: Slab,
@@ -195,20 +183,19 @@ impl Bilinear {
         let own = halo.own_rows();
         let first = slab.rows().start - own.start;
         along[0] = along[0][first..first + halo.shape()[0]].to_vec();
-        Self { along, cells, slab, own, reached }
+        let columns: Vec<usize> = (0..along[1].len()).collect();
+        let between = columns.chunk_by(|a, b| along[1][*a].0 == along[1][*b].0);
+        let between = between.map(|some| (along[1][some[0]].0, some[0]..some[0] + some.len())).collect();
+        let shares = along[1].iter().map(|(_, share)| *share).collect();
+        Self { along, between, shares, cells, slab, own, reached }
     }
 
-    /// Calls `f` with each free cell of `rows` and its value interpolated from `nodes`.
-    fn interpolate(
-        &self,
-        sets: &Sets,
-        rows: Range<usize>,
-        nodes: &SingleField,
-        mut f: impl FnMut(usize, f32),
-    ) {
+    /// Adds values interpolated from `nodes`, times a `factor`, to the `values` of the free cells of some rows.
+    fn add(&self, sets: &Sets, rows: Range<usize>, nodes: &SingleField, factor: f32, values: &mut [f32]) {
+        let columns = sets.bands().columns();
         // Values at the nodes along a row of cells; the first value is repeated at the end.
         let mut line = vec![0.0; nodes.ncols() + 1];
-        for row in rows {
+        for (row, values) in rows.zip(values.chunks_exact_mut(columns)) {
             let (cells, start) = sets.row(row);
             if cells.is_empty() {
                 continue;
@@ -216,23 +203,34 @@ impl Bilinear {
             let (node, share) = self.along[0][row];
             let ends = [nodes.row(node), nodes.row((node + 1) % nodes.nrows())];
             for ((value, a), b) in line.iter_mut().zip(ends[0]).zip(ends[1]) {
-                *value = a + share * (b - a);
+                *value = factor * (a + share * (b - a));
             }
             line[nodes.ncols()] = line[0];
-            let first = row * sets.bands().columns();
-            for column in cells.iter().map(|cell| *cell as usize - start) {
-                let (node, share) = self.along[1][column];
-                f(first + column, line[node] + share * (line[node + 1] - line[node]));
+            if is_sparse(cells, columns) {
+                for column in cells.iter().map(|cell| *cell as usize - start) {
+                    let (node, share) = self.along[1][column];
+                    values[column] += line[node] + share * (line[node + 1] - line[node]);
+                }
+                continue;
+            }
+            let sets = &sets.of()[row * columns..][..columns];
+            for (node, columns) in &self.between {
+                let (first, rise) = (line[*node], line[*node + 1] - line[*node]);
+                let cells = values[columns.clone()].iter_mut().zip(&sets[columns.clone()]);
+                for ((value, set), share) in cells.zip(&self.shares[columns.clone()]) {
+                    *value += if *set == Set::Free { first + share * rise } else { 0.0 };
+                }
             }
         }
     }
 
-    /// Applies the transpose: distributes `value` of each free cell to the nodes around it.
-    fn restrict(&self, sets: &Sets, value: impl Fn(usize) -> f32 + Sync, nodes: &mut SingleField) {
+    /// Applies the transpose: distributes the `values` to the nodes around their cells. They are zero for cells that are not
+    /// free; without values, each free cell has 1.
+    fn restrict(&self, sets: &Sets, values: Option<&[f32]>, nodes: &mut SingleField) {
         let shape = [nodes.nrows(), nodes.ncols()];
         let bands: Vec<_> =
             sets.bands().rows().map(|rows| self.own_of(rows)).filter(|rows| !rows.is_empty()).collect();
-        let parts = parallel::map(bands.into_iter(), |rows| self.restrict_rows(sets, rows, &value, shape));
+        let parts = parallel::map(bands.into_iter(), |rows| self.restrict_rows(sets, rows, values, shape));
         nodes.fill(0.0);
         for (first, part) in parts {
             for (number, part) in part.outer_iter().enumerate() {
@@ -273,35 +271,43 @@ impl Bilinear {
         &self,
         sets: &Sets,
         rows: Range<usize>,
-        value: impl Fn(usize) -> f32,
+        values: Option<&[f32]>,
         shape: [usize; 2],
     ) -> (usize, SingleField) {
         let [all, columns] = shape;
         let NodeRows { first, count } = NodeRows::new(&self.along[0][rows.clone()], self.cells, all);
         let mut part = SingleField::zeros([count, columns]);
         let mut line = vec![0.0; columns + 1];
+        let (fine, mut ones) = (sets.bands().columns(), Vec::new());
         for row in rows {
             let (cells, start) = sets.row(row);
             if cells.is_empty() {
                 continue;
             }
-            let first_cell = row * sets.bands().columns();
-            line.fill(0.0);
-            let (mut last, mut sums) = (0, [0.0; 2]);
-            for column in cells.iter().map(|cell| *cell as usize - start) {
-                let (node, share) = self.along[1][column];
-                if node != last {
-                    line[last] += sums[0];
-                    line[last + 1] += sums[1];
-                    (last, sums) = (node, [0.0; 2]);
+            let own = row * fine..(row + 1) * fine;
+            let values = match values {
+                Some(values) => &values[own],
+                None => {
+                    ones.clear();
+                    ones.extend(sets.of()[own].iter().map(|set| f32::from(u8::from(*set == Set::Free))));
+                    &ones
                 }
-                let value = value(first_cell + column);
-                let second = share * value;
-                sums[0] += value - second;
-                sums[1] += second;
+            };
+            line.fill(0.0);
+            if is_sparse(cells, fine) {
+                for column in cells.iter().map(|cell| *cell as usize - start) {
+                    let (node, share) = self.along[1][column];
+                    let second = share * values[column];
+                    line[node] += values[column] - second;
+                    line[node + 1] += second;
+                }
+            } else {
+                for (node, columns) in &self.between {
+                    let [sum, second] = weighted_sum(&values[columns.clone()], &self.shares[columns.clone()]);
+                    line[*node] += sum - second;
+                    line[*node + 1] += second;
+                }
             }
-            line[last] += sums[0];
-            line[last + 1] += sums[1];
             line[0] += line[columns];
             let (node, share) = self.along[0][row];
             let node = (node + all - first) % all;
@@ -309,6 +315,37 @@ impl Bilinear {
             part.row_mut((node + 1) % all).iter_mut().zip(&line).for_each(|(n, v)| *n += share * v);
         }
         (first, part)
+    }
+}
+
+/// Whether few of the cells of a row are free, so that each is visited by itself.
+fn is_sparse(free: &[u32], columns: usize) -> bool {
+    SPARSE * free.len() < columns
+}
+
+/// Returns the sum of some `values`, and their sum with the weights `shares`.
+fn weighted_sum(values: &[f32], shares: &[f32]) -> [f32; 2] {
+    let ((values, values_rest), (shares, shares_rest)) = (values.as_chunks(), shares.as_chunks());
+    let mut lanes = [[0.0; LANES]; 2];
+    for (values, shares) in values.iter().zip(shares) {
+        add_weighted(values, shares, &mut lanes);
+    }
+    let mut last = [[0.0]; 2];
+    for (value, share) in values_rest.iter().zip(shares_rest) {
+        add_weighted(&[*value], &[*share], &mut last);
+    }
+    [0, 1].map(|n| lanes[n].iter().sum::<f32>() + last[n][0])
+}
+
+/// Number of cells whose values are summed separately, so that none waits for another.
+const LANES: usize = 4;
+
+/// Adds some values, and their products with `shares`, to the sums of each lane.
+#[inline]
+fn add_weighted<const N: usize>(values: &[f32; N], shares: &[f32; N], [sums, weighted]: &mut [[f32; N]; 2]) {
+    for lane in 0..N {
+        sums[lane] += values[lane];
+        weighted[lane] += shares[lane] * values[lane];
     }
 }
 

@@ -37,25 +37,23 @@ pub(super) struct Preconditioner {
     coarse: CoarseCorrection,
     /// Pattern of the neighbours of each free cell of each band.
     patterns: Vec<Vec<u8>>,
-    /// Contribution of each band to the rows above it.
+    /// The residual of the rows above each band, and then the contribution of the band to them.
     above: Vec<Vec<f32>>,
     scratch: Pool<Scratch>,
     /// The scales √(c/cᵢ) of the cells; none if cells do not differ.
     scales: Option<Vec<f32>>,
 }
 
-/// Sets, residual and preconditioned residual of a slab and the rows on either side. With these rows the cells of
-/// this rank have the values of a single process.
+/// Sets and residual of a slab and the rows on either side. With these rows the cells of this rank have the values of
+/// a single process.
 struct SlabWithNeighbours {
     sets: Sets,
-    residual: Vec<f32>,
-    preconditioned: Vec<f32>,
+    values: Vec<f32>,
 }
 
 impl SlabWithNeighbours {
     fn new(shape: [usize; 2]) -> Self {
-        let zeros = || vec![0.0; shape[0] * shape[1]];
-        Self { sets: Sets::new(shape), residual: zeros(), preconditioned: zeros() }
+        Self { sets: Sets::new(shape), values: vec![0.0; shape[0] * shape[1]] }
     }
 }
 
@@ -85,7 +83,7 @@ impl Preconditioner {
         let [free] = slab.merged([sets.free_cells() as f64]);
         let sets = match around {
             None => sets,
-            Some(SlabWithNeighbours { sets: all, residual: is_free, .. }) => {
+            Some(SlabWithNeighbours { sets: all, values: is_free }) => {
                 let own = is_free[halo.own()].iter_mut().enumerate();
                 own.for_each(|(cell, value)| *value = f32::from(u8::from(sets.is_free(cell))));
                 halo.fill(is_free);
@@ -127,81 +125,99 @@ impl Preconditioner {
         });
     }
 
-    /// Computes the preconditioned residual `z = M r`, which is zero where the grid is not free, from a function for the residual
+    /// Computes the preconditioned residual `z = M r`, which is zero for cells that are not free, from a function for the residual
     /// of each free cell. Returns the sums Σ z, Σ r and Σ r z over the free cells.
     pub(super) fn apply(&mut self, sets: &Sets, r: impl Fn(usize) -> f32 + Sync, z: &mut [f32]) -> [f64; 3] {
-        let Some(scales) = self.scales.take() else { return self.apply_alike(sets, &r, z) };
-        self.apply_alike(sets, &|cell| scales[cell] * r(cell), z);
-        z.iter_mut().zip(&scales).for_each(|(z, scale)| *z *= scale);
+        let bands = sets.bands();
+        let parts = bands.cut_mut(z).zip(bands.cut(sets.of())).enumerate();
+        parallel::map(parts, |(band, (z, sets))| {
+            let first = bands.first(band);
+            let cells = z.iter_mut().zip(sets).enumerate();
+            cells.for_each(|(cell, (z, set))| *z = if *set == Set::Free { r(first + cell) } else { 0.0 });
+        });
+        self.replace(sets, z)
+    }
+
+    /// Replaces the residual r by the preconditioned residual `z = M r`. Both are zero for cells that are not free. Returns the sums
+    /// Σ z, Σ r and Σ r z.
+    pub(super) fn replace(&mut self, sets: &Sets, values: &mut [f32]) -> [f64; 3] {
+        let Some(scales) = self.scales.take() else { return self.apply_alike(sets, values) };
+        let sum = |values: &[f32]| values.iter().copied().map(f64::from).sum::<f64>();
+        let scale =
+            |values: &mut [f32]| values.iter_mut().zip(&scales).for_each(|(value, scale)| *value *= scale);
+        let residual_sum = sum(values);
+        scale(values);
+        let [_, _, product] = self.apply_alike(sets, values);
+        scale(values);
         self.scales = Some(scales);
-        products(sets, &r, z)
+        [sum(values), residual_sum, product]
     }
 
     /// [`Self::apply`] for cells that do not differ.
-    fn apply_alike(&mut self, sets: &Sets, r: &(impl Fn(usize) -> f32 + Sync), z: &mut [f32]) -> [f64; 3] {
-        let Some(mut around) = self.around.take() else { return self.apply_on_rows(sets, r, z) };
-        let SlabWithNeighbours { sets: all, residual, preconditioned } = &mut around;
-        let own = residual[self.halo.own()].iter_mut().enumerate();
-        own.for_each(|(cell, value)| *value = if sets.is_free(cell) { r(cell) } else { 0.0 });
-        self.halo.fill(residual);
-        self.apply_on_rows(all, &|cell| residual[cell], preconditioned);
-        z.copy_from_slice(&preconditioned[self.halo.own()]);
+    fn apply_alike(&mut self, sets: &Sets, values: &mut [f32]) -> [f64; 3] {
+        let Some(mut around) = self.around.take() else { return self.apply_on_rows(sets, values) };
+        let SlabWithNeighbours { sets: all, values: on_all } = &mut around;
+        on_all[self.halo.own()].copy_from_slice(values);
+        self.halo.fill(on_all);
+        self.apply_on_rows(all, on_all);
+        let mut sums = [0.0; 3];
+        for (r, z) in values.iter_mut().zip(&on_all[self.halo.own()]) {
+            let terms = [*z, *r].map(f64::from);
+            sums = [sums[0] + terms[0], sums[1] + terms[1], sums[2] + terms[0] * terms[1]];
+            *r = *z;
+        }
         self.around = Some(around);
-        products(sets, r, z)
+        sums
     }
 
     /// [`Self::apply_alike`] on the rows of a rank and its neighbouring rows. The values on the neighbouring rows
     /// are not valid.
-    fn apply_on_rows(&mut self, sets: &Sets, r: &(impl Fn(usize) -> f32 + Sync), z: &mut [f32]) -> [f64; 3] {
+    fn apply_on_rows(&mut self, sets: &Sets, values: &mut [f32]) -> [f64; 3] {
         let Self { sparse, coarse, patterns, above, scratch, .. } = self;
-        coarse.solve(sets, r);
+        let [residual_sum, coarse_product] = coarse.solve(sets, values);
         let bands = sets.bands();
         let before = ROWS_ABOVE * bands.columns();
-        let all = z.len() / bands.columns();
-        let last_rows = all.saturating_sub(ROWS_ABOVE)..all;
-        let parts = bands.rows().zip(bands.cut_mut(z)).zip(sets.in_bands()).zip(&*patterns).zip(&mut *above);
-        parallel::each(
+        let wraps = sparse.wraps_rows();
+        // The rows above the first band are the last ones of a periodic grid.
+        let all = values.len();
+        let end = |band: usize| if band == 0 { all } else { bands.first(band) };
+        for (band, above) in above.iter_mut().enumerate().skip(usize::from(!wraps)) {
+            above.copy_from_slice(&values[end(band) - before..end(band)]);
+        }
+        let last_row = all / bands.columns();
+        let parts =
+            bands.rows().zip(bands.cut_mut(values)).zip(sets.in_bands()).zip(&*patterns).zip(&mut *above);
+        let products = parallel::each(
             parts,
             1,
             scratch,
             Scratch::default,
-            |scratch, ((((rows, z), free), patterns), above)| {
+            |scratch, ((((rows, values), free), patterns), above)| {
                 let Scratch { local, image } = scratch;
-                for field in [&mut *local, image] {
-                    field.clear();
-                    field.resize(before + z.len(), 0.0);
+                local.clear();
+                local.extend_from_slice(above);
+                local.extend_from_slice(values);
+                image.clear();
+                image.resize(local.len(), 0.0);
+                let (over, own) = local.split_at_mut(before);
+                if rows.start > 0 || wraps {
+                    let end = if rows.start > 0 { rows.start } else { last_row };
+                    coarse.remove_smooth_part(sets, end - ROWS_ABOVE..end, over);
                 }
-                let reached = rows.start.saturating_sub(ROWS_ABOVE)..rows.end;
-                let missing = (ROWS_ABOVE + reached.start - rows.start) * bands.columns();
-                if rows.start == 0 && sparse.wraps_rows() {
-                    coarse.without_smooth_part(sets, last_rows.clone(), r, local);
-                }
-                coarse.without_smooth_part(sets, reached, r, &mut local[missing..]);
+                coarse.remove_smooth_part(sets, rows, own);
                 let cells = free.cells().map(|cell| before + cell).zip(patterns.iter().copied());
-                sparse.add(cells, local, image);
+                let product = sparse.add(cells, local, image);
                 above.copy_from_slice(&image[..before]);
-                z.copy_from_slice(&image[before..]);
+                values.copy_from_slice(&image[before..]);
+                [product]
             },
         );
-        let wraps = sparse.wraps_rows();
         for (band, above) in above.iter().enumerate().skip(usize::from(!wraps)) {
-            // The rows above the first band are the last ones of a periodic grid.
-            let first = if band == 0 { z.len() } else { bands.first(band) };
-            z[first - before..first].iter_mut().zip(above).for_each(|(z, above)| *z += above);
+            values[end(band) - before..end(band)].iter_mut().zip(above).for_each(|(z, above)| *z += above);
         }
-        coarse.join(sets, r, z)
+        let [product] = Merged::of_parts(products);
+        [coarse.join(sets, values), residual_sum, coarse_product + product]
     }
-}
-
-/// Returns Σ z, Σ r and Σ r z of the free cells.
-fn products(sets: &Sets, r: &(impl Fn(usize) -> f32 + Sync), z: &[f32]) -> [f64; 3] {
-    let bands = sets.bands();
-    let parts = bands.cut(z).zip(sets.in_bands()).enumerate();
-    Merged::of_parts(parallel::map(parts, |(band, (z, free))| {
-        let first = bands.first(band);
-        let cells = free.cells().map(|cell| [r(first + cell), z[cell]].map(f64::from));
-        cells.fold([0.0; 3], |sums, [r, z]| [sums[0] + z, sums[1] + r, sums[2] + r * z])
-    }))
 }
 
 /// Returns √(c/cᵢ), from the mean and the individual displacement of a cell by its own pressure; none if cells do not

@@ -454,8 +454,8 @@ impl<'a> Iteration<'a> {
             return None;
         }
         self.bound_steps = 0;
-        self.step_to_bounds(state.approach, MAX_ROUNDING * wanted * state.scale);
-        let left = self.conjugate_gradients(state, wanted);
+        let share = self.step_to_bounds(state.approach, MAX_ROUNDING * wanted * state.scale);
+        let left = self.conjugate_gradients(state, wanted, share);
         self.restore_the_sum();
         let searched = self.safeguard(left.residual.hypot(left.violation), state.approach);
         (!searched).then_some(left)
@@ -510,18 +510,20 @@ impl<'a> Iteration<'a> {
 
     /// Moves the cells predicted at a bound to it, and the free cells by one preconditioned step, in one
     /// convolution. The convolution is of the step, or of the total pressure in double precision if the error
-    /// bound exceeds `max_rounding`.
-    fn step_to_bounds(&mut self, approach: Metre, max_rounding: Metre) {
-        if !self.merged(Block::direct_to_bounds) {
-            return;
+    /// bound exceeds `max_rounding`. Returns the multiple of the response, 1 or 0, that the displacement lacks.
+    fn step_to_bounds(&mut self, approach: Metre, max_rounding: Metre) -> f64 {
+        let [moved, from_bounds] = self.merged(Block::direct_to_bounds);
+        if moved == 0.0 {
+            return 0.0;
         }
         let [sum] = self.merged(|block| [block.predict_residual(approach)]);
         let mean = self.mean(sum);
         let [sum, ..] = self.merged(|block| block.precondition_predicted(mean));
         let (mean, damping) = (self.mean(sum), self.damping);
-        let [added, borne] = self.merged(|block| block.direct_all_cells(mean, damping));
+        let [by_free, borne] = self.merged(|block| block.direct_free_cells(mean, damping));
         if let Control::Load(_) = self.settings.control {
             // The load does not change: the free cells take the difference in proportion to their pressures.
+            let added = from_bounds + by_free;
             let (each, per_pressure) =
                 if borne > 0.0 { (0.0, added / borne) } else { (added / self.free_cells, 0.0) };
             self.each(|block| block.balance_direction(each, per_pressure));
@@ -531,7 +533,9 @@ impl<'a> Iteration<'a> {
         if in_double {
             self.restore_the_sum();
             self.each(Block::convolve);
+            return 0.0;
         }
+        1.0
     }
 
     /// Restores the load exactly. The rounding of the directions causes errors of the same order in the load as
@@ -544,20 +548,20 @@ impl<'a> Iteration<'a> {
     }
 
     /// Performs preconditioned conjugate gradients on the free cells until the violation of the bounds exceeds
-    /// the residual. Returns both norms.
-    fn conjugate_gradients(&mut self, state: Residual, wanted: f64) -> ResidualNorms {
-        let [sum] = self.merged(|block| [block.reset_direction()]);
+    /// the residual, after adding a `share` of the last response to the displacement. Returns both norms.
+    fn conjugate_gradients(&mut self, state: Residual, wanted: f64, share: f64) -> ResidualNorms {
+        let [sum] = self.merged(|block| [block.reset_direction(share)]);
         let mut datum = match self.settings.control {
             Control::Approach(approach) => approach,
             Control::Load(_) => self.mean(sum),
         };
-        let mut left = self.step_along_direction(0.0, datum);
+        let mut left = self.step_along_direction(share, datum);
         let mut product_before = f64::INFINITY;
         for _ in 0..MAX_CG_STEPS {
             if self.settings.watch.stop() {
                 break;
             }
-            let [sum, drift, product] = self.merged(|block| block.precondition(datum));
+            let [sum, drift, product] = self.merged(|block| block.precondition());
             let mean = self.mean(sum);
             let product = product - mean * drift;
             let beta = product / product_before;

@@ -50,8 +50,8 @@ pub(super) struct Block<'a> {
     sets: Sets,
     /// The search direction d.
     direction: SingleField,
-    /// The response C·d of the direction. Before the direction is known it holds the preconditioned residual z = M r; during
-    /// the prediction of sets the proposed pressures, and then the predicted residual.
+    /// The response C·d of the direction. Before the direction is known it holds the residual r of the free cells, and then the
+    /// preconditioned residual z = M r; during the prediction of sets the proposed pressures, and then the predicted residual.
     response: SingleField,
     /// Largest |C·d|.
     max_response: f64,

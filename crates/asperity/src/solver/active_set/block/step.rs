@@ -131,15 +131,16 @@ impl Block<'_> {
         self.preconditioner.adapt(&self.sets);
     }
 
-    /// Sets the direction that brings the cells predicted at a bound to it. Returns whether any cell has to move.
-    pub(in crate::solver::active_set) fn direct_to_bounds(&mut self) -> bool {
+    /// Sets the direction that brings the cells predicted at a bound to it. Returns how many bands have cells that move, and the sum of
+    /// the direction.
+    pub(in crate::solver::active_set) fn direct_to_bounds(&mut self) -> [f64; 2] {
         let bounds = self.site.bounds();
         let bands = self.bands;
         let parts = bands.cut_mut(flat_mut(&mut self.direction)).zip(bands.cut(self.sets.of()));
         let parts = parts.zip(bands.cut(flat(&self.pressure))).enumerate();
-        let elsewhere = parallel::map(parts, |(band, ((direction, sets), pressure))| {
+        Merged::of_parts(parallel::map(parts, |(band, ((direction, sets), pressure))| {
             let first = bands.first(band);
-            let mut any = false;
+            let mut elsewhere = false;
             let cells = direction.iter_mut().zip(sets).zip(pressure).enumerate();
             with_bounds!(bounds, of => {
                 for (cell, ((d, set), p)) in cells {
@@ -148,13 +149,13 @@ impl Block<'_> {
                         Set::Upper => of(first + cell).upper - p,
                         Set::Free => 0.0,
                     };
-                    any |= distance != 0.0;
+                    elsewhere |= distance != 0.0;
                     *d = distance as f32;
                 }
             });
-            any
-        });
-        elsewhere.into_iter().any(|any| any)
+            let [added] = sums(direction, |_, d| [f64::from(d)]);
+            [f64::from(u8::from(elsewhere)), added]
+        }))
     }
 
     /// Predicts the residual of the free cells after the step along the direction, from the near field of its
@@ -165,13 +166,11 @@ impl Block<'_> {
         let parts = bands.cut(flat(&self.touch)).zip(bands.cut_mut(flat_mut(&mut self.response)));
         let parts = parts.zip(self.sets.in_bands());
         let [sum] = Merged::of_parts(parallel::map(parts, |((touch, predicted), free)| {
-            let mut sum = 0.0;
-            for cell in free.cells() {
-                let w = approach - touch[cell] - f64::from(predicted[cell]);
-                sum += w;
-                predicted[cell] = w as f32;
-            }
-            [sum]
+            let residual = |cell: usize| approach - touch[cell] - f64::from(predicted[cell]);
+            let residuals: Vec<f64> = free.cells().map(residual).collect();
+            predicted.fill(0.0);
+            free.cells().zip(&residuals).for_each(|(cell, w)| predicted[cell] = *w as f32);
+            [residuals.iter().sum()]
         }));
         sum
     }
@@ -202,50 +201,39 @@ impl Block<'_> {
         });
     }
 
-    /// Computes the preconditioned predicted residual z = M r, without the `mean` of r, and writes it over the direction.
-    /// Returns the sums Σ z, Σ r and Σ r z over the free cells.
+    /// Replaces the predicted residual by the preconditioned one, z = M r, without the `mean` of r. Returns the sums Σ z, Σ r and
+    /// Σ r z over the free cells.
     pub(in crate::solver::active_set) fn precondition_predicted(&mut self, mean: f64) -> [f64; 3] {
-        let (predicted, mean) = (flat(&self.response), mean as f32);
-        let residual = |cell: usize| predicted[cell] - mean;
-        self.preconditioner.apply(&self.sets, residual, flat_mut(&mut self.direction))
+        let parts = self.bands.cut_mut(flat_mut(&mut self.response)).zip(self.sets.in_bands());
+        parallel::map(parts, |(r, free)| free.cells().for_each(|cell| r[cell] -= mean as f32));
+        self.precondition()
     }
 
-    /// Computes the preconditioned residual z = M r of the free cells, whose gap closes at the approach `datum`, and writes
-    /// it over the response. Returns the sums Σ z, Σ r and Σ r z over the free cells.
-    pub(in crate::solver::active_set) fn precondition(&mut self, datum: Metre) -> [f64; 3] {
-        let touch = flat(&self.touch);
-        let residual = |cell: usize| (datum - touch[cell]) as f32;
-        self.preconditioner.apply(&self.sets, residual, flat_mut(&mut self.response))
+    /// Replaces the residual of the free cells by the preconditioned one, z = M r. Returns the sums Σ z, Σ r and Σ r z over the
+    /// free cells.
+    pub(in crate::solver::active_set) fn precondition(&mut self) -> [f64; 3] {
+        self.preconditioner.replace(&self.sets, flat_mut(&mut self.response))
     }
 
-    /// Sets the direction of the free cells to the damped preconditioned residual without its mean, and that of the other
-    /// cells to their distance from the bound. Returns the sum of the direction, and the sum of the pressures of the free
-    /// cells above their lower bounds.
-    pub(in crate::solver::active_set) fn direct_all_cells(&mut self, mean: f64, damping: f64) -> [f64; 2] {
+    /// Sets the direction of the free cells to the damped preconditioned residual without its mean. Returns the sum of these
+    /// directions, and the sum of the pressures of the free cells above their lower bounds.
+    pub(in crate::solver::active_set) fn direct_free_cells(&mut self, mean: f64, damping: f64) -> [f64; 2] {
         let (damping, mean) = (damping as f32, mean as f32);
         let (bands, bounds) = (self.bands, self.site.bounds());
-        let parts = bands.cut(self.sets.of()).zip(bands.cut(flat(&self.pressure)));
-        let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.direction)));
-        Merged::of_parts(parallel::map(parts.enumerate(), |(band, ((sets, pressure), direction))| {
+        let parts = bands.cut(flat(&self.response)).zip(bands.cut(flat(&self.pressure)));
+        let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.direction))).zip(self.sets.in_bands());
+        Merged::of_parts(parallel::map(parts.enumerate(), |(band, (((z, pressure), direction), free))| {
             let first = bands.first(band);
-            let borne = with_bounds!(bounds, of => {
-                let cells = direction.iter_mut().zip(sets).zip(pressure).enumerate();
-                let mut borne = 0.0;
-                for (cell, ((d, set), p)) in cells {
+            let mut sums = [0.0; 2];
+            with_bounds!(bounds, of => {
+                for cell in free.cells() {
                     let bounds = of(first + cell);
-                    *d = match set {
-                        Set::Lower => (bounds.lower - p) as f32,
-                        Set::Upper => (bounds.upper - p) as f32,
-                        Set::Free => {
-                            borne += bounds.clamp(*p) - bounds.lower;
-                            damping * (*d - mean)
-                        }
-                    };
+                    let d = damping * (z[cell] - mean);
+                    direction[cell] = d;
+                    sums = [sums[0] + f64::from(d), sums[1] + bounds.clamp(pressure[cell]) - bounds.lower];
                 }
-                borne
             });
-            let [added] = sums(direction, |_, d| [f64::from(d)]);
-            [added, borne]
+            sums
         }))
     }
 
@@ -265,11 +253,10 @@ impl Block<'_> {
         });
     }
 
-    /// Moves along the direction to the bounds. If `convolved`, it also updates the displacement by a convolution.
+    /// Moves the pressures along the direction to the bounds. If `convolved`, it also computes the response.
     pub(in crate::solver::active_set) fn step_to_bounds(&mut self, convolved: bool) {
         if convolved {
             self.convolve_direction();
-            self.add_response();
         }
         let (bands, bounds) = (self.bands, self.site.bounds());
         let parts = bands.cut_mut(flat_mut(&mut self.pressure)).zip(bands.cut(flat(&self.direction)));
@@ -296,15 +283,15 @@ impl Block<'_> {
         parallel::map(parts, |(p, free)| free.cells().for_each(|cell| p[cell] += pressure));
     }
 
-    /// Sets the direction to zero. Returns Σ (h + u) of the free cells.
-    pub(in crate::solver::active_set) fn reset_direction(&mut self) -> f64 {
+    /// Sets the direction to zero. Returns Σ (h + u) of the free cells with a `share` of the response.
+    pub(in crate::solver::active_set) fn reset_direction(&mut self, share: f64) -> f64 {
         let bands = self.bands;
         let parts = bands.cut_mut(flat_mut(&mut self.direction)).zip(bands.cut(flat(&self.touch)));
-        let [sum] =
-            Merged::of_parts(parallel::map(parts.zip(self.sets.in_bands()), |((direction, touch), free)| {
-                direction.fill(0.0);
-                [free.cells().map(|cell| touch[cell]).sum()]
-            }));
+        let parts = parts.zip(bands.cut(flat(&self.response))).zip(self.sets.in_bands());
+        let [sum] = Merged::of_parts(parallel::map(parts, |(((direction, touch), response), free)| {
+            direction.fill(0.0);
+            [free.cells().map(|cell| touch[cell] + share * f64::from(response[cell])).sum()]
+        }));
         sum
     }
 
@@ -329,8 +316,9 @@ impl Block<'_> {
         }))
     }
 
-    /// Moves pressure and displacement by `step` times the direction. Computes the residual of the free cells,
-    /// whose gap closes at the approach `datum`. Returns its norm and the norm of the violations of the bounds.
+    /// Moves pressure and displacement by `step` times the direction. Replaces the response by the residual of the free cells,
+    /// whose gap closes at the approach `datum`, and zero for the others. Returns its norm and the norm of the violations of
+    /// the bounds.
     pub(in crate::solver::active_set) fn step_along_direction(
         &mut self,
         step: f64,
@@ -339,13 +327,13 @@ impl Block<'_> {
     ) -> ResidualNorms {
         let (bands, bounds) = (self.bands, self.site.bounds());
         let parts = bands.cut(self.sets.of()).zip(bands.cut(flat(&self.direction)));
-        let parts = parts.zip(bands.cut(flat(&self.response)));
+        let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.response)));
         let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.pressure)));
         let parts = parts.zip(bands.cut_mut(flat_mut(&mut self.touch))).enumerate();
         let norms = parallel::map(parts, |(band, ((((sets, d), c), p), touch))| {
             let first = bands.first(band);
             let ((sets, sets_rest), (d, d_rest), (c, c_rest)) =
-                (sets.as_chunks(), d.as_chunks(), c.as_chunks());
+                (sets.as_chunks(), d.as_chunks(), c.as_chunks_mut());
             let ((p, p_rest), (touch, touch_rest)) = (p.as_chunks_mut(), touch.as_chunks_mut());
             let rest = first + p.len() * LANES;
             let step = Step { step, datum, self_influence: settings.self_influence };
@@ -354,14 +342,14 @@ impl Block<'_> {
                 let chunks = sets.iter().zip(d).zip(c).zip(p).zip(touch).enumerate();
                 for (number, ((((sets, d), c), p), touch)) in chunks {
                     let of = |lane: usize| of(first + number * LANES + lane);
-                    step.take(*sets, [d, c], [p, touch], of, &mut lanes);
+                    step.take(*sets, d, c, [p, touch], of, &mut lanes);
                 }
                 let mut last = [[0.0; 1]; 3];
                 let cells = sets_rest.iter().zip(d_rest).zip(c_rest).zip(p_rest).zip(touch_rest);
                 for (number, ((((set, d), c), p), touch)) in cells.enumerate() {
                     let [p, touch] = [p, touch].map(std::array::from_mut);
-                    let [d, c] = [d, c].map(std::array::from_ref);
-                    step.take([*set], [d, c], [p, touch], |_| of(rest + number), &mut last);
+                    let (d, c) = (std::array::from_ref(d), std::array::from_mut(c));
+                    step.take([*set], d, c, [p, touch], |_| of(rest + number), &mut last);
                 }
                 let [residual, violation, _] = [0, 1, 2].map(|n| lanes[n].iter().sum::<f64>() + last[n][0]);
                 let max_residual = lanes[2].iter().fold(last[2][0], |most, value| f64::max(most, *value));
@@ -384,18 +372,28 @@ struct Step {
 }
 
 impl Step {
-    /// Moves the pressures and the approaches h + u of some cells along the direction `d` and its response `c`. Adds their
-    /// residuals and violations to the sums of squares of each lane, and to its largest residual. The direction is zero
-    /// except at the free cells.
+    /// Moves the pressures and the approaches h + u of some cells along the direction `d` and its response `c`, which becomes
+    /// their residual. Adds their residuals and violations to the sums of squares of each lane, and to its largest residual.
+    /// The direction is zero except at the free cells.
     #[inline]
     fn take<const N: usize>(
         &self,
         sets: [Set; N],
-        [d, c]: [&[f32; N]; 2],
+        d: &[f32; N],
+        c: &mut [f32; N],
         [p, touch]: [&mut [f64; N]; 2],
         bounds: impl Fn(usize) -> Interval,
         [residuals, violations, largest]: &mut [[f64; N]; 3],
     ) {
+        if sets == [Set::Lower; N] {
+            for lane in 0..N {
+                touch[lane] += self.step * f64::from(c[lane]);
+                let violation = (self.datum - touch[lane]).max(0.0);
+                c[lane] = 0.0;
+                violations[lane] += violation * violation;
+            }
+            return;
+        }
         for lane in 0..N {
             touch[lane] += self.step * f64::from(c[lane]);
             p[lane] += self.step * f64::from(d[lane]);
@@ -406,6 +404,7 @@ impl Step {
                 Set::Lower => [0.0, w.max(0.0)],
                 Set::Upper => [0.0, w.min(0.0)],
             };
+            c[lane] = residual as f32;
             residuals[lane] += residual * residual;
             violations[lane] += violation * violation;
             largest[lane] = if residual.abs() > largest[lane] { residual.abs() } else { largest[lane] };
