@@ -8,13 +8,15 @@ pub(crate) fn in_column(value: f64) -> String {
     match value.abs() {
         size if size.is_nan() => "–".to_owned(),
         0.0 => "0".to_owned(),
-        size if (1e-4..1e7).contains(&size) => {
-            let exponent =
-                format!("{size:.3e}").split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
-            format!("{value:.*}", usize::try_from(3i32 - exponent).unwrap_or(0))
-        }
+        size if (1e-4..1e7).contains(&size) => format!("{value:.*}", decimals(size)),
         _ => format!("{value:.3e}"),
     }
+}
+
+/// Number of decimals of a positive number with four significant digits after rounding.
+pub(crate) fn decimals(size: f64) -> usize {
+    let exponent = format!("{size:.3e}").split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
+    usize::try_from(3i32 - exponent).unwrap_or(0)
 }
 
 /// Writes the quantities `from` and `to`, SI, in a unit for the larger one: `33.80 → 31.25 nm`.

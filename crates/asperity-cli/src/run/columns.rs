@@ -3,6 +3,8 @@
 use asperity::study::dimension_of_column;
 use asperity::units::{CELSIUS, Dimension, Multiple, format_number};
 
+use crate::numbers::decimals;
+
 /// Characters of a column, and of its part from the decimal point on. Eight columns and the count fit into a terminal
 /// of 80 characters.
 const WIDTH: usize = 9;
@@ -130,7 +132,7 @@ fn aligned(value: f64) -> String {
     if !(LEAST..most).contains(&size) {
         return format!("{:>WIDTH$}", format!("{value:.1e}"));
     }
-    let decimals = (3.0 - size.log10().floor()).clamp(0.0, PART as f64 - 1.0) as usize;
+    let decimals = decimals(size).min(PART - 1);
     let text = format!("{value:.decimals$}");
     let (whole, part) = text.split_at(text.find('.').unwrap_or(text.len()));
     format!("{whole:>0$}{part:PART$}", WIDTH - PART)
@@ -153,6 +155,8 @@ mod tests {
                 Cell::of("stiff", "stiffness", None),
             ]
         };
+        // Four digits after rounding.
+        assert_eq!([9.9996, 999.96].map(aligned).map(|text| text.trim().to_owned()), ["10.00", "1000"]);
         let mut text = columns.row("pass", 1, &row(61.8e-12, 3.085e-18));
         text += &columns.row("pass", 2, &row(1234e-12, 2e-23));
         text += &columns.row("pass", 3, &row(0.0, 12345e-18));
