@@ -21,6 +21,33 @@ fn it_converges_on_every_surface() {
     stress(0..40);
 }
 
+#[test]
+fn a_solution_is_returned_unchanged_as_a_start() {
+    let grid = Grid::new([SIDE, SIDE], [1.0, 1.0]).unwrap();
+    let params = Params::new().with_method(Method::ActiveSet);
+    for seed in 0..8 {
+        let gap = rough(&grid, seed);
+        let operators: [Box<dyn Operator>; 2] =
+            [Box::new(FreeFft::new(grid, 1.0)), Box::new(PeriodicFft::new(grid, 1.0))];
+        for mut operator in operators {
+            for (hardness, mean) in [(f64::INFINITY, 0.005), (f64::INFINITY, 0.06), (0.05, 0.02)] {
+                let (bounds, load) = (Bounds::up_to(hardness), Control::Load(mean * grid.area()));
+                let mut solve =
+                    |start| solve_normal(operator.as_mut(), &gap, &bounds, load, start, &params).unwrap();
+                let first = solve(None);
+                let again = solve(Some(&first.pressure));
+                let case = format!("seed {seed}, {:?}, {hardness}, {mean}", operator.boundary());
+                assert!(
+                    again.pressure == first.pressure,
+                    "{case}: {} then {}",
+                    first.residual,
+                    again.residual
+                );
+            }
+        }
+    }
+}
+
 /// The most expensive solution, and its problem.
 #[derive(Default)]
 struct Worst {

@@ -152,6 +152,12 @@ pub(super) fn solve(
         let cells: usize = sites.iter().map(|site| site.slab().whole_grid().cells()).sum();
         state.scale = state.scale.max(settings.self_influence * settings.sum_scale(pressure) / cells as f64);
     }
+    // The rounding must not hide that the start is a solution, which is returned unchanged.
+    let rounding = iteration.rounding() / state.scale;
+    if stage == Stage::Warm && state.eta < tolerance(&state) + rounding && iteration.is_feasible() {
+        iteration.each(Block::convolve);
+        state = iteration.residual();
+    }
     if iteration.near {
         match iteration.solve_near(state, tolerance, max_convolutions, stage)? {
             Near::Solved(residual) => return Ok(iteration.into_answer(residual)),
