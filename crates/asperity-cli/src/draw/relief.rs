@@ -29,8 +29,8 @@ const LIGHT: [f64; 3] = [-0.75, -0.15, 0.64];
 const PATCHES: usize = 400;
 /// Fine pixels along a pixel.
 const FINE: usize = 2;
-/// Neighbouring patches that a band of the image leaves out together.
-const SOME: usize = 16;
+/// Neighbouring patches of a row that a band of the image skips together.
+const RUN: usize = 16;
 
 /// A field in perspective. Values come in SI.
 #[derive(Debug, Clone)]
@@ -199,21 +199,23 @@ impl Relief<'_> {
             (view.fine(place([i, j]), scale), view.lit(colour, around))
         });
         let next = |index: usize, axis: usize| (index + 1).min(counts[axis] - 1);
-        // Some neighbouring patches, and how far down the lowest and the highest of their corners are.
-        let some = |i: usize, first: usize| {
-            let patches = first..(first + SOME).min(counts[1].max(2) - 1);
+        let [rows, columns] = counts.map(|count| count.max(2) - 1);
+        // The row and the columns of a run of patches, and the distances down the canvas of its highest and its lowest corner.
+        let run = |i: usize, first: usize| {
+            let patches = first..(first + RUN).min(columns);
             let ends = (first..=next(patches.end - 1, 1))
                 .flat_map(|j| [i, next(i, 0)].map(|i| corners[[i, j]].0[1]));
             let ends = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], y| [a.min(y), b.max(y)]);
             (i, patches, ends)
         };
-        let rows = 0..counts[0].max(2) - 1;
-        let all: Vec<_> =
-            rows.flat_map(|i| (0..counts[1].max(2) - 1).step_by(SOME).map(move |j| some(i, j))).collect();
+        let runs: Vec<_> =
+            (0..rows).flat_map(|i| (0..columns).step_by(RUN).map(move |j| run(i, j))).collect();
         canvas.bands().for_each(|mut band| {
-            for (i, patches, ends) in &all {
-                let reached = if band.reaches(*ends) { patches.clone() } else { 0..0 };
-                for j in reached {
+            for (i, patches, ends) in &runs {
+                if !band.reaches(*ends) {
+                    continue;
+                }
+                for j in patches.clone() {
                     let (i, [below, right]) = (*i, [next(*i, 0), next(j, 1)]);
                     let patch = [[i, j], [below, j], [below, right], [i, right]].map(|c| corners[c]);
                     band.triangle([patch[0], patch[1], patch[2]]);
@@ -359,7 +361,7 @@ struct Band<'a> {
 }
 
 impl Band<'_> {
-    /// Whether the band may have pixels between two distances down the canvas.
+    /// Whether the band may have pixels between two distances down the canvas, the smaller one first.
     fn reaches(&self, [low, high]: [f64; 2]) -> bool {
         let (first, end) = (self.first as f64, (self.first + self.pixels.len() / self.width) as f64);
         low <= end && first <= high.ceil()

@@ -143,6 +143,11 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_number_has_four_digits_after_rounding() {
+        assert_eq!([9.9996, 999.96].map(aligned).map(|text| text.trim().to_owned()), ["10.00", "1000"]);
+    }
+
+    #[test]
     fn a_table_keeps_its_units_and_points_and_eighty_columns() {
         let mut columns = Columns::default();
         let row = |area: f64, volume: f64| {
@@ -155,8 +160,6 @@ mod tests {
                 Cell::of("stiff", "stiffness", None),
             ]
         };
-        // Four digits after rounding.
-        assert_eq!([9.9996, 999.96].map(aligned).map(|text| text.trim().to_owned()), ["10.00", "1000"]);
         let mut text = columns.row("pass", 1, &row(61.8e-12, 3.085e-18));
         text += &columns.row("pass", 2, &row(1234e-12, 2e-23));
         text += &columns.row("pass", 3, &row(0.0, 12345e-18));

@@ -7,6 +7,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use rayon::FnContext;
 
 use crate::grid::Field;
+use crate::ranks::Merged;
 
 /// Performs a `task` on each of some [`Bands`]. Returns the results in their order.
 ///
@@ -16,6 +17,11 @@ pub(crate) fn map<T: Send, R: Send>(
     task: impl Fn(T) -> R + Sync,
 ) -> Vec<R> {
     each(bands, BANDS_AT_ONCE, &Pool::default(), || (), |(), band| task(band))
+}
+
+/// Merges the results of a function of the rows of each band of a grid of `shape`, in their order.
+pub(crate) fn merged<M: Merged + Send>(shape: [usize; 2], of_rows: impl Fn(Range<usize>) -> M + Sync) -> M {
+    M::of_parts(map(Bands::of(shape).rows(), of_rows))
 }
 
 /// Smallest number of bands per thread.

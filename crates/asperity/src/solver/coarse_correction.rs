@@ -140,12 +140,14 @@ impl CoarseCorrection {
 
 /// Bilinear interpolation from coarse nodes, cyclic, to the free cells of a grid.
 struct Bilinear {
-    /// For each row (column) of cells, the node before it and the fraction of the distance to the next node, 0 … 1.
-    along: [Vec<(usize, f32)>; 2],
-    /// The nodes before some columns of cells, and these columns.
-    between: Vec<(usize, Range<usize>)>,
-    /// The fraction of the distance to the next node for each column.
+    /// For each row of cells, the node before it and the fraction of the distance to the next node, 0 … 1.
+    rows: Vec<(usize, f32)>,
+    /// For each column of cells, the node before it.
+    before: Vec<usize>,
+    /// For each column of cells, the fraction of the distance to the next node.
     shares: Vec<f32>,
+    /// The columns between two nodes, with the first of these.
+    between: Vec<(usize, Range<usize>)>,
     /// Rows of cells between two rows of nodes.
     cells: f64,
     slab: Slab,
@@ -177,17 +179,20 @@ impl Bilinear {
     /// and the rows of a `halo` of a slab.
     fn new(slab: Slab, halo: &Halo, coarse: [usize; 2], margin: [usize; 2]) -> Self {
         let fine = slab.whole_grid().shape;
-        let mut along = [0, 1].map(|axis| nodes(fine[axis], coarse[axis], margin[axis]));
+        let [rows, columns] = [0, 1].map(|axis| nodes(fine[axis], coarse[axis], margin[axis]));
         let (cells, all) = (fine[0] as f64 / coarse[0] as f64, coarse[0] + 2 * margin[0]);
-        let reached = slab.parts().all().map(|rows| NodeRows::new(&along[0][rows], cells, all)).collect();
+        let reached = slab.parts().all().map(|own| NodeRows::new(&rows[own], cells, all)).collect();
         let own = halo.own_rows();
         let first = slab.rows().start - own.start;
-        along[0] = along[0][first..first + halo.shape()[0]].to_vec();
-        let columns: Vec<usize> = (0..along[1].len()).collect();
-        let between = columns.chunk_by(|a, b| along[1][*a].0 == along[1][*b].0);
-        let between = between.map(|some| (along[1][some[0]].0, some[0]..some[0] + some.len())).collect();
-        let shares = along[1].iter().map(|(_, share)| *share).collect();
-        Self { along, between, shares, cells, slab, own, reached }
+        let rows = rows[first..first + halo.shape()[0]].to_vec();
+        let (before, shares): (Vec<usize>, Vec<f32>) = columns.into_iter().unzip();
+        let mut end = 0;
+        let between = before.chunk_by(|a, b| a == b).map(|same| {
+            end += same.len();
+            (same[0], end - same.len()..end)
+        });
+        let between = between.collect();
+        Self { rows, before, shares, between, cells, slab, own, reached }
     }
 
     /// Adds values interpolated from `nodes`, times a `factor`, to the `values` of the free cells of some rows.
@@ -200,7 +205,7 @@ impl Bilinear {
             if cells.is_empty() {
                 continue;
             }
-            let (node, share) = self.along[0][row];
+            let (node, share) = self.rows[row];
             let ends = [nodes.row(node), nodes.row((node + 1) % nodes.nrows())];
             for ((value, a), b) in line.iter_mut().zip(ends[0]).zip(ends[1]) {
                 *value = factor * (a + share * (b - a));
@@ -208,7 +213,7 @@ impl Bilinear {
             line[nodes.ncols()] = line[0];
             if is_sparse(cells, columns) {
                 for column in cells.iter().map(|cell| *cell as usize - start) {
-                    let (node, share) = self.along[1][column];
+                    let (node, share) = (self.before[column], self.shares[column]);
                     values[column] += line[node] + share * (line[node + 1] - line[node]);
                 }
                 continue;
@@ -275,7 +280,7 @@ impl Bilinear {
         shape: [usize; 2],
     ) -> (usize, SingleField) {
         let [all, columns] = shape;
-        let NodeRows { first, count } = NodeRows::new(&self.along[0][rows.clone()], self.cells, all);
+        let NodeRows { first, count } = NodeRows::new(&self.rows[rows.clone()], self.cells, all);
         let mut part = SingleField::zeros([count, columns]);
         let mut line = vec![0.0; columns + 1];
         let (fine, mut ones) = (sets.bands().columns(), Vec::new());
@@ -296,20 +301,22 @@ impl Bilinear {
             line.fill(0.0);
             if is_sparse(cells, fine) {
                 for column in cells.iter().map(|cell| *cell as usize - start) {
-                    let (node, share) = self.along[1][column];
-                    let second = share * values[column];
+                    let node = self.before[column];
+                    let second = self.shares[column] * values[column];
                     line[node] += values[column] - second;
                     line[node + 1] += second;
                 }
             } else {
                 for (node, columns) in &self.between {
-                    let [sum, second] = weighted_sum(&values[columns.clone()], &self.shares[columns.clone()]);
+                    let shares = &self.shares[columns.clone()];
+                    let [sum, second] =
+                        sums(&values[columns.clone()], |cell, value| [value, shares[cell] * value]);
                     line[*node] += sum - second;
                     line[*node + 1] += second;
                 }
             }
             line[0] += line[columns];
-            let (node, share) = self.along[0][row];
+            let (node, share) = self.rows[row];
             let node = (node + all - first) % all;
             part.row_mut(node).iter_mut().zip(&line).for_each(|(n, v)| *n += (1.0 - share) * v);
             part.row_mut((node + 1) % all).iter_mut().zip(&line).for_each(|(n, v)| *n += share * v);
@@ -321,32 +328,6 @@ impl Bilinear {
 /// Whether few of the cells of a row are free, so that each is visited by itself.
 fn is_sparse(free: &[u32], columns: usize) -> bool {
     SPARSE * free.len() < columns
-}
-
-/// Returns the sum of some `values`, and their sum with the weights `shares`.
-fn weighted_sum(values: &[f32], shares: &[f32]) -> [f32; 2] {
-    let ((values, values_rest), (shares, shares_rest)) = (values.as_chunks(), shares.as_chunks());
-    let mut lanes = [[0.0; LANES]; 2];
-    for (values, shares) in values.iter().zip(shares) {
-        add_weighted(values, shares, &mut lanes);
-    }
-    let mut last = [[0.0]; 2];
-    for (value, share) in values_rest.iter().zip(shares_rest) {
-        add_weighted(&[*value], &[*share], &mut last);
-    }
-    [0, 1].map(|n| lanes[n].iter().sum::<f32>() + last[n][0])
-}
-
-/// Number of cells whose values are summed separately, so that none waits for another.
-const LANES: usize = 4;
-
-/// Adds some values, and their products with `shares`, to the sums of each lane.
-#[inline]
-fn add_weighted<const N: usize>(values: &[f32; N], shares: &[f32; N], [sums, weighted]: &mut [[f32; N]; 2]) {
-    for lane in 0..N {
-        sums[lane] += values[lane];
-        weighted[lane] += shares[lane] * values[lane];
-    }
 }
 
 /// Returns, for each of `fine` cells, the (cyclic) node before it, and the weight of the next node. There are `coarse`

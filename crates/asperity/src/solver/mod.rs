@@ -51,8 +51,8 @@ use ndarray::Array2;
 use crate::choice::choice;
 use crate::error::{Error, Result, check, check_in};
 use crate::grid::{CellValues, Field, Grid, flat};
+use crate::math::parallel;
 use crate::math::sum::sums;
-use crate::math::{Bands, parallel};
 use crate::operator::Operator;
 use crate::ranks::{Largest, Merged, Slab};
 use crate::units::{CubicMetre, Dimension, Joule, Metre, Newton, Pascal, SquareMetre};
@@ -226,9 +226,8 @@ impl Solution {
 
     /// Merges the results of a function of some consecutive cells.
     fn merged<M: Merged + Send>(&self, of: impl Fn(Range<usize>) -> M + Sync) -> M {
-        let bands = Bands::of([self.pressure.nrows(), self.pressure.ncols()]);
-        let cells = bands.rows().map(|rows| rows.start * bands.columns()..rows.end * bands.columns());
-        M::of_parts(parallel::map(cells, of))
+        let [rows, columns] = [self.pressure.nrows(), self.pressure.ncols()];
+        parallel::merged([rows, columns], |rows| of(rows.start * columns..rows.end * columns))
     }
 
     /// Returns the largest pressure, at least 0.
@@ -266,10 +265,12 @@ impl Solution {
 
     /// Returns the volume ΔA Σ w of the [`Solution::plastic_interference`].
     pub fn plastic_volume(&self) -> CubicMetre {
-        match self.capped_cells() {
-            0 => 0.0,
-            _ => self.grid.cell_area() * self.plastic_interference().sum(),
-        }
+        let [pressure, gap, displacement] = [&self.pressure, &self.initial_gap, &self.displacement].map(flat);
+        let [sum] = self.merged(|cells| {
+            let capped = cells.filter(|cell| self.bounds.caps(*cell, pressure[*cell]));
+            [capped.map(|cell| (self.approach - gap[cell] - displacement[cell]).max(0.0)).sum()]
+        });
+        self.grid.cell_area() * sum
     }
 
     /// Returns the elastic energy ½ ΔA Σ p u. Under a periodic boundary it excludes the mean displacement, which

@@ -3,6 +3,7 @@
 
 use crate::grid::CellValues;
 use crate::math::parallel::Pool;
+use crate::math::sum::sums;
 use crate::math::{Bands, ROWS_ABOVE, SparseInverse, parallel};
 use crate::operator::Operator;
 use crate::ranks::{Halo, Merged, Slab};
@@ -125,8 +126,8 @@ impl Preconditioner {
         });
     }
 
-    /// Computes the preconditioned residual `z = M r`, which is zero for cells that are not free, from a function for the residual
-    /// of each free cell. Returns the sums Σ z, Σ r and Σ r z over the free cells.
+    /// Computes the preconditioned residual `z = M r`. The function `r` returns the residual of a free cell. The other cells have
+    /// z = 0. Returns the sums Σ z, Σ r and Σ r z over the free cells.
     pub(super) fn apply(&mut self, sets: &Sets, r: impl Fn(usize) -> f32 + Sync, z: &mut [f32]) -> [f64; 3] {
         let bands = sets.bands();
         let parts = bands.cut_mut(z).zip(bands.cut(sets.of())).enumerate();
@@ -142,15 +143,16 @@ impl Preconditioner {
     /// Σ z, Σ r and Σ r z.
     pub(super) fn replace(&mut self, sets: &Sets, values: &mut [f32]) -> [f64; 3] {
         let Some(scales) = self.scales.take() else { return self.apply_alike(sets, values) };
-        let sum = |values: &[f32]| values.iter().copied().map(f64::from).sum::<f64>();
+        let sum = |values: &[f32]| sums(values, |_, value| [f64::from(value)]);
         let scale =
             |values: &mut [f32]| values.iter_mut().zip(&scales).for_each(|(value, scale)| *value *= scale);
-        let residual_sum = sum(values);
+        let [residual_sum] = sum(values);
         scale(values);
         let [_, _, product] = self.apply_alike(sets, values);
         scale(values);
         self.scales = Some(scales);
-        [sum(values), residual_sum, product]
+        let [preconditioned_sum] = sum(values);
+        [preconditioned_sum, residual_sum, product]
     }
 
     /// [`Self::apply`] for cells that do not differ.

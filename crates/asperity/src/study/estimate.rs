@@ -14,12 +14,11 @@ use super::prepare::{Bodies, MountedSurface};
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid};
 use crate::material::{Compliances, plastic_share};
+use crate::math::parallel;
 use crate::math::sum::sums;
-use crate::math::{Bands, parallel};
 use crate::motion::{
     LoadControl, Motion, Position, Stage, Strategy, check_limit, initial_gap, opposing_values,
 };
-use crate::ranks::Merged;
 use crate::reference::HertzSphere;
 use crate::solver::{Control, Coupling, Creep, Friction, Rolling, Tangential};
 use crate::study::subsurface::Plan;
@@ -656,7 +655,7 @@ fn difference(heights: &Field, axis: usize, cells: usize) -> f64 {
     }
     let far = heights.slice_axis(ndarray::Axis(axis), (cells..).into());
     let near = heights.slice_axis(ndarray::Axis(axis), (..n - cells).into());
-    let parts = parallel::map(Bands::of([far.nrows(), far.ncols()]).rows(), |rows| {
+    let [sum] = parallel::merged([far.nrows(), far.ncols()], |rows| {
         let squares = rows.map(|row| {
             let (far, near) = (far.row(row), near.row(row));
             let near = near.to_slice().expect("rows are contiguous");
@@ -664,7 +663,6 @@ fn difference(heights: &Field, axis: usize, cells: usize) -> f64 {
         });
         [squares.sum::<f64>()]
     });
-    let [sum] = Merged::of_parts(parts);
     (sum / far.len() as f64).sqrt() / cells as f64
 }
 

@@ -518,8 +518,8 @@ impl<'a> Iteration<'a> {
     /// convolution. The convolution is of the step, or of the total pressure in double precision if the error
     /// bound exceeds `max_rounding`. Returns the multiple of the response, 1 or 0, that the displacement lacks.
     fn step_to_bounds(&mut self, approach: Metre, max_rounding: Metre) -> f64 {
-        let [moved, from_bounds] = self.merged(Block::direct_to_bounds);
-        if moved == 0.0 {
+        let [moving, to_bounds] = self.merged(Block::direct_to_bounds);
+        if moving == 0.0 {
             return 0.0;
         }
         let [sum] = self.merged(|block| [block.predict_residual(approach)]);
@@ -529,7 +529,7 @@ impl<'a> Iteration<'a> {
         let [by_free, borne] = self.merged(|block| block.direct_free_cells(mean, damping));
         if let Control::Load(_) = self.settings.control {
             // The load does not change: the free cells take the difference in proportion to their pressures.
-            let added = from_bounds + by_free;
+            let added = to_bounds + by_free;
             let (each, per_pressure) =
                 if borne > 0.0 { (0.0, added / borne) } else { (added / self.free_cells, 0.0) };
             self.each(|block| block.balance_direction(each, per_pressure));

@@ -7,8 +7,8 @@ use std::f64::consts::SQRT_2;
 use ndarray::s;
 
 use crate::grid::Field;
+use crate::math::parallel;
 use crate::math::sum::sums;
-use crate::math::{Bands, parallel};
 use crate::motion::{Position, initial_gap, largest_spot};
 use crate::operator::Boundary;
 use crate::ranks::Merged;
@@ -49,21 +49,16 @@ impl Paraboloid {
             places[axis].iter().map(|s| s * s - mean).collect::<Vec<f64>>()
         });
         let mean = gap.mean()?;
-        // Sums over a row of h, h y, h (y² − its mean) and h².
         let [y, yy] = [&places[1], &squares[1]];
         let of_row = |i: usize| {
             let row = gap.row(i);
             let row = row.to_slice().expect("standard layout");
-            sums(row, |j, h| [h - mean, (h - mean) * y[j], (h - mean) * yy[j], (h - mean).powi(2)])
+            let [h, hy, hyy, hh] =
+                sums(row, |j, h| [h - mean, (h - mean) * y[j], (h - mean) * yy[j], (h - mean).powi(2)]);
+            [places[0][i] * h, hy, squares[0][i] * h, hyy, places[0][i] * hy, hh]
         };
-        let parts = parallel::map(Bands::of(shape).rows(), |rows| {
-            rows.fold([0.0; 6], |sums, i| {
-                let [h, hy, hyy, hh] = of_row(i);
-                let terms = [places[0][i] * h, hy, squares[0][i] * h, hyy, places[0][i] * hy, hh];
-                [0, 1, 2, 3, 4, 5].map(|term| sums[term] + terms[term])
-            })
-        });
-        let [x_sum, y_sum, xx_sum, yy_sum, xy_sum, variance] = Merged::of_parts(parts);
+        let [x_sum, y_sum, xx_sum, yy_sum, xy_sum, variance] =
+            parallel::merged(shape, |rows| Merged::of_parts(rows.map(of_row)));
         let norm = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
         let (rows, columns) = (shape[0] as f64, shape[1] as f64);
         let products = [

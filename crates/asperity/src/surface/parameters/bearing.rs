@@ -20,7 +20,12 @@ use crate::units::Metre;
 pub struct BearingCurve {
     /// Descending, relative to the mean.
     heights: Vec<Metre>,
+    /// Sum of the heights before each [`BLOCK`] of them.
+    sums: Vec<Metre>,
 }
+
+/// Number of heights whose sum is not kept.
+const BLOCK: usize = 1 << 10;
 
 impl BearingCurve {
     /// Creates the curve of `samples`, NaN if undefined.
@@ -37,7 +42,14 @@ impl BearingCurve {
         let mean = heights.iter().sum::<f64>() / heights.len() as f64;
         heights.iter_mut().for_each(|z| *z -= mean);
         heights.par_sort_unstable_by(|a, b| b.total_cmp(a));
-        Ok(Self { heights })
+        let mut sum = 0.0;
+        let sums = heights.chunks(BLOCK).map(|block| {
+            let before = sum;
+            sum = block.iter().fold(before, |sum, z| sum + z);
+            before
+        });
+        let sums = sums.collect();
+        Ok(Self { heights, sums })
     }
 
     /// Returns Smc, the height at a material ratio from 0 (the highest sample) to 1 (the lowest), relative to the mean.
@@ -82,9 +94,9 @@ impl BearingCurve {
     /// ∫₀ᵖ z(q) dq.
     fn integral(&self, ratio: f64) -> Metre {
         let Place { index, beyond, step } = self.place(ratio);
-        let sum = self.heights[..index].iter().sum::<f64>()
-            + self.heights[index] * (0.5 + beyond)
-            + 0.5 * beyond * beyond * step;
+        let block = index / BLOCK;
+        let before = self.heights[block * BLOCK..index].iter().fold(self.sums[block], |sum, z| sum + z);
+        let sum = before + self.heights[index] * (0.5 + beyond) + 0.5 * beyond * beyond * step;
         sum / self.heights.len() as f64
     }
 

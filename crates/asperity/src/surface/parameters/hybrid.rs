@@ -2,8 +2,7 @@
 
 use super::row::family;
 use super::slope::gradients;
-use crate::math::{Bands, parallel};
-use crate::ranks::Merged;
+use crate::math::parallel;
 use crate::surface::Topography;
 
 family! {
@@ -29,7 +28,7 @@ family! {
 impl HybridParameters {
     /// Computes the hybrid parameters of `topography`.
     pub fn of(topography: &Topography) -> Self {
-        let parts = parallel::map(Bands::of(topography.grid().shape).rows(), |rows| {
+        let [squares, excess, count] = parallel::merged(topography.grid().shape, |rows| {
             let mut sums = [0.0; 3];
             for [x, y] in gradients(topography, rows) {
                 let square = x * x + y * y;
@@ -37,7 +36,6 @@ impl HybridParameters {
             }
             sums
         });
-        let [squares, excess, count] = Merged::of_parts(parts);
         Self { sdq: (squares / count).sqrt(), sdr: excess / count }
     }
 }

@@ -133,7 +133,7 @@ impl Block<'_> {
     }
 
     /// Adds the response C·d to the displacement.
-    pub(super) fn add_response(&mut self) {
+    fn add_response(&mut self) {
         zip(self.bands, &mut self.touch, &self.response, |touch, r| *touch += f64::from(*r));
         self.rounding += SINGLE_PRECISION * self.max_response;
     }

@@ -131,8 +131,8 @@ impl Block<'_> {
         self.preconditioner.adapt(&self.sets);
     }
 
-    /// Sets the direction that brings the cells predicted at a bound to it. Returns how many bands have cells that move, and the sum of
-    /// the direction.
+    /// Sets the direction that brings the cells predicted at a bound to it. Returns the number of cells
+    /// that move, and the sum of the direction.
     pub(in crate::solver::active_set) fn direct_to_bounds(&mut self) -> [f64; 2] {
         let bounds = self.site.bounds();
         let bands = self.bands;
@@ -140,7 +140,7 @@ impl Block<'_> {
         let parts = parts.zip(bands.cut(flat(&self.pressure))).enumerate();
         Merged::of_parts(parallel::map(parts, |(band, ((direction, sets), pressure))| {
             let first = bands.first(band);
-            let mut elsewhere = false;
+            let mut moving = 0;
             let cells = direction.iter_mut().zip(sets).zip(pressure).enumerate();
             with_bounds!(bounds, of => {
                 for (cell, ((d, set), p)) in cells {
@@ -149,12 +149,12 @@ impl Block<'_> {
                         Set::Upper => of(first + cell).upper - p,
                         Set::Free => 0.0,
                     };
-                    elsewhere |= distance != 0.0;
+                    moving += usize::from(distance != 0.0);
                     *d = distance as f32;
                 }
             });
             let [added] = sums(direction, |_, d| [f64::from(d)]);
-            [f64::from(u8::from(elsewhere)), added]
+            [moving as f64, added]
         }))
     }
 
