@@ -21,11 +21,21 @@ pub(super) fn html(found: &PageData) -> String {
         cards::html(found)
     );
     html += &unfinished(found);
-    let warned = found.summary.iter().flat_map(|summary| &summary.warnings);
-    let warnings: Vec<String> = warned.map(|warning| with_code(warning)).collect();
+    let warnings: Vec<String> = warnings(found).iter().map(|warning| with_code(warning)).collect();
     html += &list("Warnings", "warning", &warnings);
     let missing: Vec<String> = found.missing.iter().map(|message| escaped(message)).collect();
     html + &list("Not on this page", "missing", &missing)
+}
+
+/// Returns the warnings of the summary; before the end of the run, those of the limits exceeded so far.
+fn warnings(found: &PageData) -> Vec<String> {
+    match &found.summary {
+        Some(summary) => summary.warnings.clone(),
+        None => {
+            let broken = found.results.broken_limits().unwrap_or_default();
+            broken.iter().map(|broken| broken.sentence(&found.case)).collect()
+        }
+    }
 }
 
 /// That the run has not come to its end, where it has not.

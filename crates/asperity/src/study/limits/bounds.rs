@@ -53,7 +53,8 @@ impl Bounds {
         let strength = STRENGTH * modulus;
         let too_hard = pair.min_hardness().is_finite() && pair.min_hardness() > strength;
         let near = matches!(estimate.control, Control::Load(load) if load > NEAR_PLASTIC_LIMIT * estimate.plastic_limit);
-        let length = [pair.lower_grid(), pair.upper_grid()].map(|grid| grid.extent()).as_flattened().to_vec();
+        let sides = [pair.lower_grid(), pair.upper_grid()].map(|grid| grid.extent());
+        let longest = sides.into_iter().flatten().fold(0.0, f64::max);
         let heights = bodies.map(range).iter().sum::<f64>();
         Self {
             slope: unless(estimate.gap_slope > STEEP, STEEP),
@@ -61,7 +62,7 @@ impl Bounds {
             pressure: unless(case.is_coated() || too_hard || modulus < RUBBER, strength),
             hardness: unless(near, NEAR_PLASTIC_LIMIT),
             temperature: MELTING,
-            displacement: LARGE_DISPLACEMENT * length.into_iter().fold(0.0, f64::max),
+            displacement: LARGE_DISPLACEMENT * longest,
             // Without heights nothing can be compared with them.
             interference: unless(heights == 0.0, heights),
         }

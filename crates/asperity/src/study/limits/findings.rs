@@ -139,8 +139,13 @@ impl<'a> Findings<'a> {
             true => (Side::Lower, lower),
             false => (Side::Upper, upper),
         };
+        self.as_a_whole(Some(body), value, bound)
+    }
+
+    /// Returns a value of the whole step, if it exceeds a bound.
+    pub(super) fn as_a_whole(&self, body: Option<Side>, value: f64, bound: f64) -> Option<Finding> {
         let step = self.contacts.first().map(|contact| contact.step).filter(|_| self.pass.is_none());
-        (value > bound).then_some(Finding { step, body: Some(body), value, bound })
+        (value > bound).then_some(Finding { step, body, value, bound })
     }
 }
 

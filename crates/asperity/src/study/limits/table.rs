@@ -36,9 +36,7 @@ fn slope(bounds: &Bounds, findings: &Findings<'_>) -> Option<Finding> {
     let slopes =
         bodies.map(|(grid, body)| Topography::new(grid, body.heights.clone()).map_or(0.0, |body| body.sdq()));
     let slopes = slopes.into_iter().filter(|slope| slope.is_finite());
-    let (value, bound) = (slopes.fold(0.0, f64::hypot), bounds.slope);
-    let step = findings.contacts.first().map(|contact| contact.step).filter(|_| findings.pass.is_none());
-    (value > bound).then_some(Finding { step, body: None, value, bound })
+    findings.as_a_whole(None, slopes.fold(0.0, f64::hypot), bounds.slope)
 }
 
 fn wear(bounds: &Bounds, findings: &Findings<'_>) -> Option<Finding> {
@@ -54,9 +52,7 @@ fn hardness(bounds: &Bounds, findings: &Findings<'_>) -> Option<Finding> {
         .contacts
         .iter()
         .fold([0, 0], |[capped, all], contact| [capped + contact.cells[0], all + contact.cells[1]]);
-    let share = capped as f64 / all.max(1) as f64;
-    let step = findings.contacts.first().map(|contact| contact.step).filter(|_| findings.pass.is_none());
-    (share > bounds.hardness).then_some(Finding { step, body: None, value: share, bound: bounds.hardness })
+    findings.as_a_whole(None, capped as f64 / all.max(1) as f64, bounds.hardness)
 }
 
 fn temperature(bounds: &Bounds, findings: &Findings<'_>) -> Option<Finding> {
