@@ -3,7 +3,8 @@
 //! Results are identified by the file attributes `version` and `identity`. Their channels are the fields in metres over x
 //! and y, with `lower` and `upper` first. In other files every data set with two dimensions and real numbers is a channel,
 //! named by its path, `/group/name`, and indexed `[ix, iy]`. If there are several, the user must choose one. Its heights
-//! are in metres unless it has an attribute `unit` or `units`. It has no pitch.
+//! are in metres unless it has an attribute `unit` or `units`. A height is missing if it equals the attribute `_FillValue` or
+//! `missing_value`. It has no pitch.
 
 use std::collections::HashMap;
 
@@ -41,7 +42,9 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
             let unit = ["unit", "units"].iter().find_map(|name| set.text(name));
             let factor = unit.as_deref().map_or(Ok(1.0), super::words::unit_of_length)?;
             let kind = if unit.is_some() { LengthUnit::Known } else { LengthUnit::Metres };
-            Ok((set.values(bytes.len())?.mapv_into(|z| finite(factor * z)), kind))
+            let missing = set.missing();
+            let height = |z| if missing.contains(&z) { f64::NAN } else { finite(factor * z) };
+            Ok((set.values(bytes.len())?.mapv_into(height), kind))
         })
         .map_err(fault)?;
     Ok(Scan { format: "hdf5", channel, channels, pitch: None, heights, unit })
@@ -85,6 +88,16 @@ fn dataset(file: &File, path: &str) -> Outcome<Set> {
 impl Set {
     fn text(&self, name: &str) -> Option<String> {
         self.attributes.get(name).and_then(AttrValue::as_str).map(|text| text.trim().to_owned())
+    }
+
+    /// Numbers that mark a missing height, by the conventions of NetCDF 4.
+    fn missing(&self) -> Vec<f64> {
+        let integers = |value: &AttrValue| Some(value.to_i64s()?.into_iter().map(|n| n as f64).collect());
+        let numbers = |name| {
+            let value = self.attributes.get(name)?;
+            value.to_f64s().or_else(|| integers(value))
+        };
+        ["_FillValue", "missing_value"].into_iter().filter_map(numbers).flatten().collect()
     }
 
     /// Reads the numbers of the set; `bytes` is the size of the file.

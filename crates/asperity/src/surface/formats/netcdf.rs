@@ -2,7 +2,8 @@
 //!
 //! Format: Unidata, "NetCDF Classic Format Specification"; big-endian. Variables with two dimensions and real numbers are
 //! channels unless their `unit` (or `units`) is not a length. `scale_factor`, `add_offset`, `_FillValue` and
-//! `missing_value` are applied. A height is missing where a variable `mask` is not 0. The pitch is that of the variables
+//! `missing_value` are applied; without `_FillValue` the number of the format for values that were never written is missing.
+//! A height is missing where a variable `mask` is not 0. The pitch is that of the variables
 //! named like the dimensions: their attribute `length` over their number, or the spacing of their values, in their unit.
 //! Lines run along x if the first dimension is `y` (or `lat`) or the second is `x` (or `lon`); otherwise they run along y,
 //! as in NumPy.
@@ -47,6 +48,22 @@ enum Attribute {
     Number(f64),
     Other,
 }
+
+impl Variable {
+    /// The number of a value that was never written, if no attribute gives it.
+    fn unwritten(&self) -> f64 {
+        match self.number {
+            Some(Number::Int16) => -32_767.0,
+            Some(Number::Int32) => -2_147_483_647.0,
+            Some(Number::Float32) => f64::from(UNWRITTEN as f32),
+            Some(Number::Float64) => UNWRITTEN,
+            _ => f64::NAN,
+        }
+    }
+}
+
+/// 15 · 2¹¹⁹, the number of a value of floating point that was never written.
+const UNWRITTEN: f64 = 9.969_209_968_386_869e36;
 
 impl<'a> File<'a> {
     fn read(bytes: &'a [u8]) -> Outcome<Self> {
@@ -123,7 +140,7 @@ impl<'a> File<'a> {
             _ => default,
         };
         let (scale, offset) = (number("scale_factor", 1.0), number("add_offset", 0.0));
-        let missing = ["_FillValue", "missing_value"].map(|name| number(name, f64::NAN));
+        let missing = [number("_FillValue", variable.unwritten()), number("missing_value", f64::NAN)];
         let unit = variable.unit().map_or(Ok(1.0), unit_of_length)?;
         let height = |number: f64| {
             if missing.contains(&number) { f64::NAN } else { (number * scale + offset) * unit }

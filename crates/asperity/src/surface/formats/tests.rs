@@ -16,6 +16,7 @@ mod gwy;
 mod headed;
 mod instruments;
 mod measured_files;
+mod missing;
 mod points;
 mod probes;
 mod sdf;

@@ -66,7 +66,7 @@ pub(in crate::study) mod motion {
             super::SPEED,
             "unknown",
             "\"0.5 m/s\"",
-            "`\"overlap\"` only: speed of the upper body; required for wear, films and temperature",
+            "`\"overlap\"` only: speed of the upper body; required for growing films and temperature",
         );
         PATH: Typed<Path> = defaulted(
             "path",

@@ -278,7 +278,7 @@ fn heights_of_an_nms_reach_from_the_least_to_the_largest() {
     assert_eq!(defect(&nms()[..3475]), "nms: the part of the heights holds 7 bytes, expected 12");
 }
 
-fn nms() -> Vec<u8> {
+pub(super) fn nms() -> Vec<u8> {
     let mut file = vec![0; 3468];
     let mut put = |at: usize, bytes: &[u8]| file[at..at + bytes.len()].copy_from_slice(bytes);
     put(16, &[1f64, 66.534].map(f64::to_le_bytes).concat());
@@ -323,7 +323,7 @@ fn a_netcdf_tells_which_of_its_dimensions_is_x() {
 }
 
 /// The numbers 1 to 6 as i16, with the offset 10; x by its side length, y by its positions.
-fn netcdf(version: u8, dimensions: [&str; 2], unit: &str, masked: bool) -> Vec<u8> {
+pub(super) fn netcdf(version: u8, dimensions: [&str; 2], unit: &str, masked: bool) -> Vec<u8> {
     let word = u32::to_be_bytes;
     let padded = |bytes: &[u8]| {
         let mut bytes = bytes.to_vec();
