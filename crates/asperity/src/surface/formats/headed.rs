@@ -11,7 +11,7 @@
 
 use super::binary::shape;
 use super::header::Header;
-use super::text::matrix;
+use super::text::{Part, matrix};
 use super::words::{excerpt, unit_of_length};
 use super::{Decoded, Fault, LengthUnit, ONLY_CHANNEL, Scan, choose, finite, usable_pitch};
 use crate::error::Defect;
@@ -47,6 +47,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Option<Decoded> {
             pitch: usable_pitch(read.pitch),
             heights: read.heights,
             unit: LengthUnit::Known,
+            lines: None,
         })
     };
     Some(read(bytes).map_err(|defect| Fault::defect(format, defect)).and_then(scan))
@@ -143,7 +144,7 @@ struct Lines(Field);
 impl Lines {
     /// Reads the lines of `bytes`, which follow `before` others in the file; `sizes` are those along x and y.
     fn read(bytes: &[u8], before: usize, sizes: Option<[u32; 2]>) -> Result<Self, Defect> {
-        let lines = matrix(bytes, before)?;
+        let lines = matrix(Part { bytes, before }, false)?;
         let (ny, nx) = lines.dim();
         if sizes.is_some_and(|sizes| sizes.map(|size| size as usize) != [nx, ny]) {
             let found = format!("{nx} × {ny}");
