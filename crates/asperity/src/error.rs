@@ -636,6 +636,8 @@ pub enum Defect {
         what: &'static str,
         /// The accepted tables.
         expected: &'static str,
+        /// Whether a line of names calls them points.
+        named: bool,
     },
     /// A first column of a matrix that looks like labels.
     #[error("the first of {columns} columns, {found}, looks like labels, expected heights alone")]
@@ -656,11 +658,13 @@ impl Defect {
             Self::NotANumber { .. } => {
                 "a text topography is a matrix of heights in metres; header lines start with # or %, or are skipped".into()
             }
+            Self::Preamble { first: 2, .. } => "skip the line above the matrix".into(),
             Self::Preamble { first, .. } => format!("skip the {} lines above the matrix", first - 1),
-            Self::Points { .. } => {
-                "bring points onto a regular grid, for example with scipy.interpolate.griddata or Gwyddion's import of XYZ \
-                 data; if they are a matrix of heights, say along which axis its lines lie"
-                    .into()
+            Self::Points { named, .. } => {
+                let way = "bring points onto a regular grid, for example with scipy.interpolate.griddata or Gwyddion's \
+                           import of XYZ data";
+                let matrix = "if they are a matrix of heights, say along which axis its lines lie";
+                if *named { way.to_owned() } else { format!("{way}; {matrix}") }
             }
             Self::Labels { .. } => {
                 "remove the labels; if they are heights, say along which axis the lines of the matrix lie".into()
@@ -673,7 +677,7 @@ impl Defect {
     pub fn option(&self) -> Option<(&'static str, String)> {
         match self {
             Self::Preamble { first, .. } => Some(("skip", (first - 1).to_string())),
-            Self::Points { .. } | Self::Labels { .. } => Some(("lines", "x".to_owned())),
+            Self::Points { named: false, .. } | Self::Labels { .. } => Some(("lines", "x".to_owned())),
             _ => None,
         }
     }

@@ -396,7 +396,7 @@ fn hardness(
                     Error::OptionOfText { option, .. } => option,
                     _ => "file",
                 };
-                error(key, source.to_string(), None)
+                error(key, source.to_string(), hint_for_key(&source))
             })?;
             given.admit(&format!("{name}.hardness.file"), &sha256)?;
             let file = map.path.display().to_string();
@@ -442,6 +442,19 @@ fn hardness(
         values = values.as_standard_layout().into_owned();
     }
     Ok((CellValues::Field(values), Some(sha256)))
+}
+
+/// Returns the hint of an error, with the key that it asks for.
+fn hint_for_key(error: &Error) -> Option<String> {
+    let option = match error {
+        Error::CorruptTopography { reason, .. } => reason.option(),
+        _ => None,
+    };
+    let key = option.map(|(key, value)| match key {
+        "lines" => format!(": `{key} = \"{value}\"`"),
+        _ => format!(": `{key} = {value}`"),
+    });
+    error.hint().map(|hint| hint + &key.unwrap_or_default())
 }
 
 /// Reads a file; also returns its digest.
@@ -535,15 +548,7 @@ impl Place<'_> {
                 let hint = "the files of a case are looked for in the case file's folder".to_owned();
                 self.error("file", error.to_string(), Some(hint))
             }
-            Error::CorruptTopography { reason, .. } => {
-                let key = reason.option().map(|(key, value)| match key {
-                    "lines" => format!(": `{key} = \"{value}\"`"),
-                    _ => format!(": `{key} = {value}`"),
-                });
-                let hint = error.hint().map(|hint| hint + &key.unwrap_or_default());
-                self.error("file", error.to_string(), hint)
-            }
-            _ => self.error("file", error.to_string(), error.hint()),
+            _ => self.error("file", error.to_string(), hint_for_key(&error)),
         }
     }
 

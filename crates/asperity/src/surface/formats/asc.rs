@@ -27,9 +27,9 @@ const NAMES: [&str; 10] = [
 ];
 
 /// Decodes the heights, if the content begins with the number of columns or rows.
-pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Option<Decoded> {
-    let start = bytes.get(..5)?.to_ascii_lowercase();
-    if ![&b"ncols"[..], b"nrows"].contains(&&start[..]) {
+pub(super) fn decode(text: &str, channel: Option<&str>) -> Option<Decoded> {
+    let start = text.get(..5)?.to_ascii_lowercase();
+    if !["ncols", "nrows"].contains(&&start[..]) {
         return None;
     }
     let scan = |(pitch, heights)| {
@@ -38,13 +38,12 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Option<Decoded> {
         let (pitch, unit) = (usable_pitch(pitch), LengthUnit::MetresThroughout);
         Ok(Scan { format: "asc", channel, channels, pitch, heights, unit, lines: None })
     };
-    Some(read(bytes).map_err(|defect| Fault::defect("asc", defect)).and_then(scan))
+    Some(read(text).map_err(|defect| Fault::defect("asc", defect)).and_then(scan))
 }
 
-fn read(bytes: &[u8]) -> Result<([f64; 2], Field), Defect> {
-    let text = String::from_utf8_lossy(bytes);
+fn read(text: &str) -> Result<([f64; 2], Field), Defect> {
     let mut values = [None; NAMES.len()];
-    let mut rest = &*text;
+    let mut rest = text;
     loop {
         let (line, next) = rest.split_once('\n').unwrap_or((rest, ""));
         let mut words = line.split_whitespace();

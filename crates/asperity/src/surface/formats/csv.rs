@@ -8,19 +8,23 @@
 
 use super::points::{Raster, profile, raster};
 use super::preamble::fields;
-use super::text::{Part, matrix};
+use super::text::{Part, Separator, matrix, value};
 use super::words::{excerpt, unit_of_length};
 use super::{Decoded, Fault, LengthUnit, Scan, choose, distinct, usable_pitch};
 use crate::error::Defect;
 
-/// Decodes the heights, if the content begins with such a line of names.
+/// Decodes the heights, if the content begins with such a line of three names or more.
 pub(super) fn decode(part: Part<'_>, channel: Option<&str>) -> Option<Decoded> {
-    let line = part.bytes.split(|byte| *byte == b'\n').next()?;
-    let mut names: Vec<_> = fields(std::str::from_utf8(line).ok()?).collect();
+    let mut names: Vec<_> = fields(part.text.lines().next()?).collect();
     while names.len() > 2 && names.last() == Some(&"") {
         names.pop();
     }
-    are_positions(&names).then(|| table(&names, part.skip(1), channel))
+    let are_names = names.len() > 2 && are_positions(&names) && names.iter().all(|name| !is_number(name));
+    are_names.then(|| table(&names, part.skip(1), channel))
+}
+
+fn is_number(name: &str) -> bool {
+    value(name, Separator::Space).is_some()
 }
 
 /// Whether names of columns begin with those of positions.
@@ -58,14 +62,17 @@ pub(super) fn table(names: &[&str], numbers: Part<'_>, channel: Option<&str>) ->
     let (x, y, z) = (unit(0)?, unit(positions - 1)?, unit(column)?);
     let found = if positions == 1 { profile(&table, column) } else { raster(&table, column) };
     let Raster { pitch, heights } = found.ok_or_else(|| {
-        let found = excerpt(&names[..positions].join(", "));
         fault(match positions {
-            1 => {
-                Defect::Value { what: "x", found, expected: "at least 3 evenly spaced positions, each once" }
-            }
+            1 => Defect::Value {
+                what: "x",
+                found: excerpt(names[0]),
+                expected: "at least 3 evenly spaced positions, each once",
+            },
             _ => {
+                let (count, columns) = table.dim();
+                let what = "points x, y and height on no grid";
                 let expected = "a regular grid of at least 2 × 2 points, most of them there, each once";
-                Defect::Value { what: "x and y", found, expected }
+                Defect::Points { count, columns, what, expected, named: true }
             }
         })
     })?;

@@ -335,9 +335,25 @@ fn decode_plain(bytes: &[u8], options: &ReadOptions) -> Decoded {
             _ => Err(Fault::OptionOfText { format: scan.format, option: "skip" }),
         };
     }
-    match utf16(bytes) {
-        Some(text) => decode_text(text.as_bytes(), options),
-        None => decode_text(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), options),
+    if let Some(text) = utf16(bytes) {
+        return decode_text(&text, options);
+    }
+    match std::str::from_utf8(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)) {
+        Ok(text) => decode_text(text, options),
+        Err(_) => {
+            refuse_binary(bytes)?;
+            let latin_1: String = bytes.iter().map(|byte| char::from(*byte)).collect();
+            decode_text(&latin_1, options)
+        }
+    }
+}
+
+/// Returns an error if the first bytes are not those of a text.
+fn refuse_binary(bytes: &[u8]) -> std::result::Result<(), Fault> {
+    let is_binary = |byte: &u8| *byte < 0x20 && !matches!(byte, b'\t' | b'\n' | b'\r' | 0x0c);
+    match bytes.iter().take(1 << 16).any(is_binary) {
+        true => Err(Fault::NotATopography("it is binary, of no known format")),
+        false => Ok(()),
     }
 }
 
@@ -346,18 +362,15 @@ fn decode_archive(bytes: &[u8], channel: Option<&str>) -> Decoded {
 }
 
 /// Decodes text without a byte order mark. After skipped lines it is a matrix or a table, whatever the lines say.
-fn decode_text(bytes: &[u8], options: &ReadOptions) -> Decoded {
+fn decode_text(text: &str, options: &ReadOptions) -> Decoded {
     let channel = options.channel.as_deref();
-    let binary = |byte: &u8| *byte < 0x20 && !matches!(byte, b'\t' | b'\n' | b'\r' | 0x0c);
-    if bytes.iter().take(1 << 16).any(binary) {
-        return Err(Fault::NotATopography("it is binary, of no known format"));
-    }
+    refuse_binary(text.as_bytes())?;
     if options.skip == 0
-        && let Some(decoded) = headed::decode(bytes, channel).or_else(|| asc::decode(bytes, channel))
+        && let Some(decoded) = headed::decode(text, channel).or_else(|| asc::decode(text, channel))
     {
         return decoded;
     }
-    let numbers = text::Part::after(bytes, options.skip);
+    let numbers = text::Part::after(text, options.skip);
     csv::decode(numbers, channel).unwrap_or_else(|| text::decode(numbers, options))
 }
 

@@ -85,7 +85,7 @@ pub(super) fn points(table: &Field) -> Result<Option<Points>, Defect> {
         let found = format!("{columns} columns, the first two of them x and y");
         return refused(found, "x, y and height, or a first line that names the columns");
     }
-    let points = |what, expected| Err(Defect::Points { count, columns, what, expected });
+    let points = |what, expected| Err(Defect::Points { count, columns, what, expected, named: false });
     let is_scan = |along, across| is_line(along) && (is_constant(across) || is_line(across));
     match columns {
         3 if count >= FEW && (is_scan(first, second) || is_scan(second, first)) => {

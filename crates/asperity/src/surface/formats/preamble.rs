@@ -32,7 +32,6 @@ impl<'a> Preamble<'a> {
     /// Finds the numbers in a part of a text.
     pub(super) fn read(part: Part<'a>) -> Result<Self, Defect> {
         let (line, first) = part.lines().next().ok_or(Defect::Missing("values"))?;
-        let first = text(line, first)?;
         if let Kind::Numbers(_) = Kind::of(first) {
             return Ok(Self {
                 words: Words::default(),
@@ -81,10 +80,10 @@ impl<'a> Preamble<'a> {
         }
         let is_word = |field: &&str| value(field, separator).is_none();
         if fields.iter().all(is_word) {
-            match csv::are_positions(&fields) {
-                true => self.names = Some(fields),
-                false if fields.len() <= MOST_NAMED => return Err(self.unclear()),
-                false => {}
+            if csv::are_positions(&fields) {
+                self.names = Some(fields);
+            } else if fields.len() <= MOST_NAMED && !are_numbered(&fields) {
+                return Err(self.unclear());
             }
         } else if fields.first().is_some_and(is_word) {
             self.above = fields[1..].iter().map(|field| value(field, separator)).collect();
@@ -99,13 +98,19 @@ impl<'a> Preamble<'a> {
 
     /// Error for a first line of numbers that are labels.
     pub(super) fn labels_above(&self) -> Defect {
-        let mut lines = self.numbers.lines().map(|(number, line)| (number, String::from_utf8_lossy(line)));
+        let mut lines = self.numbers.lines();
         let (labels, first) = (lines.next(), lines.next());
         match (labels, first) {
-            (Some((line, labels)), Some((first, _))) => unclear(line, &labels, first),
+            (Some((line, labels)), Some((first, _))) => unclear(line, labels, first),
             _ => Defect::Missing("values"),
         }
     }
+}
+
+/// Whether these are labels such as `c1`, `c2`, `c3`.
+fn are_numbered(labels: &[&str]) -> bool {
+    let stem = |label: &&str| label.trim_end_matches(|c: char| c.is_ascii_digit()).to_owned();
+    labels.iter().all(|label| stem(label).len() < label.len() && stem(label) == stem(&labels[0]))
 }
 
 /// Largest number of columns of a table of points; a wider one is a matrix.
@@ -127,11 +132,6 @@ fn not_a_number(line: usize, text: &str) -> Defect {
     let separator = Separator::of(text);
     let token = separator.split(text).find(|token| value(token, separator).is_none());
     Defect::NotANumber { line, token: excerpt(token.unwrap_or(text)) }
-}
-
-fn text(line: usize, bytes: &[u8]) -> Result<&str, Defect> {
-    let token = || excerpt(&String::from_utf8_lossy(bytes));
-    std::str::from_utf8(bytes).map_err(|_| Defect::NotANumber { line, token: token() })
 }
 
 /// Kind of a line.
@@ -195,8 +195,6 @@ impl<'a> Found<'a> {
         let (mut run, mut first): (Option<Run>, Option<Run>) = (None, None);
         let mut above = Vec::new();
         for (number, line) in part.lines() {
-            // µ in Latin-1 stands in a line of words.
-            let line = std::str::from_utf8(line).unwrap_or("µ");
             let kind = Kind::of(line);
             match (&mut run, kind) {
                 // A line of separators alone is a line of missing heights.

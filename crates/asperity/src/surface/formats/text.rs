@@ -30,26 +30,24 @@ use crate::surface::Axis;
 /// A part of a text, from a line on to the end.
 #[derive(Clone, Copy)]
 pub(super) struct Part<'a> {
-    pub(super) bytes: &'a [u8],
+    pub(super) text: &'a str,
     /// Number of lines before.
     pub(super) before: usize,
 }
 
 impl<'a> Part<'a> {
     /// Skips lines.
-    pub(super) fn after(bytes: &'a [u8], lines: usize) -> Self {
-        let mut rest = bytes;
+    pub(super) fn after(text: &'a str, lines: usize) -> Self {
+        let mut rest = text;
         for _ in 0..lines {
-            let end = rest.iter().position(|byte| *byte == b'\n');
-            rest = end.map_or(&[], |end| &rest[end + 1..]);
+            rest = rest.split_once('\n').map_or("", |(_, rest)| rest);
         }
-        Self { bytes: rest, before: lines }
+        Self { text: rest, before: lines }
     }
 
     /// Skips lines of this part.
     pub(super) fn skip(self, lines: usize) -> Self {
-        let before = self.before + lines;
-        Self { before, ..Self::after(self.bytes, lines) }
+        Self { before: self.before + lines, ..Self::after(self.text, lines) }
     }
 
     /// The part from a line on, which is counted from 1 in the file.
@@ -58,9 +56,9 @@ impl<'a> Part<'a> {
     }
 
     /// The lines with their numbers from 1, without empty lines and comments.
-    pub(super) fn lines(self) -> impl Iterator<Item = (usize, &'a [u8])> {
-        let empty = |line: &[u8]| matches!(line.trim_ascii_start().first(), None | Some(b'#' | b'%'));
-        let lines = self.bytes.split(|byte| *byte == b'\n').enumerate();
+    pub(super) fn lines(self) -> impl Iterator<Item = (usize, &'a str)> {
+        let empty = |line: &str| matches!(line.trim_ascii_start().bytes().next(), None | Some(b'#' | b'%'));
+        let lines = self.text.split('\n').enumerate();
         lines.filter(move |(_, line)| !empty(line)).map(move |(index, line)| (self.before + index + 1, line))
     }
 }
@@ -151,13 +149,10 @@ pub(super) fn matrix(part: Part<'_>, has_labels: bool) -> Result<Field, Defect> 
     let mut separator = None;
     let mut rows_that_end_with_nothing = 0;
     for (number, line) in part.lines() {
-        let Ok(text) = std::str::from_utf8(line) else {
-            return Err(Defect::NotANumber { line: number, token: excerpt(&String::from_utf8_lossy(line)) });
-        };
-        let separator = *separator.get_or_insert_with(|| Separator::of(text));
+        let separator = *separator.get_or_insert_with(|| Separator::of(line));
         let before = values.len();
         let mut token = "";
-        for next in separator.split(text).skip(usize::from(has_labels)) {
+        for next in separator.split(line).skip(usize::from(has_labels)) {
             token = next;
             let value = value(token, separator)
                 .ok_or_else(|| Defect::NotANumber { line: number, token: excerpt(token) })?;

@@ -19,8 +19,8 @@ fn columns_of_a_csv_are_channels_with_units() {
 #[test]
 fn a_csv_that_is_no_grid_is_an_error() {
     let with = |old: &str, new: &str| defect(SAMPLE.replacen(old, new, 1).as_bytes());
-    let message = "csv: x and y is `X [um], Y (um)`, expected a regular grid of at least 2 × 2 points, most of them \
-                   there, each once";
+    let message = "csv: 4 lines of 4 numbers look like points x, y and height on no grid, expected a regular grid of at \
+                   least 2 × 2 points, most of them there, each once";
     assert_eq!(with("2,0,2,20", "3,0,2,20"), message);
     assert_eq!(with("2,0,2,20", "2,0,two,20"), "csv: line 3: `two` is not a height");
     assert_eq!(with("[nm]", "[V]"), "csv: a unit is `V`, expected one of length");

@@ -62,6 +62,7 @@ fn known_words_above_a_matrix_give_unit_and_pitch() {
             Some([500.0 * nm; 2]),
             um,
         ),
+        ("nx,3\nny,2\nz unit,nm\nc1,c2,c3\n1,2,3\n4,,6\n", None, nm),
         ("Scan of a disc,,\nUnit,nm,\n,,\n1,2,3\n4,,6\n", None, nm),
     ] {
         for text in [text.to_owned(), text.replace('\n', "\r\n"), format!("\u{feff}{text}")] {
@@ -70,6 +71,9 @@ fn known_words_above_a_matrix_give_unit_and_pitch() {
             assert_same(&scan.heights, &(six() * unit));
         }
     }
+    // The first words are no names of columns.
+    let sizes = "X Pixels,3\nY Pixels,2\nUnit,um\n1,2,3\n4,,6\n";
+    assert_same(&decode(sizes.as_bytes(), None).unwrap().heights, &(six() * um));
     // Words without a unit, and with one for lengths along the surface alone.
     let bare = scan("Pitch,2\n1,2,3\n4,,6\n", &ReadOptions::default().with_unit(um)).unwrap();
     assert_eq!((bare.pitch, bare.heights[[2, 1]]), (Some([2.0 * um; 2]), 6.0 * um));
@@ -160,8 +164,10 @@ fn labels_are_never_heights() {
 }
 
 #[test]
-fn a_matrix_below_words_may_be_in_utf16() {
+fn a_matrix_below_words_may_be_in_utf16_or_latin_1() {
     let units = std::iter::once(0xfeff).chain(WORDS.replace("um", "µm").encode_utf16().collect::<Vec<_>>());
     let bytes: Vec<u8> = units.flat_map(u16::to_le_bytes).collect();
     assert_same(&decode(&bytes, None).unwrap().heights, &(six() * 1e-6));
+    let latin: Vec<u8> = WORDS.replace("um", "µm").chars().map(|c| c as u8).collect();
+    assert_same(&decode(&latin, None).unwrap().heights, &(six() * 1e-6));
 }
