@@ -79,7 +79,13 @@ fn the_case_of_the_contract_is_read_in_si() {
     let lower = &case.lower.topography;
     assert_eq!(
         lower.source,
-        Source::File { path: inputs("good").join("disc.x3p"), channel: None, unit: None }
+        Source::File {
+            path: inputs("good").join("disc.x3p"),
+            channel: None,
+            unit: None,
+            lines: None,
+            skip: None,
+        }
     );
     let preparation = Preparation {
         fill: Fill::Harmonic,

@@ -10,9 +10,12 @@ use std::collections::HashMap;
 
 use hdf5_pure::{AttrValue, DType, Dataset, File, Group};
 
-use super::{Decoded, Fault, LengthUnit, MAX_CELLS, Scan, UNDERSIDE, cells, choose, finite, usable_pitch};
+use super::{
+    Decoded, Fault, LengthUnit, MAX_CELLS, Scan, UNDERSIDE, cells, choose, choose_among, finite, usable_pitch,
+};
 use crate::error::Defect;
 use crate::grid::Field;
+use crate::surface::Axis;
 
 /// First bytes of the file.
 pub(super) const MAGIC: &[u8] = b"\x89HDF\r\n\x1a\n";
@@ -32,11 +35,8 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     if channels.is_empty() {
         return Err(fault(Defect::Missing("data set of two dimensions and real numbers")));
     }
-    if channel.is_none() && channels.len() > 1 {
-        return Err(Fault::NoChannel { available: channels });
-    }
     let wanted = channel.map(|channel| format!("/{}", channel.trim_start_matches('/')));
-    let channel = channels[choose(&channels, wanted.as_deref())?].clone();
+    let channel = channels[choose_among(&channels, wanted.as_deref())?].clone();
     let (heights, unit) = dataset(&file, &channel)
         .and_then(|set| {
             let unit = ["unit", "units"].iter().find_map(|name| set.text(name));
@@ -47,7 +47,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
             Ok((set.values(bytes.len())?.mapv_into(height), kind))
         })
         .map_err(fault)?;
-    Ok(Scan { format: "hdf5", channel, channels, pitch: None, heights, unit })
+    Ok(Scan { format: "hdf5", channel, channels, pitch: None, heights, unit, lines: Some(Axis::Y) })
 }
 
 type Outcome<T> = Result<T, Defect>;
@@ -70,7 +70,8 @@ fn result(bytes: &[u8], file: &File, channel: Option<&str>) -> Decoded {
     let pitch = set.attributes.get("pitch").and_then(AttrValue::to_f64s).unwrap_or_default();
     let pitch = <[f64; 2]>::try_from(pitch).ok().and_then(usable_pitch);
     let heights = set.values(bytes.len()).map_err(fault)?.mapv_into(finite);
-    Ok(Scan { format: RESULTS, channel, channels, pitch, heights, unit: LengthUnit::Known })
+    let unit = LengthUnit::Known;
+    Ok(Scan { format: RESULTS, channel, channels, pitch, heights, unit, lines: None })
 }
 
 /// A data set and its attributes.

@@ -8,10 +8,12 @@ use super::*;
 use crate::grid::Grid;
 use crate::surface::Topography;
 
+mod arrays;
 mod bombs;
 mod containers;
 mod csv;
 mod files;
+mod grids;
 mod gwy;
 mod headed;
 mod instruments;
@@ -20,6 +22,7 @@ mod missing;
 mod points;
 mod probes;
 mod sdf;
+mod text;
 mod tiff;
 
 /// Calls [`ReadOptions::scan`].
@@ -33,7 +36,11 @@ fn from_bytes(name: &Path, bytes: &[u8], channel: Option<&str>, unit: Option<f64
 }
 
 fn options(channel: Option<&str>, unit: Option<f64>) -> ReadOptions {
-    ReadOptions { channel: channel.map(str::to_owned), unit, pitch: None }
+    ReadOptions { channel: channel.map(str::to_owned), unit, ..ReadOptions::default() }
+}
+
+fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
+    super::decode(bytes, &options(channel, None))
 }
 
 #[test]
@@ -365,7 +372,7 @@ fn a_damaged_sur_is_an_error() {
 
 #[test]
 fn a_matrix_is_read_whatever_separates_it() {
-    let expected = ndarray::array![[1.5, -2e-6, 3.0], [4.0, f64::NAN, 6.25]];
+    let expected = ndarray::array![[1.5, 4.0], [-2e-6, f64::NAN], [3.0, 6.25]];
     for text in [
         "1.5 -2e-6 3\n4 nan 6.25\n",
         "  1.5\t-2e-6   3 \r\n  4 NaN 6.25",
@@ -380,13 +387,14 @@ fn a_matrix_is_read_whatever_separates_it() {
     ] {
         let scan = decode(text.as_bytes(), None).unwrap_or_else(|fault| panic!("{text:?}: {fault:?}"));
         assert_eq!((scan.format, scan.channel.as_str(), scan.pitch), ("text", "height", None));
+        assert_eq!(scan.lines, Some(Axis::X));
         assert_same(&scan.heights, &expected);
     }
     // µ in Latin-1 in a comment.
     assert_same(&decode(b"# in \xb5m\n1\n", None).unwrap().heights, &ndarray::array![[1.0]]);
     assert_same(
         &decode(b"1;2;\n3;4;5\n", None).unwrap().heights,
-        &ndarray::array![[1.0, 2.0, f64::NAN], [3.0, 4.0, 5.0]],
+        &ndarray::array![[1.0, 3.0], [2.0, 4.0], [f64::NAN, 5.0]],
     );
 }
 
@@ -395,7 +403,7 @@ fn a_gzipped_matrix_is_read_as_a_plain_one() {
     let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::default());
     encoder.write_all(b"1 2\n3 4\n").unwrap();
     let packed = encoder.finish().unwrap();
-    assert_same(&decode(&packed, None).unwrap().heights, &ndarray::array![[1.0, 2.0], [3.0, 4.0]]);
+    assert_same(&decode(&packed, None).unwrap().heights, &ndarray::array![[1.0, 3.0], [2.0, 4.0]]);
     assert!(defect(&packed[..packed.len() - 6]).starts_with("gzip: "));
 }
 
@@ -407,7 +415,7 @@ fn a_table_of_points_is_a_grid_in_any_order() {
     assert_relative_eq!(scan.pitch.unwrap()[0], 0.3335, max_relative = 1e-12);
     assert_eq!(scan.pitch.unwrap()[1], 1.0);
     // A repeated or missing point: a matrix of three columns.
-    assert_eq!(decode(b"0 0 1\n0 1 2\n1 0 3\n1 0 4\n", None).unwrap().heights.dim(), (4, 3));
+    assert_eq!(decode(b"0 0 1\n0 1 2\n1 0 3\n1 0 4\n", None).unwrap().heights.dim(), (3, 4));
 }
 
 #[test]
@@ -498,7 +506,20 @@ fn samples() -> Vec<Vec<u8>> {
     samples.extend(headed::samples());
     samples.push(tiff::sample());
     samples.push(csv::SAMPLE.as_bytes().to_vec());
+    samples.push(text::WORDS.as_bytes().to_vec());
+    samples.extend(made(&["mat", "npz", "gsf", "asc"]));
     samples
+}
+
+/// Returns the files of these corpora, which are of other programs.
+fn made(formats: &[&str]) -> Vec<Vec<u8>> {
+    let files = |format: &&str| std::fs::read_dir(corpus(format, "")).unwrap();
+    formats.iter().flat_map(files).map(|file| std::fs::read(file.unwrap().path()).unwrap()).collect()
+}
+
+/// Path of a file in the corpus of a format.
+fn corpus(format: &str, name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/corpus").join(format).join(name)
 }
 
 #[test]
@@ -533,7 +554,7 @@ fn a_damaged_file_is_answered_and_never_a_panic() {
 #[test]
 fn random_bytes_are_answered_and_never_a_panic() {
     arbtest(|u| {
-        let magics: [&[u8]; 24] = [
+        let magics: [&[u8]; 29] = [
             b"",
             b"PK\x03\x04",
             b"\x93NUMPY\x01\0",
@@ -558,6 +579,11 @@ fn random_bytes_are_answered_and_never_a_panic() {
             b"CDF\x01\0\0\0\0\0\0\0\x0a\0\0\0\x02",
             b"\x89HDF\r\n\x1a\n\0\0\0\0",
             b"\xff\xfe",
+            b"Gwyddion Simple Field 1.0\nXRes = 1\nYRes = 1\n",
+            b"ncols 2\nnrows 2\ncellsize 1\n",
+            b"Unit,um\nPitch,1\n1,2\n",
+            b"MATLAB 5.0 MAT-file",
+            b"x,z\n0,1\n1,2\n",
         ];
         let mut bytes = u.choose(&magics)?.to_vec();
         bytes.extend(u.arbitrary::<Vec<u8>>()?);

@@ -33,7 +33,8 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     };
     let page = choose(&channels, channel)?;
     let (heights, unit) = heights(bytes, page).map_err(fault)?;
-    Ok(Scan { format: "tiff", channel: channels[page].clone(), channels, pitch: None, heights, unit })
+    let channel = channels[page].clone();
+    Ok(Scan { format: "tiff", channel, channels, pitch: None, heights, unit, lines: None })
 }
 
 type File<'a> = Decoder<Cursor<&'a [u8]>>;

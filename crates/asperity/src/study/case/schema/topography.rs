@@ -3,8 +3,8 @@
 use super::Bounds::{AboveZero, AboveZeroOrInfinite, Any, Between};
 use super::Fallback::Absent;
 use super::typed::{
-    LENGTH, Nested, Optional, SEED, TEXT, Typed, Value, choice, defaulted, number, optional, other, pair,
-    quantity, required, section, tables,
+    LENGTH, Nested, Optional, SEED, TEXT, Typed, Value, choice, count, defaulted, number, optional, other,
+    pair, quantity, required, section, tables,
 };
 use super::values::topography as read;
 use crate::surface::{Axis, Band, Decay, Fill, Filter, Groove, Interpolation, Level};
@@ -105,7 +105,7 @@ pub(in crate::study) mod file {
             TEXT,
             "\"disc.x3p\"",
             "path relative to the case file: x3p, sdf, gwy, sur, mnt, opd, opdx, MetroPro dat, plu, al3d, frt, tmd, nms, vk4 to \
-             vk7, NanoScope spm, ibw, nid, WSxM stp, mi, bcr, tiff, NetCDF, HDF5 (results too), npy, csv or text, also \
+             vk7, NanoScope spm, ibw, nid, WSxM stp, mi, bcr, gsf, asc, tiff, NetCDF, HDF5 (results too), mat, npy, npz, csv or text, also \
              gzipped; see [formats](formats.md)",
         );
         CHANNEL: Optional<String> = optional(
@@ -120,9 +120,19 @@ pub(in crate::study) mod file {
             other(Some(Dimension::Length), "unit, or length > 0", |_, entry| entry.unit(Dimension::Length)),
             "metres; required for integers in tiff",
             "\"nm\"",
-            "unit of the numbers in a file without units: heights of npy, text, csv, tiff, HDF5, NetCDF and ibw, and x and y of a \
-             table of points; an error for a file with its own unit",
+            "unit of the numbers in a file without units: heights of npy, npz, mat, text, csv, tiff, HDF5, NetCDF and ibw, and all \
+             lengths of asc and of tables of points; an error for a file with its own unit",
         );
+        LINES: Optional<Axis> = optional(
+            "lines",
+            choice::<Axis>(),
+            "`\"x\"` for text, `\"y\"` for npy, npz, mat and HDF5, which are indexed `[ix, iy]`",
+            "\"y\"",
+            "direction of a line of a matrix; a text that looks like points is a matrix if this is given; an error for a format that \
+             determines it, see [formats](formats.md#text)",
+        );
+        SKIP: Optional<usize> =
+            optional("skip", count(0), "0", "6", "number of lines above the numbers of a text");
         DESPIKE: Optional<f64> = optional(
             "despike",
             number(AboveZero),
