@@ -1,5 +1,6 @@
 //! Keys of a hardness map.
 
+use super::exists;
 use super::typed::{Optional, TEXT, Typed, optional, other, required, section};
 use crate::surface::Axis;
 use crate::units::Dimension;
@@ -19,7 +20,8 @@ pub(in crate::study) mod map {
             optional("channel", TEXT, "the first", "\"hardness\"", "channel, if the file has several");
         UNIT: Typed<f64> = super::super::typed::defaulted(
             "unit",
-            other(Some(Dimension::Pressure), "unit, or pressure > 0", |_, entry| entry.unit(Dimension::Pressure)),
+            other(Some(Dimension::Pressure), "unit, or pressure > 0", |_, entry| entry.unit(Dimension::Pressure))
+                .exists(exists::UNIT),
             "\"Pa\"",
             "\"GPa\"",
             "unit of the numbers in the file",
