@@ -136,7 +136,7 @@ pub fn ibw(data: &[u8]) {
 /// MAT: a file, or a variable of version 5, which is packed if its first byte is odd.
 pub fn mat(data: &[u8]) {
     if data.starts_with(b"MATLAB ") {
-        return check(&["mat", "hdf5"], data);
+        return check(&["mat"], data);
     }
     let size = |content: &[u8]| (content.len() as u32).to_le_bytes();
     let mut element = [&14u32.to_le_bytes()[..], &size(data), data].concat();

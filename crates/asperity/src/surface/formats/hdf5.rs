@@ -30,8 +30,21 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     if ["version", "identity"].iter().all(|name| attributes.contains_key(*name)) {
         return result(bytes, &file, channel);
     }
+    decode_sets("hdf5", bytes, channel, |_| true)
+}
+
+/// Decodes the matrices of real numbers that are `suitable`, in a file of this format.
+pub(super) fn decode_sets(
+    format: &'static str,
+    bytes: &[u8],
+    channel: Option<&str>,
+    suitable: impl Fn(&Dataset) -> bool,
+) -> Decoded {
+    let fault = |defect| Fault::defect(format, defect);
+    let file = File::from_bytes(bytes.to_vec()).map_err(container).map_err(fault)?;
     let mut channels = Vec::new();
     matrices(&file.root(), "", &mut 0, &mut channels);
+    channels.retain(|path| file.dataset(path).is_ok_and(|set| suitable(&set)));
     if channels.is_empty() {
         return Err(fault(Defect::Missing("data set of two dimensions and real numbers")));
     }
@@ -47,7 +60,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
             Ok((set.values(bytes.len())?.mapv_into(height), kind))
         })
         .map_err(fault)?;
-    Ok(Scan { format: "hdf5", channel, channels, pitch: None, heights, unit, lines: Some(Axis::Y) })
+    Ok(Scan { format, channel, channels, pitch: None, heights, unit, lines: Some(Axis::Y) })
 }
 
 type Outcome<T> = Result<T, Defect>;

@@ -11,7 +11,10 @@
 
 use std::io::Read;
 
+use hdf5_pure::{AttrValue, Dataset};
+
 use super::binary::{Cursor, Number, Order, Raster, text};
+use super::words::excerpt;
 use super::{Decoded, Fault, LengthUnit, Scan, cells, choose_among, hdf5};
 use crate::error::Defect;
 use crate::grid::Field;
@@ -26,12 +29,13 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
         return hierarchical(bytes, channel);
     }
     let fault = |defect| Fault::defect("mat", defect);
-    let mut variables = variables(bytes).map_err(fault)?;
+    let (mut variables, others) = variables(bytes).map_err(fault)?;
     if variables.iter().any(|variable| !variable.is_vector()) {
         variables.retain(|variable| !variable.is_vector());
     }
     if variables.is_empty() {
-        return Err(fault(Defect::Missing("matrix of real numbers")));
+        let (found, expected) = (excerpt(&others.join(", ")), "a matrix of real numbers");
+        return Err(fault(Defect::Value { what: "the content", found, expected }));
     }
     // Names are distinct in a file of MATLAB.
     let channels = super::distinct(variables.iter().map(|variable| variable.name.clone()));
@@ -54,9 +58,26 @@ fn hierarchical(bytes: &[u8], channel: Option<&str>) -> Decoded {
     if !bytes.get(BLOCK..).is_some_and(|file| file.starts_with(hdf5::MAGIC)) {
         return Err(Fault::defect("mat", Defect::Missing("HDF5 behind 512 bytes")));
     }
-    let mut scan = hdf5::decode(bytes, channel)?;
+    // Text and logical values are numbers whose class says so.
+    let is_numeric = |set: &Dataset| {
+        let class = set
+            .attrs()
+            .ok()
+            .and_then(|all| all.get("MATLAB_class").and_then(AttrValue::as_str).map(str::to_owned));
+        class.is_none_or(|class| {
+            class == "double" || class == "single" || class.trim_start_matches('u').starts_with("int")
+        })
+    };
+    let sizes = |set: &Dataset| set.shape().unwrap_or_default();
+    let is_matrix = |set: &Dataset| is_numeric(set) && !sizes(set).contains(&1);
+    let is_vector = |set: &Dataset| is_numeric(set) && sizes(set).iter().any(|size| *size > 1);
+    let mut scan = match hdf5::decode_sets("mat", bytes, channel, is_matrix) {
+        Err(Fault::Corrupt { reason: Defect::Missing(_), .. }) => {
+            hdf5::decode_sets("mat", bytes, channel, is_vector)?
+        }
+        decoded => decoded?,
+    };
     scan.heights = scan.heights.t().as_standard_layout().into_owned();
-    scan.format = "mat";
     Ok(scan)
 }
 
@@ -87,8 +108,8 @@ enum Content<'a> {
     Packed(&'a [u8]),
 }
 
-/// Returns the matrices and vectors of real numbers.
-fn variables(bytes: &[u8]) -> Outcome<Vec<Variable<'_>>> {
+/// Returns the matrices and vectors of real numbers, and the names of the other variables with what they are.
+fn variables(bytes: &[u8]) -> Outcome<(Vec<Variable<'_>>, Vec<String>)> {
     let order = match bytes.get(HEADER - 2..HEADER) {
         Some(b"IM") => Order::Little,
         Some(b"MI") => Order::Big,
@@ -96,8 +117,8 @@ fn variables(bytes: &[u8]) -> Outcome<Vec<Variable<'_>>> {
     };
     let mut file = Cursor::new(bytes, order, "the file");
     file.seek(HEADER)?;
-    let mut variables = Vec::new();
-    while !file.rest().is_empty() && variables.len() < MAX_VARIABLES {
+    let (mut variables, mut others) = (Vec::new(), Vec::new());
+    while !file.rest().is_empty() && variables.len() + others.len() < MAX_VARIABLES {
         let (kind, size) = (file.u32()?, file.u32()? as usize);
         let content = file.take(size)?;
         let content = match kind {
@@ -105,14 +126,17 @@ fn variables(bytes: &[u8]) -> Outcome<Vec<Variable<'_>>> {
             MATRIX => Content::Plain(content),
             _ => continue,
         };
-        variables.extend(Variable::of(content, order)?);
+        match Variable::of(content, order)? {
+            Ok(variable) => variables.push(variable),
+            Err(other) => others.push(other),
+        }
     }
-    Ok(variables)
+    Ok((variables, others))
 }
 
 impl<'a> Variable<'a> {
-    /// Reads what stands before the numbers; none if they are not those of a matrix or a vector.
-    fn of(content: Content<'a>, order: Order) -> Outcome<Option<Self>> {
+    /// Reads what stands before the numbers; the name and the kind of a variable that is no matrix or vector of real numbers.
+    fn of(content: Content<'a>, order: Order) -> Outcome<Result<Self, String>> {
         let start = content.start(MAX_HEADER)?;
         let mut cursor = Cursor::new(&start, order, "a variable");
         let flags = element(&mut cursor)?.1;
@@ -122,23 +146,30 @@ impl<'a> Variable<'a> {
             (Order::Big, [_, _, flags, class, ..]) => [*class, *flags],
             _ => return Err(Defect::Missing("flags of a variable")),
         };
-        const NUMERIC: std::ops::RangeInclusive<u8> = 6..=15;
-        const COMPLEX_OR_LOGICAL: u8 = 0x08 | 0x02;
-        if !NUMERIC.contains(&class) || flags & COMPLEX_OR_LOGICAL != 0 {
-            return Ok(None);
-        }
         let (_, sizes) = element(&mut cursor)?;
-        let &[rows, columns] =
-            &sizes.as_chunks().0.iter().map(|size| number(order, *size)).collect::<Vec<_>>()[..]
-        else {
-            return Ok(None);
-        };
+        let sizes: Vec<_> = sizes.as_chunks().0.iter().map(|size| number(order, *size)).collect();
         let name = text(element(&mut cursor)?.1);
-        // Below two numbers it is a scalar, or empty.
-        if cells(&[rows.into(), columns.into()])? < 2 {
-            return Ok(None);
-        }
-        Ok(Some(Self { name, shape: [rows as usize, columns as usize], order, content }))
+        const COMPLEX: u8 = 0x08;
+        const LOGICAL: u8 = 0x02;
+        let kind = match (class, &sizes[..]) {
+            (1, _) => "a cell array",
+            (2 | 3, _) => "a structure",
+            (4, _) => "text",
+            (5, _) => "sparse",
+            (6..=15, _) if flags & COMPLEX != 0 => "complex",
+            (6..=15, _) if flags & LOGICAL != 0 => "logical",
+            (6..=15, &[rows, columns]) => match cells(&[rows.into(), columns.into()])? {
+                0 => "empty",
+                1 => "a number",
+                _ => {
+                    let shape = [rows as usize, columns as usize];
+                    return Ok(Ok(Self { name, shape, order, content }));
+                }
+            },
+            (6..=15, _) => "of more dimensions",
+            _ => "of another class",
+        };
+        Ok(Err(format!("{name}: {kind}")))
     }
 
     fn is_vector(&self) -> bool {

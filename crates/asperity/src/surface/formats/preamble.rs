@@ -32,7 +32,7 @@ impl<'a> Preamble<'a> {
     /// Finds the numbers in a part of a text.
     pub(super) fn read(part: Part<'a>) -> Result<Self, Defect> {
         let (line, first) = part.lines().next().ok_or(Defect::Missing("values"))?;
-        if let Kind::Numbers(_) = Kind::of(first) {
+        if let Kind::Numbers(_) | Kind::Nothing = Kind::of(first) {
             return Ok(Self {
                 words: Words::default(),
                 names: None,
@@ -57,7 +57,7 @@ impl<'a> Preamble<'a> {
             words: Words::read(lines.iter().map(|(_, line)| *line))?,
             names: None,
             above: None,
-            numbers: part.from_line(start),
+            numbers: part.starting_at(start),
             has_labels: matches!(kind, Kind::Labelled(_)),
             starts_with_numbers: false,
             last,
@@ -82,7 +82,8 @@ impl<'a> Preamble<'a> {
         if fields.iter().all(is_word) {
             if csv::are_positions(&fields) {
                 self.names = Some(fields);
-            } else if fields.len() <= MOST_NAMED && !are_numbered(&fields) {
+            } else if separator != Separator::Space && fields.len() <= MOST_NAMED && !are_numbered(&fields) {
+                // Words between spaces may be a title.
                 return Err(self.unclear());
             }
         } else if fields.first().is_some_and(is_word) {
@@ -215,7 +216,25 @@ impl<'a> Found<'a> {
         let alone = |run: &Run| matches!(run.kind, Kind::Numbers(2..)) && first.is_none();
         let run = run.filter(|run| run.lines > 1 || alone(run)).or(first)?;
         above.truncate(run.above);
-        Some(Self { start: run.start, kind: run.kind, above })
+        let mut found = Self { start: run.start, kind: run.kind, above };
+        found.include_missing_lines();
+        Some(found)
+    }
+
+    /// Adds lines of separators directly above, unless these fill up lines of words, too, as in a spreadsheet.
+    fn include_missing_lines(&mut self) {
+        let Kind::Numbers(columns) = self.kind else { return };
+        let is_filled = |line: &str| fields(line).count() == columns;
+        if self.above.iter().any(|(_, line)| Kind::of(line) != Kind::Nothing && is_filled(line)) {
+            return;
+        }
+        while let Some((number, line)) = self.above.last()
+            && Kind::of(line) == Kind::Nothing
+            && is_filled(line)
+        {
+            self.start = *number;
+            self.above.pop();
+        }
     }
 }
 

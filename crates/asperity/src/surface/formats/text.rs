@@ -38,11 +38,11 @@ pub(super) struct Part<'a> {
 impl<'a> Part<'a> {
     /// Skips lines.
     pub(super) fn after(text: &'a str, lines: usize) -> Self {
-        let mut rest = text;
-        for _ in 0..lines {
-            rest = rest.split_once('\n').map_or("", |(_, rest)| rest);
-        }
-        Self { text: rest, before: lines }
+        let start = match lines {
+            0 => 0,
+            _ => text.match_indices('\n').nth(lines - 1).map_or(text.len(), |(end, _)| end + 1),
+        };
+        Self { text: &text[start..], before: lines }
     }
 
     /// Skips lines of this part.
@@ -51,7 +51,7 @@ impl<'a> Part<'a> {
     }
 
     /// The part from a line on, which is counted from 1 in the file.
-    pub(super) fn from_line(self, line: usize) -> Self {
+    pub(super) fn starting_at(self, line: usize) -> Self {
         self.skip(line - 1 - self.before)
     }
 

@@ -42,7 +42,10 @@ fn several_matrices_of_a_mat_are_channels_to_be_chosen() {
     let profile = read(&corpus("mat", "profile"), None, Some(1e-6)).unwrap();
     assert_same(&profile.heights, &(ndarray::array![[0.0, 1.0, 4.0, 9.0]] * 1e-6));
     let complex = read(&corpus("mat", "complex"), None, None).unwrap_err().to_string();
-    assert!(complex.ends_with("mat: no matrix of real numbers"), "{complex}");
+    assert!(
+        complex.ends_with("mat: the content is `z: complex`, expected a matrix of real numbers"),
+        "{complex}"
+    );
 }
 
 #[test]
@@ -81,9 +84,9 @@ fn numbers_of_a_mat_may_be_stored_narrower_than_their_class_and_in_either_byte_o
         assert_same(&decode(&big(6, 0, storage, &data, [2, 2]), Some("h")).unwrap().heights, &expected);
     }
     let refused = |class, flags| defect(&big(class, flags, 2, &[1, 2, 3, 4], [2, 2]));
-    // Logical, text.
-    for (class, flags) in [(9, 0x02), (4, 0)] {
-        assert_eq!(refused(class, flags), "mat: no matrix of real numbers");
+    for (class, flags, kind) in [(9, 0x02, "logical"), (4, 0, "text"), (1, 0, "a cell array")] {
+        let expected = format!("mat: the content is `h: {kind}`, expected a matrix of real numbers");
+        assert_eq!(refused(class, flags), expected);
     }
 }
 

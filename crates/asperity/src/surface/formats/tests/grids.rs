@@ -18,7 +18,7 @@ fn a_gsf_by_gsffile_has_its_first_line_at_the_largest_y() {
     let scan = read(&corpus("gsf", "field"), None, None).unwrap();
     assert_eq!((scan.format, scan.channel.as_str(), scan.unit), ("gsf", "disc", LengthUnit::Known));
     assert_eq!(scan.pitch, Some([1e-5 / 5.0, 9e-6 / 3.0]));
-    let expected = heights().mapv(|z| f64::from((z as f32 * 1e-6) as f32));
+    let expected = heights().mapv(|z| f64::from(z as f32 * 1e-6));
     for (found, expected) in scan.heights.iter().zip(&expected) {
         assert!(
             found.is_nan() && expected.is_nan() || (found - expected).abs() < 1e-12,

@@ -149,6 +149,8 @@ fn a_profile_may_have_names_units_and_decimal_commas() {
         assert_same(&scan.heights, &(ndarray::array![[1.0], [3.0], [2.5]] * factors[1]));
         assert_eq!(scan.pitch, Some([0.5 * factors[0]; 2]));
     }
+    let titled = decode(b"Stylus trace\n0 1\n0.5 3\n1 2.5\n", None).unwrap();
+    assert_eq!((titled.format, titled.pitch), ("xz", Some([0.5; 2])));
     let two = decode(b"x [um], z [um], z2 [nm]\n0,1,4\n1,2,5\n2,3,6\n", Some("z2")).unwrap();
     assert_eq!((two.channels.len(), two.heights[[2, 0]]), (2, 6.0 * 1e-9));
     // Four lines without names, and four lines whose x are not evenly spaced.

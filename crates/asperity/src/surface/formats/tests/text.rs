@@ -71,6 +71,11 @@ fn known_words_above_a_matrix_give_unit_and_pitch() {
             assert_same(&scan.heights, &(six() * unit));
         }
     }
+    // A first line of missing heights.
+    let missing = ndarray::array![[f64::NAN, 1.0], [f64::NAN, 2.0], [f64::NAN, 3.0]];
+    for text in [";;\n1;2;3\n", "Unit: m\n;;\n1;2;3\n"] {
+        assert_same(&decode(text.as_bytes(), None).unwrap().heights, &missing);
+    }
     // The first words are no names of columns.
     let sizes = "X Pixels,3\nY Pixels,2\nUnit,um\n1,2,3\n4,,6\n";
     assert_same(&decode(sizes.as_bytes(), None).unwrap().heights, &(six() * um));
@@ -103,6 +108,10 @@ fn lines_above_a_matrix_that_are_not_plain_are_named_with_the_lines_to_skip() {
     assert_eq!(error.hint().unwrap(), "skip the 2 lines above the matrix");
     let skipped = scan(sizes, &ReadOptions::default().with_skip(2)).unwrap();
     assert_eq!((skipped.heights.dim(), skipped.heights[[0, 0]]), ((3, 3), 1.0));
+    for skip in [6, usize::MAX] {
+        let error = scan(sizes, &ReadOptions::default().with_skip(skip)).unwrap_err().to_string();
+        assert_eq!(error, "matrix.txt: text: no values");
+    }
     for (text, line, token, first) in [
         ("3 2\n1 2 3 4\n4 - 6 7\n", 1, "3 2", 2),
         ("5\n1 2 3 4\n4 - 6 7\n", 1, "5", 2),
