@@ -18,7 +18,7 @@ from ._solved import Solved
 from ._table import by_direction, records, Table, Units
 from ._units import path, Quantity
 from .body import Body, Handed, bodies
-from .errors import bad_input, warn
+from .errors import Warner, bad_input
 from .fields import Fields
 from .material import Material
 from .surface import Surface
@@ -575,11 +575,12 @@ def _solved(pair: tuple[Body, Body], keywords: Any, options: Mapping[str, Any]) 
             if value is not None:
                 message = f"'{key}' needs 'out', the directory for its files"
                 raise bad_input(key, message)
+        warner = Warner()
         with Teller(options["progress"]) as tell:
-            found = _core.rest(case, handed.given, count, tell)
+            found = _core.rest(case, handed.given, count, tell, warner)
         pitch = (found["pitch"][0], found["pitch"][1])
         arrays = fields.of_cells(found["fields"], pitch)
-        warn(found["warnings"])
+        warner.all(found["warnings"])
         return Contact(
             found.get("record"),
             found.get("sweep", []),
@@ -593,11 +594,11 @@ def _solved(pair: tuple[Body, Body], keywords: Any, options: Mapping[str, Any]) 
             found["closed_form"],
             found["adhesion"],
         )
-    out = path("out", options["out"])
+    out, warner = path("out", options["out"]), Warner()
     with Teller(options["progress"]) as tell:
-        _core.run(case, handed.given, out, existing, count, tell)
+        _core.run(case, handed.given, out, existing, count, tell, warner)
     answer = stored(out, _core.Results(out))
-    warn(answer.warnings)
+    warner.all(answer.warnings)
     return answer
 
 

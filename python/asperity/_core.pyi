@@ -50,7 +50,7 @@ class Passes:
         """
         Writes the summary; nothing more can be solved.
         """
-    def finish(self, /) -> None:
+    def finish(self, /, warn: Any) -> None:
         """
         Finishes the pass that is solved: it is written, and the next one begins on its bodies.
         """
@@ -260,12 +260,12 @@ def quantity(key: str, value: Any, dimension: str, positive: bool = True, infini
     Mistakes name the `key`.
     """
 
-def rest(source: dict | str | PathLike[str], handed: Incomplete, threads: SupportsIndex, progress: Any | None) -> dict:
+def rest(source: dict | str | PathLike[str], handed: Incomplete, threads: SupportsIndex, progress: Any | None, warn: Any) -> dict:
     """
     Computes a static contact.
     """
 
-def run(source: dict | str | PathLike[str], handed: Incomplete, directory: str | PathLike[str], existing: str, threads: SupportsIndex, progress: Any | None) -> None:
+def run(source: dict | str | PathLike[str], handed: Incomplete, directory: str | PathLike[str], existing: str, threads: SupportsIndex, progress: Any | None, warn: Any) -> None:
     """
     Computes a case and writes its results to a directory.
     """

@@ -18,7 +18,7 @@ from ._same import Comparable
 from ._table import by_direction, records, Table, Units
 from ._temporary import Temporary
 from ._units import path as paths
-from .errors import _make, bad_input
+from .errors import Warner, _make, bad_input
 from .fields import Fields
 from .surface import Surface
 
@@ -312,7 +312,7 @@ def run(
     count, existing = _case.execution(options)
     handed: dict[str, dict[str, Any]] = {"topographies": {}, "hardness": {}}
     with Teller(options["progress"]) as tell:
-        _core.run(paths("case", case), handed, paths("out", out), existing, count, tell)
+        _core.run(paths("case", case), handed, paths("out", out), existing, count, tell, Warner())
     return open(out)
 
 

@@ -65,6 +65,7 @@ __all__ = [
     "Unsupported",
     "WindowOutside",
     "WithinResults",
+    "WornAway",
 ]
 
 
@@ -237,13 +238,13 @@ class AtIncrement(Failed):
 
 
 class AtPass(Failed):
-    """The result of a pass is invalid: `pass_number`, from 1, and the `cause`."""
+    """A pass as a whole has no valid result: `pass_number`, from 1, and the `cause`."""
 
     cause: AsperityError
 
 
 class AtUpdate(Failed):
-    """The result of an update of wear in place is invalid: `update`, from 1 (0 before the first), and the `cause`."""
+    """An update of wear in place has no valid result: `update`, from 1 (0 before the first), and the `cause`."""
 
     update: int
     cause: AsperityError
@@ -254,6 +255,14 @@ class NotFinite(Failed):
 
     field: str
     cell: list[int]
+
+
+class WornAway(Failed):
+    """A `body` loses more height than it is long, and is no longer a surface: `depth`, `length`, m."""
+
+    body: str
+    depth: float
+    length: float
 
 
 class FlowNotConverged(Failed):
@@ -360,6 +369,23 @@ def warn(texts: list[str], category: type[UserWarning] = ModelWarning) -> None:
         level, frame = level + 1, frame.f_back
     for text in texts:
         warnings.warn(text, category, stacklevel=level)
+
+
+class Warner:
+    """Warns of each text once, at the line that called asperity."""
+
+    def __init__(self) -> None:
+        self._texts: set[str] = set()
+
+    def __call__(self, text: str) -> None:
+        """Warn of a text that is new."""
+        self.all([text])
+
+    def all(self, texts: list[str]) -> None:
+        """Warn of the texts that are new."""
+        new = [text for text in texts if text not in self._texts]
+        self._texts.update(new)
+        warn(new)
 
 
 def bad_input(key: str, message: str, hint: str | None = None) -> AsperityError:

@@ -17,7 +17,7 @@ from ._table import Table, records
 from ._temporary import Temporary
 from ._units import path
 from .body import Body, Handed, bodies, heights_like
-from .errors import bad_input, warn
+from .errors import Warner, bad_input
 from .material import Material
 from .surface import Surface
 
@@ -240,6 +240,7 @@ class Simulation(_Moving):
             self._temporary = Temporary()
             out = self._temporary.path
         self.directory = path("out", out)
+        self._warner = Warner()
         self._core = _core.Passes(case, handed.given, self.directory, existing, count)
 
     @property
@@ -251,7 +252,7 @@ class Simulation(_Moving):
         (dx, dy), distance, time, (lower, upper) = self._core.grid()
         with Teller(self._progress) as tell:
             while True:
-                self._core.finish()
+                self._core.finish(self._warner)
                 if not self._core.solve(tell):
                     break
                 yield Pass(self._core, (dx, dy), distance, time, (lower, upper))
@@ -259,7 +260,7 @@ class Simulation(_Moving):
 
     def close(self) -> None:
         """Finish the present pass, and write the summary. No further pass can be solved."""
-        self._core.finish()
+        self._core.finish(self._warner)
         self._core.end()
 
     def results(self) -> Run:
@@ -268,7 +269,7 @@ class Simulation(_Moving):
         run = Run(self.directory)
         # A temporary directory lives as long as the results.
         run._temporary = self._temporary
-        warn(run.warnings)
+        self._warner.all(run.warnings)
         return run
 
 

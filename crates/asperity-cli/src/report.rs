@@ -139,7 +139,8 @@ fn code(error: &Error) -> u8 {
         | Error::BeyondPass { .. }
         | Error::PeriodicFullContact { .. }
         | Error::PullOff { .. }
-        | Error::NotFinite { .. } => 1,
+        | Error::NotFinite { .. }
+        | Error::WornAway { .. } => 1,
         Error::AtPosition { source, .. }
         | Error::AtPoint { source, .. }
         | Error::AtIncrement { source, .. }
@@ -348,6 +349,11 @@ fn hint(error: &Error) -> Option<String> {
         | Error::AtIncrement { source, .. }
         | Error::AtPass { source, .. }
         | Error::AtUpdate { source, .. } => hint(source),
+        Error::WornAway { .. } => Some(
+            "check the wear: a `coefficient` is a volume over load and distance, as \"1e-7 mm3/(N m)\", and Archard's number is \
+             `dimensionless`; or slide a shorter distance"
+                .to_owned(),
+        ),
         Error::FlowNotConverged { .. } => {
             Some("raise `increments` in [plasticity], so that each of them flows less".to_owned())
         }

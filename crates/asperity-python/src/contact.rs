@@ -79,6 +79,7 @@ pub(crate) fn rest<'py>(
     handed: CallArguments<'py>,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
+    warn: Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (case, given) = asked(py, &source, &handed, threads)?;
     let StaticResult {
@@ -93,7 +94,9 @@ pub(crate) fn rest<'py>(
         gap_flow,
         warnings,
         ..
-    } = work::run(py, threads, progress.as_ref(), |watch| study::rest(&case, given, watch))?;
+    } = work::run_warning(py, threads, progress.as_ref(), Some(&warn), |watch| {
+        study::rest(&case, given, watch)
+    })?;
     let contact = PyDict::new(py);
     match outcome {
         Outcome::Static(numbers) => contact.set_item("record", record(py, &numbers)?)?,

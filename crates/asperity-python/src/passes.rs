@@ -23,6 +23,7 @@ fn existing(word: &str) -> Existing {
 
 /// Computes a case and writes its results to a directory.
 #[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "the case, where its results go, and who looks on")]
 pub(crate) fn run<'py>(
     py: Python<'py>,
     source: Source<'py>,
@@ -31,10 +32,11 @@ pub(crate) fn run<'py>(
     existing: &str,
     threads: usize,
     progress: Option<Bound<'py, PyAny>>,
+    warn: Bound<'py, PyAny>,
 ) -> PyResult<()> {
     let (case, given) = asked(py, &source, &handed, threads)?;
     let existing = self::existing(existing);
-    work::run(py, threads, progress.as_ref(), |watch| {
+    work::run_warning(py, threads, progress.as_ref(), Some(&warn), |watch| {
         study::run(&case, given, &directory, existing, watch).map(|_| ())
     })
 }
@@ -95,12 +97,12 @@ impl CorePasses {
     }
 
     /// Finishes the solved pass: writes it, and uses its bodies for the next one.
-    fn finish(&self, py: Python<'_>) -> PyResult<()> {
+    fn finish(&self, py: Python<'_>, warn: Bound<'_, PyAny>) -> PyResult<()> {
         let mut state = self.state()?;
         let State { passes, solved } = &mut *state;
         match (passes, solved.take()) {
             (Some(passes), Some(solved)) => {
-                work::run(py, self.threads, None, |watch| passes.finish(solved, watch))
+                work::run_warning(py, self.threads, None, Some(&warn), |watch| passes.finish(solved, watch))
             }
             _ => Ok(()),
         }

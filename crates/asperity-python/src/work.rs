@@ -27,6 +27,18 @@ pub(crate) fn run<T: Send>(
     progress: Option<&Bound<'_, PyAny>>,
     work: impl FnOnce(&Observer) -> Result<T> + Send,
 ) -> PyResult<T> {
+    run_warning(py, threads, progress, None, work)
+}
+
+/// [`run`] that calls `warn` with each warning about a result as soon as it is known, also if the work then fails.
+pub(crate) fn run_warning<T: Send>(
+    py: Python<'_>,
+    threads: usize,
+    progress: Option<&Bound<'_, PyAny>>,
+    warn: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&Observer) -> Result<T> + Send,
+) -> PyResult<T> {
+    let tell = |looking: &Observer| looking.warn(warn).and_then(|()| looking.tell(progress));
     let pool = pool(threads)?;
     let looking = Observer::default();
     let mut outcome = None;
@@ -38,7 +50,7 @@ pub(crate) fn run<T: Send>(
         });
         while !py.detach(|| looking.wait(TICK)) {
             if raised.is_none()
-                && let Err(exception) = py.check_signals().and_then(|()| looking.tell(progress))
+                && let Err(exception) = py.check_signals().and_then(|()| tell(&looking))
             {
                 looking.stop.store(true, Ordering::Relaxed);
                 raised = Some(exception);
@@ -49,10 +61,13 @@ pub(crate) fn run<T: Send>(
         (Some(exception), _) => Err(exception),
         (None, Ok(Ok(result))) => {
             // Work shorter than a tick is also reported, because it may be one of many.
-            looking.tell(progress)?;
+            tell(&looking)?;
             Ok(result)
         }
-        (None, Ok(Err(error))) => Err(errors::exception(py, &error)),
+        (None, Ok(Err(error))) => {
+            looking.warn(warn)?;
+            Err(errors::exception(py, &error))
+        }
         (None, Err(panic)) => Err(errors::internal(py, &text(panic.as_ref()))),
     }
 }
@@ -71,6 +86,8 @@ type Told = (usize, usize, usize, usize, usize, f64, Option<f64>);
 pub(crate) struct Observer {
     stop: AtomicBool,
     now: Mutex<Option<Told>>,
+    /// Warnings that the caller does not know yet.
+    warnings: Mutex<Vec<String>>,
     over: AtomicUsize,
     ended: Mutex<bool>,
     ends: Condvar,
@@ -102,6 +119,12 @@ impl Observer {
         let (Some(progress), Some(now)) = (progress, now) else { return Ok(()) };
         progress.call1(now).map(|_| ())
     }
+
+    fn warn(&self, warn: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        let warnings = std::mem::take(&mut *held(&self.warnings));
+        let Some(warn) = warn else { return Ok(()) };
+        warnings.into_iter().try_for_each(|warning| warn.call1((warning,)).map(|_| ()))
+    }
 }
 
 impl Watch for Observer {
@@ -112,6 +135,10 @@ impl Watch for Observer {
 
     fn solving(&self, progress: &Progress) {
         self.at(progress);
+    }
+
+    fn warning(&self, warning: &str) {
+        held(&self.warnings).push(warning.to_owned());
     }
 
     fn stop(&self) -> bool {

@@ -291,7 +291,7 @@ pub enum Error {
         /// The cause.
         source: Box<Error>,
     },
-    /// The result of a pass is not finite.
+    /// A pass as a whole could not be solved, or its result is no longer a surface or not finite.
     #[error("pass {pass}: {source}")]
     AtPass {
         /// The computed pass, from 1.
@@ -299,7 +299,7 @@ pub enum Error {
         /// The cause.
         source: Box<Error>,
     },
-    /// The result of an update of a contact that wears in place is not finite.
+    /// An update of a contact that wears in place could not be solved, or its result is no longer a surface or not finite.
     #[error("update {update}: {source}")]
     AtUpdate {
         /// The update, from 1; 0 before the first.
@@ -314,6 +314,20 @@ pub enum Error {
         field: String,
         /// Index of the first such cell along each axis, from 0; empty for a single number.
         cell: Vec<usize>,
+    },
+    /// A body loses more material than it is long: it is no longer a surface.
+    #[error(
+        "the {body} body loses {} of its height, and the longer side of its grid is {}: it is no longer a surface",
+        format(*depth, Dimension::Length),
+        format(*length, Dimension::Length)
+    )]
+    WornAway {
+        /// The body: "lower" or "upper".
+        body: &'static str,
+        /// The height that it loses.
+        depth: Metre,
+        /// The longer side of its grid.
+        length: Metre,
     },
     /// The return mapping did not converge: plastic strain and stress do not agree.
     #[error(
@@ -463,10 +477,13 @@ pub enum LoadLimit {
 }
 
 impl Error {
-    /// Returns the same error, wrapped by `at` if a result is NaN or infinite.
-    pub(crate) fn if_not_finite(self, at: impl FnOnce(Box<Self>) -> Self) -> Self {
+    /// Returns the same error, wrapped by `at` if it says that a step has no result, but not which step.
+    pub(crate) fn if_of_step(self, at: impl FnOnce(Box<Self>) -> Self) -> Self {
         match self {
-            Self::NotFinite { .. } => at(Box::new(self)),
+            Self::NotFinite { .. }
+            | Self::WornAway { .. }
+            | Self::NotConverged { .. }
+            | Self::FlowNotConverged { .. } => at(Box::new(self)),
             other => other,
         }
     }

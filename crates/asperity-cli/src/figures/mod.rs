@@ -44,7 +44,7 @@ pub(crate) use rolling::curves as of_rolling;
 pub(crate) use sheet::Sheet;
 pub(crate) use sliding::curves as of_sliding;
 pub(crate) use stored::{Cap, StoredArray, ends_with_tension, in_frame_of};
-pub(crate) use subsurface::{columns as stress_columns, contact as contact_of_section};
+pub(crate) use subsurface::{columns as stress_columns, contact as contact_of_section, on_section};
 pub(crate) use surfaces::{as_measured, changed, curves as of_surfaces};
 pub(crate) use sweep::curves as of_sweep;
 

@@ -49,10 +49,16 @@ pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Outcome {
         );
         let map = map.with_contours(&field).with_spans(spans, "contact");
         let on_it = at[1] == y;
-        let map = if on_it { map.marked([at[0], at[2]], "most stressed point") } else { map };
+        let mark = [on_section(at[0], ends[0]), at[2]];
+        let map = if on_it { map.marked(mark, "most stressed point") } else { map };
         Ok(Maps::new(vec![map]))
     })?;
     columns(fields)?.into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))
+}
+
+/// Returns a place x of the body on a section from and to these ends. A section that passes the end of its body counts on from there.
+pub(crate) fn on_section(x: f64, [from, to]: [f64; 2]) -> f64 {
+    if x < from { x + (to - from) } else { x }
 }
 
 /// Where the surface of the section bears: from and to along x, m. `begin` is its left end, `dx` the size of a cell.

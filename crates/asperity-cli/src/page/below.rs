@@ -74,6 +74,7 @@ fn stress(fields: &Fields) -> Outcome<CaptionedPlane> {
     ];
     let spans = figures::contact_of_section(fields, x, pitch[0])?;
     let on_it = at[1] == number("section");
+    let ends = [x, x + section.nrows() as f64 * pitch[0]];
     let map = Plane {
         file: "subsurface".to_owned(),
         title: format!(
@@ -87,7 +88,7 @@ fn stress(fields: &Fields) -> Outcome<CaptionedPlane> {
         unit: Unit::Pressure,
         shades: Shades::FromZero,
         spans,
-        mark: on_it.then_some(([at[0], at[2]], "most stressed point")),
+        mark: on_it.then_some(([figures::on_section(at[0], ends), at[2]], "most stressed point")),
     };
     Ok((map, rows))
 }

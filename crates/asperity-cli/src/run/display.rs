@@ -11,7 +11,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::rows::Rows;
 use crate::page::LivePage;
-use crate::report::{self, print};
+use crate::report::{self, print, report_warning};
 use crate::signals::Stop;
 
 /// Progress bar, and table that grows with each pass or point.
@@ -25,6 +25,8 @@ pub(super) struct Display {
     /// Directory of the results.
     directory: PathBuf,
     page: Mutex<LivePage>,
+    /// Warnings printed so far.
+    warned: Mutex<Vec<String>>,
 }
 
 struct Table {
@@ -49,13 +51,15 @@ impl Display {
         };
         let table = Table { rows: Rows::new(case), printed: Ok(()), began: Instant::now(), finished: None };
         let (directory, page) = (directory.to_owned(), Mutex::new(LivePage::new()));
-        Self { bar, quiet, step, stop, table: Mutex::new(table), directory, page }
+        let warned = Mutex::default();
+        Self { bar, quiet, step, stop, table: Mutex::new(table), directory, page, warned }
     }
 
-    /// Removes the bar, and returns the result of writing the table.
-    pub(super) fn end(self) -> report::Outcome {
+    /// Removes the bar, and returns the result of writing the table, and the warnings printed.
+    pub(super) fn end(self) -> (report::Outcome, Vec<String>) {
         self.bar.finish_and_clear();
-        self.table.into_inner().unwrap_or_else(PoisonError::into_inner).printed
+        let printed = self.table.into_inner().unwrap_or_else(PoisonError::into_inner).printed;
+        (printed, self.warned.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 
     fn table(&self) -> MutexGuard<'_, Table> {
@@ -148,6 +152,12 @@ impl Watch for Display {
     fn point(&self, record: &SweepRecord) {
         self.add(|rows| rows.point(record));
         self.refresh_page();
+    }
+
+    fn warning(&self, warning: &str) {
+        let mut warned = self.warned.lock().unwrap_or_else(PoisonError::into_inner);
+        self.bar.suspend(|| report_warning(warning));
+        warned.push(warning.to_owned());
     }
 
     fn stop(&self) -> bool {

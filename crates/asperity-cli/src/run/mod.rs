@@ -15,7 +15,7 @@ use asperity::study::{Existing, Results};
 
 use crate::args::Run;
 use crate::machine;
-use crate::report::{self, Failure, clipped, note, print};
+use crate::report::{self, Failure, note, print, report_warning};
 use crate::signals::Stop;
 use crate::{example, figures, page, place};
 use display::Display;
@@ -42,17 +42,24 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
     let stop = Stop::at_ctrl_c(case.motion.is_some() || in_steps(&case));
     let display = Display::new(arguments.quiet, &case, &directory, stop.clone());
     let outcome = study::run(&case, study::SurfaceInput::default(), &directory, existing, &display);
-    let printed = display.end();
-    if let Err(Error::Interrupted) = &outcome
+    let (printed, warned) = display.end();
+    if let Err(
+        Error::Interrupted
+        | Error::AtPosition { .. }
+        | Error::AtPass { .. }
+        | Error::AtUpdate { .. }
+        | Error::AtIncrement { .. }
+        | Error::AtPoint { .. },
+    ) = &outcome
         && let Ok(results) = Results::open(&directory)
     {
-        // Finished steps get their page; the message reports the interruption.
+        // Finished steps get their page; the message reports why no more follow.
         let _ = page::write(&results, &page::of(&results));
     }
     // The lock of the directory is held until the figures are written.
     let (summary, writer) = outcome?;
-    for warning in &summary.warnings {
-        note(&format!("warning: {}", clipped(warning)));
+    for warning in summary.warnings.iter().filter(|warning| !warned.contains(warning)) {
+        report_warning(warning);
     }
     let tell = |text: &str| if arguments.quiet { Ok(()) } else { print(text) };
     let printed = printed.and_then(|()| tell(&record::text(&case, &summary)));

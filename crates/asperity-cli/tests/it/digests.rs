@@ -339,13 +339,15 @@ fn computed(variant: &Variant, folder: &TempDir) -> SeriesByName {
     series
 }
 
-/// All numbers of the results in a folder, but for times and residuals, which are noise, and warm starts.
+/// All numbers of the results in a folder, but for times and residuals, which are noise, warm starts, and the numbers of warnings.
 fn numbers(folder: &Path) -> SeriesByName {
     let mut series = SeriesByName::new();
     for name in files(folder) {
         let path = folder.join(&name);
         match path.extension().and_then(|extension| extension.to_str()) {
-            Some("csv") => add_table(&name, &fs::read_to_string(&path).unwrap(), &mut series),
+            Some("csv") if name != "limits.csv" => {
+                add_table(&name, &fs::read_to_string(&path).unwrap(), &mut series)
+            }
             Some("h5") if !name.contains("state") => add_fields(&name, &path, &mut series),
             Some("json") if name == "summary.json" => {
                 let mut summary: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();

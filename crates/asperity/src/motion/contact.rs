@@ -36,6 +36,8 @@ pub struct Contact {
     /// Gap of all cells, m, where an output asks for it ([`crate::motion::Simulation::keeping_gaps`]): below 0 by up to the plastic
     /// interference on cells at the hardness.
     pub gap: Option<Arc<Field>>,
+    /// Largest elastic displacement of a cell, m; `None` if it is unknown, as for a pass that is solved together with its wear.
+    pub max_displacement: Option<Metre>,
     /// Attraction of the bodies; `None` without adhesion.
     pub adhesion: Option<AdhesionRecord>,
     /// Load W = ΔA Σ p, N.
@@ -123,6 +125,7 @@ impl Contact {
             plastic: Vec::new(),
             temperature: None,
             gap: None,
+            max_displacement: None,
             adhesion: None,
             load,
             tangential_force: 0.0,
@@ -155,6 +158,7 @@ impl Contact {
             plastic,
             temperature: None,
             gap: None,
+            max_displacement: Some(solution.max_displacement()),
             adhesion: None,
             load: solution.load(),
             approach: solution.approach,

@@ -5,6 +5,7 @@ use crate::motion::record::{IncrementRecord, SweepRecord};
 use crate::motion::report::PassReport;
 use crate::motion::state::{LoadedContact, LoadingState, SlidingState};
 use crate::motion::watch::{Progress, Watch};
+use crate::motion::worn_away;
 use crate::solver::{Equilibrium, Solution};
 use crate::units::Newton;
 
@@ -77,6 +78,11 @@ pub trait Output {
     /// # Errors
     /// The reason why the step could not be written.
     fn step(&mut self, step: &Step<'_>) -> Result<()>;
+
+    /// Returns warnings about the step received last, for the watch.
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
+    }
 }
 
 /// Runs the remaining steps.
@@ -97,8 +103,8 @@ pub(super) fn run<C: Course>(
 /// Passes a solved step to the outputs and commits it.
 ///
 /// # Errors
-/// The errors of the outputs, and [`Error::NotFinite`] if the bodies have NaN or infinite values. The step is then not
-/// committed.
+/// The errors of the outputs, [`Error::NotFinite`] if the bodies have NaN or infinite values, and [`Error::WornAway`]. The step
+/// is then not committed.
 pub(super) fn finish<C: Course>(
     course: &mut C,
     solved: C::Solved,
@@ -108,8 +114,9 @@ pub(super) fn finish<C: Course>(
     let step = course.report(&solved);
     step.check()
         .and_then(|()| outputs.iter_mut().try_for_each(|output| output.step(&step)))
-        .map_err(|error| error.if_not_finite(|source| step.at(source)))?;
+        .map_err(|error| error.if_of_step(|source| step.at(source)))?;
     step.notify(watch);
+    outputs.iter().flat_map(|output| output.warnings()).for_each(|warning| watch.warning(&warning));
     course.take(solved);
     Ok(())
 }
@@ -145,11 +152,18 @@ impl<'a> Step<'a> {
         }
     }
 
-    /// Checks that the bodies after the step have only finite values.
+    /// Checks that the bodies after the step have only finite values, and are still surfaces.
     fn check(&self) -> Result<()> {
         match self {
-            Self::Update { state, .. } => state.pair.check_finite(),
-            Self::Pass(report) => report.pair.check_finite(),
+            Self::Update { state, .. } => {
+                state.pair.check_finite()?;
+                let update = state.updates.last().expect("the update just done");
+                worn_away::check_update(&state.pair, update)
+            }
+            Self::Pass(report) => {
+                report.pair.check_finite()?;
+                worn_away::check_pass(report.pair, report.record)
+            }
             Self::Increment { .. } | Self::Flow { .. } | Self::Point { .. } => Ok(()),
         }
     }

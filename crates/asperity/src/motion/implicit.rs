@@ -75,8 +75,10 @@ impl Solver<'_> {
                     ..solution
                 };
                 let sliding = self.motion.sliding(position.stroke);
-                Contact::new(*position, sliding.as_ref(), &at_position)
-                    .with_gap(&at_position, before.gap.is_some())
+                let contact = Contact::new(*position, sliding.as_ref(), &at_position)
+                    .with_gap(&at_position, before.gap.is_some());
+                // The displacement of the solution includes the wear.
+                Contact { max_displacement: None, ..contact }
             };
         Ok(contacts.map(contact).collect())
     }

@@ -32,6 +32,7 @@ mod volumes;
 mod warm_start;
 mod watch;
 mod wear;
+mod worn_away;
 
 pub use adhesive::AdhesionHistory;
 pub use body::{Body, State};

@@ -81,6 +81,17 @@ impl Solver<'_> {
         self.solve(pair, control, params, earlier)
     }
 
+    /// Wraps an error as one at the position of this index, unless it is an interruption.
+    pub(super) fn at_position(&self, index: usize, error: Error) -> Error {
+        let source = match error {
+            Error::Interrupted => return error,
+            Error::AtIncrement { source, .. } => source,
+            other => Box::new(other),
+        };
+        let (pass, positions) = (self.progress.pass, self.positions.len());
+        Error::AtPosition { pass, position: index + 1, positions, source }
+    }
+
     /// Whether each position begins with the contact at the position before.
     fn follows(&self, pair: &Pair) -> bool {
         pair.adhesion().is_some() && self.motion.adhesion_history == AdhesionHistory::Path
@@ -117,6 +128,7 @@ impl Solver<'_> {
                     params,
                     self.watch,
                 )
+                .map_err(|error| self.at_position(index, error))
             };
             let (_, before) = solve(index - 1, None)?;
             let (contact, _) = solve(index, Some(&before))?;
@@ -154,13 +166,7 @@ impl Solver<'_> {
                 params,
                 self.watch,
             );
-            let at = |source| Error::AtPosition {
-                pass: self.progress.pass,
-                position: index + 1,
-                positions: self.positions.len(),
-                source,
-            };
-            let (contact, solution) = contact.map_err(|error| error.unless_interrupted(at))?;
+            let (contact, solution) = contact.map_err(|error| self.at_position(index, error))?;
             let mut contact = contact.with_gap(&solution, self.gaps[index]);
             if let Some(latest) = earlier.first() {
                 contact.stats.convolutions += latest[index].stats.convolutions;

@@ -243,7 +243,11 @@ impl WearInPlace {
         let mut course = Updates { contact: self, state: under_way };
         course::run(&mut course, watch, outputs)?;
         let Updates { contact, state } = course;
-        contact.end(state.expect("the contact before it slides"), watch)
+        let state = state.expect("the contact before it slides");
+        let update = state.updates.len() - 1;
+        contact
+            .end(state, watch)
+            .map_err(|error| error.if_of_step(|source| Error::AtUpdate { update, source }))
     }
 
     /// Solves the contact of the bodies after the last update.
@@ -435,7 +439,10 @@ impl Course for Updates {
     type Solved = Updated;
 
     fn next(&mut self, watch: &dyn Watch) -> Result<Option<Updated>> {
-        let Some(state) = self.state.take() else { return self.contact.begin(watch).map(Some) };
+        let at = |update| move |error: Error| error.if_of_step(|source| Error::AtUpdate { update, source });
+        let Some(state) = self.state.take() else {
+            return self.contact.begin(watch).map(Some).map_err(at(0));
+        };
         let index = state.updates.len() - 1;
         if index == self.contact.slide.ends.len() {
             self.state = Some(state);
@@ -444,7 +451,7 @@ impl Course for Updates {
         if watch.stop() {
             return Err(Error::Interrupted);
         }
-        self.contact.advance(state, index, watch).map(Some)
+        self.contact.advance(state, index, watch).map(Some).map_err(at(index + 1))
     }
 
     fn report<'a>(&'a self, Updated { state, solution }: &'a Updated) -> Step<'a> {

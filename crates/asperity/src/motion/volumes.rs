@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::grid::Field;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
@@ -109,7 +109,7 @@ impl Solver<'_> {
             let shifts = carrier.shifts(position, pair, volumes.boundary);
             contact.move_to(self.facing(&undeformed, position), shifts);
             let step = self.step(&mut contact, control, index);
-            let increments = step.map_err(|source| self.at_position(index, source))?;
+            let increments = step.map_err(|error| self.at_position(index, error))?;
             carrier.arrive(position, contact.pressure());
             if volumes.states_under_load == Some(index) {
                 states_under_load = states(&mut contact);
@@ -124,7 +124,7 @@ impl Solver<'_> {
             self.watch.at(&Progress { solved, load, ..self.progress });
         }
         let last = self.positions.len() - 1;
-        let apart = contact.go_to(Control::Load(0.0)).map_err(|source| self.at_position(last, source))?;
+        let apart = contact.go_to(Control::Load(0.0)).map_err(|error| self.at_position(last, error))?;
         course.work_of(&apart, contact.sides());
         let left = states(&mut contact);
         contact.restore(&left);
@@ -170,20 +170,6 @@ impl Solver<'_> {
         };
         let tangential = Tangential::Force([0.0; 2]);
         (1..=steps).map(|step| contact.load(Loading { normal: at(step), tangential }, &watch)).collect()
-    }
-
-    fn at_position(&self, index: usize, source: Error) -> Error {
-        let source = match source {
-            Error::Interrupted => return source,
-            Error::AtIncrement { source, .. } => source,
-            source => Box::new(source),
-        };
-        Error::AtPosition {
-            pass: self.progress.pass,
-            position: index + 1,
-            positions: self.positions.len(),
-            source,
-        }
     }
 }
 

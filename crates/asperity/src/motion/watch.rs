@@ -45,6 +45,9 @@ pub trait Watch: Sync {
     /// resumes.
     fn update(&self, _: &UpdateRecord) {}
 
+    /// Called with each warning about a result as soon as it is known.
+    fn warning(&self, _: &str) {}
+
     /// Whether to stop. The computation then fails with [`crate::Error::Interrupted`] at the next convolution.
     fn stop(&self) -> bool;
 }

@@ -237,6 +237,24 @@ impl Solution {
         most
     }
 
+    /// Returns the largest displacement of a cell, at least 0.
+    pub fn max_displacement(&self) -> Metre {
+        let displacement = flat(&self.displacement);
+        let of = |cells: Range<usize>| displacement[cells].iter().copied().fold(0.0, f64::max);
+        let Largest(most) = self.merged(|cells| Largest(of(cells)));
+        most
+    }
+
+    /// Returns the largest plastic interference of a cell, 0 if none is capped.
+    pub fn max_interference(&self) -> Metre {
+        let [h, u, p] = [&self.initial_gap, &self.displacement, &self.pressure].map(flat);
+        let capped = |cell: &usize| self.bounds.caps(*cell, p[*cell]);
+        let interference = |cell: usize| self.approach - h[cell] - u[cell];
+        let of = |cells: Range<usize>| cells.filter(capped).map(interference).fold(0.0, f64::max);
+        let Largest(most) = self.merged(|cells| Largest(of(cells)));
+        most
+    }
+
     /// Returns the deformed gap g = h + u − δ, m. It is negative at capped cells with interference.
     pub fn gap(&self) -> Field {
         &self.initial_gap + &self.displacement - self.approach

@@ -25,6 +25,9 @@ use crate::study::subsurface::Plan;
 use crate::surface::{Form, Level};
 use crate::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
 
+/// Largest rms slope of the gap for a half-space theory: up to here tan and sin of a slope agree within about 5 %.
+pub(super) const STEEP: f64 = 0.3;
+
 /// Properties of a computation known before it starts.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -326,8 +329,6 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
         torn(name, body, wraps, &mut warnings);
     }
     warnings.extend(fast(case, bodies.lower.topography.grid().pitch[0]));
-    /// Up to here tan and sin of a slope agree within about 5 %.
-    const STEEP: f64 = 0.3;
     if estimate.gap_slope > STEEP {
         warnings.push(format!(
             "the surfaces are steep for a half-space theory of small slopes: the rms slope of the gap is {:.4}, up to {STEEP} \

@@ -14,6 +14,7 @@ mod flow; // elasto-plastic bodies of a case
 mod given; // surfaces in memory that a case names
 mod identity; // identity of a run, to resume it
 mod json; // records as JSON
+mod limits; // the limits of the model, compared with results
 mod columns; // the dictionary of columns and numbers
 pub mod many; // many cases made from one, each in its folder
 mod observe; // observers of solved contacts
@@ -43,6 +44,7 @@ pub use estimate::{Demand, Estimate, demand, estimate};
 pub use fields::{NamedField, RestFields};
 pub use given::SurfaceInput;
 pub use identity::resolved;
+pub use limits::{BrokenLimit, Limit};
 pub use observed::{ConductanceRecord, ElectricalRecord, GapFlowRecord, ThermalRecord};
 pub use passes::Passes;
 pub use prepare::{

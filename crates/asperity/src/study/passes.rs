@@ -7,7 +7,7 @@ use web_time::Instant;
 
 use crate::error::{Error, Result};
 use crate::io::lock::Lock;
-use crate::motion::{Body, FlowRecord, Motion, Pair, PassRecord, Simulation, SolvedPass, Watch};
+use crate::motion::{Body, FlowRecord, Motion, Output, Pair, PassRecord, Simulation, SolvedPass, Watch};
 use crate::study::adhesion::{self, AdhesionSummary};
 use crate::study::case::{Case, CounterBody};
 use crate::study::estimate::{Estimate, estimate};
@@ -15,6 +15,7 @@ use crate::study::finish::{Computed, conclude, pair, params};
 use crate::study::flow;
 use crate::study::given::SurfaceInput;
 use crate::study::identity;
+use crate::study::limits::Limits;
 use crate::study::observe::{self, Observations, Observers};
 use crate::study::observed::{ConductanceRecord, GapFlowRecord};
 use crate::study::prepare::{bodies_until, fresh_heights};
@@ -35,6 +36,7 @@ pub struct Passes {
     writer: Writer,
     output: StepWriter,
     observers: Observers,
+    limits: Limits,
     resolved: Value,
     adhesion: Option<AdhesionSummary>,
     warnings: Vec<String>,
@@ -75,20 +77,23 @@ impl Passes {
     ) -> Result<Self> {
         let began = Instant::now();
         let bodies = bodies_until(case, given, stop)?;
-        let Estimate { apparent_area, subsurface, adhesion, warnings, .. } = estimate(case, &bodies)?;
-        let motion =
-            case.motion(apparent_area).ok_or(Error::Unsupported("a static contact has no passes"))?;
+        let estimate = estimate(case, &bodies)?;
+        let motion = case
+            .motion(estimate.apparent_area)
+            .ok_or(Error::Unsupported("a static contact has no passes"))?;
         let resolved = identity::resolved(case, &bodies);
-        let look = subsurface.as_ref().map(|plan| plan.index);
+        let look = estimate.subsurface.as_ref().map(|plan| plan.index);
         let simulation = simulation(case, pair(case, bodies)?, motion, None, look)?;
         let writer = Writer::enter_with(directory, &resolved, existing, lock)?;
         writer.begin()?;
-        let output = writer.passes(case.output.pressure_every, subsurface)?;
+        let output = writer.passes(case.output.pressure_every, estimate.subsurface.clone())?;
         let passes = writer.results().passes()?;
         // They compare with the bodies before the first pass.
         let done = Some(passes.len()).filter(|done| *done > 0);
         let mut observers =
             Observers::new(case, simulation.pair(), simulation.positions(), (Some(&writer), done))?;
+        let limits = Limits::new(case, simulation.pair(), &estimate, (Some(&writer), done))?;
+        let Estimate { adhesion, warnings, .. } = estimate;
         let represented = passes.iter().map(PassRecord::represents).sum();
         let simulation = match passes.len() {
             0 => {
@@ -126,6 +131,7 @@ impl Passes {
             writer,
             output,
             observers,
+            limits,
             resolved,
             adhesion,
             warnings,
@@ -167,8 +173,9 @@ impl Passes {
     /// # Errors
     /// [`Error::File`].
     pub fn finish(&mut self, pass: SolvedPass, watch: &dyn Watch) -> Result<()> {
-        // The rows of the observers are written before that of the pass, which marks it as done.
-        self.simulation.finish(pass, watch, &mut [&mut self.observers, &mut self.output])?;
+        // The rows of the observers and the limits are written before that of the pass, which marks it as done.
+        let outputs: &mut [&mut dyn Output] = &mut [&mut self.observers, &mut self.limits, &mut self.output];
+        self.simulation.finish(pass, watch, outputs)?;
         self.done += 1;
         self.represented = self.simulation.represented();
         Ok(())
@@ -182,6 +189,7 @@ impl Passes {
         let pair = self.simulation.pair();
         let shapes = [pair.lower_grid(), pair.upper_grid()].map(|grid| grid.shape);
         let passes = self.done()?;
+        self.warnings.extend(self.limits.all());
         self.warnings.extend(review::motion(&self.case, shapes, &passes));
         self.warnings.extend(adhesion::depends_on_history(&passes));
         let left = self.simulation.plastic_volumes();

@@ -13,11 +13,12 @@ use crate::solver::{Control, Equilibrium, Friction, Params, Rolling, Solution};
 use crate::study::adhesion::{self, AdhesionSummary};
 use crate::study::case::{Case, LoadingPath, PlasticitySpec};
 use crate::study::closed_form::ClosedFormRecord;
-use crate::study::estimate::estimate;
+use crate::study::estimate::{Estimate, estimate};
 use crate::study::fields::{NamedField, RestFields};
 use crate::study::finish::{closed_form, pair, params};
 use crate::study::flow;
 use crate::study::given::SurfaceInput;
+use crate::study::limits::Limits;
 use crate::study::observe::{self, Observations, Observers};
 use crate::study::observed::{ConductanceRecord, GapFlowRecord};
 use crate::study::prepare::bodies_until;
@@ -25,7 +26,6 @@ use crate::study::results::{StepWriter, Writer};
 use crate::study::review;
 use crate::study::summary::Outcome;
 use crate::study::tables;
-use crate::units::SquareMetre;
 
 /// Result of a static contact.
 #[derive(Debug, Clone)]
@@ -66,7 +66,7 @@ pub fn rest(case: &Case, given: SurfaceInput, watch: &dyn Watch) -> Result<Stati
     let bodies = bodies_until(case, given, &|| watch.stop())?;
     let estimate = estimate(case, &bodies)?;
     let pair = pair(case, bodies)?;
-    let mut rest = solve(case, pair, estimate.apparent_area, None, watch)?;
+    let mut rest = solve(case, pair, &estimate, None, watch)?;
     rest.warnings.splice(0..0, estimate.warnings);
     rest.checked()
 }
@@ -129,10 +129,11 @@ impl StaticResult {
 pub(super) fn solve(
     case: &Case,
     pair: Pair,
-    apparent_area: SquareMetre,
+    estimate: &Estimate,
     writer: Option<&Writer>,
     watch: &dyn Watch,
 ) -> Result<StaticResult> {
+    let apparent_area = estimate.apparent_area;
     let law = case.friction.as_ref().map(|friction| &friction.law);
     let control = case.contact.prescribed.control(apparent_area);
     let extent = pair.lower_grid().extent();
@@ -140,7 +141,7 @@ pub(super) fn solve(
         let (gap, boundary) = (pair.initial_gap(&pair.at_rest()), case.contact.boundary);
         AdhesionSummary::new(adhesion, &gap, pair.pitch(), boundary, pair.modulus())
     });
-    let contact = StaticProblem { case, pair, law, control, params: params(case), writer, watch };
+    let contact = StaticProblem { case, pair, estimate, law, control, params: params(case), writer, watch };
     if let Some(slide) = case.slide(apparent_area) {
         return contact.slide(slide);
     }
@@ -161,6 +162,7 @@ pub(super) fn solve(
 struct StaticProblem<'a> {
     case: &'a Case,
     pair: Pair,
+    estimate: &'a Estimate,
     law: Option<&'a Friction>,
     control: Control,
     params: Params,
@@ -177,7 +179,7 @@ impl StaticProblem<'_> {
         self.begin()?;
         let mut observers = self.observers(None)?;
         observers.contact(&solution)?;
-        let warnings = self.review(&solution);
+        let warnings = [self.compare(&solution)?, self.review(&solution)].concat();
         StaticResult { warnings, ..StaticResult::of(record, pressed(self.pair, solution)) }
             .seen_by(case, observers)
     }
@@ -190,7 +192,8 @@ impl StaticProblem<'_> {
         self.begin()?;
         let mut observers = self.observers(None)?;
         observers.contact(contact.solution.normal())?;
-        self.loaded(contact).seen_by(case, observers)
+        let broken = self.compare(contact.solution.normal())?;
+        self.loaded(contact, broken).seen_by(case, observers)
     }
 
     /// Solves stage after stage.
@@ -202,11 +205,12 @@ impl StaticProblem<'_> {
         let left = self.writer.map(under_way).transpose()?.flatten();
         let done = left.as_ref().map_or(&[][..], |left| &left.increments);
         let mut kept = self.writer.map(|writer| writer.increments(done)).transpose()?;
-        let mut observers = self.observers(done.last().map(|last| last.increment))?;
-        let (boundary, outputs) = (self.boundary(), &mut outputs(&mut observers, &mut kept));
+        let done = done.last().map(|last| last.increment);
+        let (mut observers, mut limits) = (self.observers(done)?, self.limits(done)?);
+        let (boundary, outputs) = (self.boundary(), &mut outputs(&mut observers, &mut limits, &mut kept));
         let contact =
             load_in_stages(&self.pair, boundary, self.law, stages, &self.params, left, self.watch, outputs)?;
-        self.loaded(contact).seen_by(case, observers)
+        self.loaded(contact, limits.all()).seen_by(case, observers)
     }
 
     /// Solves one load, or one creepage, after another.
@@ -217,11 +221,12 @@ impl StaticProblem<'_> {
         done.truncate(points.len().saturating_sub(1));
         let every = self.case.output.pressure_every;
         let mut kept = self.writer.map(|writer| writer.points(&done, every)).transpose()?;
-        let mut observers = self.observers(done.last().map(|last| last.point))?;
-        let (boundary, outputs) = (self.boundary(), &mut outputs(&mut observers, &mut kept));
+        let last = done.last().map(|last| last.point);
+        let (mut observers, mut limits) = (self.observers(last)?, self.limits(last)?);
+        let (boundary, outputs) = (self.boundary(), &mut outputs(&mut observers, &mut limits, &mut kept));
         let (points, contact) =
             sweep(&self.pair, boundary, self.law, points, &self.params, done, self.watch, outputs)?;
-        let warnings = review::sweep(&points, &contact);
+        let warnings = [limits.all(), review::sweep(&points, &contact)].concat();
         let LoadedContact { solution, plastic, slip, .. } = contact;
         let fields = fields(self.pair, solution, plastic, slip);
         StaticResult { warnings, ..StaticResult::of(Outcome::Sweep(points), fields) }.seen_by(case, observers)
@@ -236,13 +241,15 @@ impl StaticProblem<'_> {
         let left = self.writer.map(under_way).transpose()?.flatten();
         let done = left.as_ref().map_or(&[][..], |left| &left.updates);
         let mut kept = self.writer.map(|writer| writer.updates(done)).transpose()?;
-        let mut observers = self.observers(done.last().map(|last| last.update))?;
+        let last = done.last().map(|last| last.update);
+        let (mut observers, mut limits) = (self.observers(last)?, self.limits(last)?);
         let from = left.as_ref().map_or(&self.pair, |left| &left.pair).clone();
         let contact = self.case.wearing(WearInPlace::new(from, self.boundary(), slide, self.params)?)?;
         let state = left.map(|left| SlidingState::resumed(&contact, left.updates, left.pressure));
-        let worn = contact.run(state, self.watch, &mut outputs(&mut observers, &mut kept))?;
+        let worn = contact.run(state, self.watch, &mut outputs(&mut observers, &mut limits, &mut kept))?;
         let (record, updates) = (worn.record.clone(), worn.state.updates.clone());
-        let warnings = review::worn(&worn.state.pair, self.boundary(), &worn.solution.pressure, &updates);
+        let of_answer = review::static_contact(&worn.state.pair, self.boundary(), &worn.solution.pressure);
+        let warnings = [limits.all(), of_answer].concat();
         let result = StaticResult::of(record, worn_fields(worn, friction));
         StaticResult { updates, warnings, ..result }.seen_by(case, observers)
     }
@@ -253,13 +260,14 @@ impl StaticProblem<'_> {
         let (bodies, path) = (flow::bodies(self.case, spec, &self.pair)?, flow::path(spec, stages));
         self.begin()?;
         let mut kept = self.writer.map(|writer| writer.increments(&[])).transpose()?;
-        let mut observers = self.observers(None)?;
-        let outputs = &mut outputs(&mut observers, &mut kept);
+        let (mut observers, mut limits) = (self.observers(None)?, self.limits(None)?);
+        let outputs = &mut outputs(&mut observers, &mut limits, &mut kept);
         let (pair, boundary) = (&self.pair, self.boundary());
         let contact =
             press_elasto_plastic(pair, boundary, self.law, bodies, &path, &self.params, self.watch, outputs)?;
         let of_answer = self.review(contact.solution.normal());
-        let warnings = [review::elasto_plastic(self.case, &self.pair, &contact), of_answer].concat();
+        let of_flow = review::elasto_plastic(self.case, &self.pair, &contact);
+        let warnings = [limits.all(), of_flow, of_answer].concat();
         let ElastoPlasticContact { record, solution, slip, flow_result, .. } = contact;
         let nothing = self.pair.lower_grid().zeros();
         let fields = fields(flow_result.displaced(self.pair), solution, nothing, slip);
@@ -269,10 +277,11 @@ impl StaticProblem<'_> {
             .seen_by(case, observers)
     }
 
-    /// Creates the result from the end of a loading, or of rolling.
-    fn loaded(self, contact: LoadedContact) -> StaticResult {
+    /// Creates the result from the end of a loading, or of rolling, with the warnings of `broken` limits.
+    fn loaded(self, contact: LoadedContact, broken: Vec<String>) -> StaticResult {
         let jumps = adhesion::jumps(&contact.increments).into_iter().collect();
-        let warnings = [review::loaded(&contact), jumps, self.review(contact.solution.normal())].concat();
+        let warnings =
+            [broken, review::loaded(&contact), jumps, self.review(contact.solution.normal())].concat();
         let LoadedContact { record, increments, solution, plastic, slip, .. } = contact;
         let fields = fields(self.pair, solution, plastic, slip);
         StaticResult { increments, warnings, ..StaticResult::of(record, fields) }
@@ -281,6 +290,19 @@ impl StaticProblem<'_> {
     /// Creates the observers of the case, after the steps that are `done`.
     fn observers(&self, done: Option<usize>) -> Result<Observers> {
         Observers::new(self.case, &self.pair, &[], (self.writer, done))
+    }
+
+    /// Creates the limits of the case, after the steps that are `done`.
+    fn limits(&self, done: Option<usize>) -> Result<Limits> {
+        Limits::new(self.case, &self.pair, self.estimate, (self.writer, done))
+    }
+
+    /// Compares a contact that is solved in one step with the limits. Returns the warnings, which the watch receives at once.
+    fn compare(&self, solution: &Solution) -> Result<Vec<String>> {
+        let mut limits = self.limits(None)?;
+        limits.contact(solution)?;
+        limits.all().iter().for_each(|warning| self.watch.warning(warning));
+        Ok(limits.all())
     }
 
     fn boundary(&self) -> Boundary {
@@ -297,10 +319,14 @@ impl StaticProblem<'_> {
     }
 }
 
-/// Returns the outputs of a course: the rows of the observers are written before that of the step.
-fn outputs<'a>(observers: &'a mut Observers, kept: &'a mut Option<StepWriter>) -> Vec<&'a mut dyn Output> {
+/// Returns the outputs of a course: the rows of the observers and the limits are written before that of the step.
+fn outputs<'a>(
+    observers: &'a mut Observers,
+    limits: &'a mut Limits,
+    kept: &'a mut Option<StepWriter>,
+) -> Vec<&'a mut dyn Output> {
     let kept = kept.iter_mut().map(|kept| kept as &mut dyn Output);
-    [observers as &mut dyn Output].into_iter().chain(kept).collect()
+    [observers as &mut dyn Output, limits].into_iter().chain(kept).collect()
 }
 
 impl From<StaticRecord> for Outcome {

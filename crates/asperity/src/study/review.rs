@@ -7,7 +7,7 @@ use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, attraction_cut_off, cut_off, 
 use crate::grid::Field;
 use crate::motion::{
     ElastoPlasticContact, Interior, LoadedContact, Pair, PassFlowRecord, PassRecord, PlasticVolume,
-    ShearRecord, StaticRecord, StepRecord, SweepRecord, UpdateRecord,
+    ShearRecord, StaticRecord, StepRecord, SweepRecord,
 };
 use crate::operator::Boundary;
 use crate::units::{self, Dimension, Joule, Metre, SquareMetre};
@@ -18,16 +18,6 @@ pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) 
     let rim = cut_off(pressure, gap, pair.pitch(), boundary);
     let attraction = attraction_cut_off(pressure, gap, pair.pitch(), boundary);
     rim.into_iter().chain(attraction).chain(too_few_cells(spot(pressure, boundary))).collect()
-}
-
-/// Returns the warnings of a contact that wears in place, from its updates and its bodies and pressure after the last one.
-pub(super) fn worn(
-    pair: &Pair,
-    boundary: Boundary,
-    pressure: &Field,
-    updates: &[UpdateRecord],
-) -> Vec<String> {
-    static_contact(pair, boundary, pressure).into_iter().chain(films_of_updates(pair, updates)).collect()
 }
 
 /// Returns the warnings of a sweep, from its points and the contact of the `last` one.
@@ -226,7 +216,7 @@ pub(super) fn motion(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]
     let flows = at_the_rim(case, shapes, passes, "plastic", "the plastic volume");
     let wears = at_the_rim(case, shapes, passes, "wear", "the wear");
     let all = contact_in_the_rim(passes).into_iter().chain(flows).chain(wears).chain(too_few_cells(largest));
-    all.chain(films_of_passes(passes)).chain(all_computed(case, passes)).chain(settled(passes)).collect()
+    all.chain(all_computed(case, passes)).chain(settled(passes)).collect()
 }
 
 /// Warns if most of the contact of the last pass lies in the rim, which the numbers of the interior leave out.
@@ -242,35 +232,6 @@ fn contact_in_the_rim(passes: &[PassRecord]) -> Option<String> {
             100.0 * share
         )
     })
-}
-
-/// Warns if in some pass a film is thicker than the roughness it covers.
-fn films_of_passes(passes: &[PassRecord]) -> Option<String> {
-    let films = passes.iter().filter_map(|pass| {
-        let running = pass.running?;
-        Some([[running.mean_film_lower, pass.sq_lower], [running.mean_film_upper, pass.sq_upper]])
-    });
-    thick_film(films)
-}
-
-/// Warns if at some update of a contact that wears in place a film is thicker than the roughness it covers.
-fn films_of_updates(pair: &Pair, updates: &[UpdateRecord]) -> Option<String> {
-    let [lower, upper] = [&pair.lower, &pair.upper].map(|body| body.heights.std(0.0));
-    let films = |update: &UpdateRecord| [[update.mean_film_lower, lower], [update.mean_film_upper, upper]];
-    thick_film(updates.iter().map(films))
-}
-
-/// Warns if a film is thicker than the roughness it covers. `films` yields, step after step, the mean thickness of the film
-/// on the lower and on the upper body in contact, and the Sq of that body.
-fn thick_film(films: impl Iterator<Item = [[Metre; 2]; 2]>) -> Option<String> {
-    let bodies = films.flat_map(|[lower, upper]| [("lower", lower), ("upper", upper)]);
-    let thick = bodies.filter(|(_, [film, sq])| film > sq);
-    let (name, [film, sq]) = thick.reduce(|most, next| if next.1[0] > most.1[0] { next } else { most })?;
-    let [film, sq] = [film, sq].map(|length| units::format(length, Dimension::Length));
-    Some(format!(
-        "the film on the {name} body is up to {film} thick, and the body has an Sq of {sq}: the contact takes the film to be as stiff \
-         as the body, which holds for films thinner than the roughness"
-    ))
 }
 
 /// Warns if every pass was computed although few would have been enough.

@@ -56,11 +56,12 @@ pub(super) fn run_with(
     }
     let began = Instant::now();
     let bodies = bodies_until(case, given, &|| watch.stop())?;
-    let Estimate { apparent_area, subsurface, mut warnings, .. } = estimate(case, &bodies)?;
+    let estimate = estimate(case, &bodies)?;
     let resolved = identity::resolved(case, &bodies);
     let pair = pair(case, bodies)?;
     let writer = Writer::enter_with(directory, &resolved, existing, lock)?;
-    let rest = rest::solve(case, pair, apparent_area, Some(&writer), watch)?;
+    let rest = rest::solve(case, pair, &estimate, Some(&writer), watch)?;
+    let Estimate { subsurface, mut warnings, .. } = estimate;
     let StaticResult {
         outcome,
         updates,

@@ -66,11 +66,12 @@ columns! {
         pub step: Option<usize>,
         /// Largest von Mises stress over all cells and depths.
         pub max_von_mises: Pascal,
-        /// Place of the largest von Mises stress: x and y from the corner of the body, z from its surface.
+        /// Place of the largest von Mises stress: x and y from the corner of the body, z from its surface. Where a contact passes the
+        /// end of a body in a shift, x goes on at its beginning, as on the maps of the body.
         pub position: [Metre; 3],
         /// Largest shear stress on any plane, ½(σ₁ − σ₃).
         pub max_shear: Pascal,
-        /// Place of the largest shear stress.
+        /// Place of the largest shear stress, in the same coordinates.
         pub max_shear_position: [Metre; 3],
     }
 }
@@ -90,9 +91,12 @@ impl Plan {
         })?;
         let grid = Grid { shape: [position.columns, lower.shape[1]], pitch: lower.pitch };
         let corner = corner(spec.body, position, lower);
+        let boundary = case.contact.boundary;
         let cell = |key: &str, axis: usize, at: Metre| {
             let length = |value| units::format(value, Dimension::Length);
             let [from, to] = [corner[axis], corner[axis] + grid.extent()[axis]];
+            // A contact that passes the end of its body goes on at the beginning.
+            let at = if at < from && boundary.repeats(axis) { at + grid.extent()[axis] } else { at };
             let index = ((at - from) / grid.pitch[axis]).floor();
             if at < from || at > to * (1.0 + 1e-12) {
                 let (name, at, from, to) = (["x", "y"][axis], length(at), length(from), length(to));
@@ -113,7 +117,7 @@ impl Plan {
             depths: (0..=spec.layers).map(|k| k as f64 * spec.to / spec.layers as f64).collect(),
             body: spec.body,
             poisson: body.material.poisson,
-            boundary: case.contact.boundary,
+            boundary,
             corner,
             planes: spec.planes.clone(),
             section: spec.section.map(|y| cell("section", 1, y)).transpose()?,
@@ -204,7 +208,8 @@ impl Plan {
         if self.volume {
             let planes: Vec<_> = layers.iter().filter_map(|(_, _, plane)| plane.clone()).collect();
             let [dx, dy] = self.grid.pitch;
-            let (origin, pitch) = (self.centre([0, 0]), [dx, dy, self.spacing()]);
+            let origin = [0, 1].map(|axis| self.corner[axis] + self.grid.centre(axis, 0));
+            let pitch = [dx, dy, self.spacing()];
             vti::write_volume(&path.with_extension("vti"), "von_mises", &planes, origin, pitch)?;
         }
         let section = |component: Component| {
@@ -265,7 +270,7 @@ impl Plan {
         };
         file.set("body", body)
             .set("poisson", self.poisson)
-            .set("section", self.corner[1] + self.grid.centre(1, row))
+            .set("section", self.centre([0, row])[1])
             .set("max_von_mises", record.max_von_mises)
             .set("position", record.position.to_vec())
             .set("max_shear", record.max_shear)
@@ -286,8 +291,13 @@ impl Plan {
         self.depths[1]
     }
 
+    /// Centre of a cell on the body. Beyond the end of a body that repeats, it is that of the same cell of the body.
     fn centre(&self, cell: [usize; 2]) -> [Metre; 2] {
-        [0, 1].map(|axis| self.corner[axis] + self.grid.centre(axis, cell[axis]))
+        [0, 1].map(|axis| {
+            let (at, length) =
+                (self.corner[axis] + self.grid.centre(axis, cell[axis]), self.of_body.extent()[axis]);
+            if at > length && self.boundary.repeats(axis) { at - length } else { at }
+        })
     }
 
     fn position(&self, at: &Extreme) -> [Metre; 3] {

@@ -35,7 +35,7 @@ impl Record for StepRecord {
     const COLUMNS: &'static [Column] = Self::COLUMNS;
 
     fn at(&self, error: Error) -> Error {
-        error.if_not_finite(|source| Error::AtPass { pass: self.pass, source })
+        error.if_of_step(|source| Error::AtPass { pass: self.pass, source })
     }
 }
 
@@ -43,7 +43,7 @@ impl Record for PassRecord {
     const COLUMNS: &'static [Column] = Self::COLUMNS;
 
     fn at(&self, error: Error) -> Error {
-        error.if_not_finite(|source| Error::AtPass { pass: self.pass, source })
+        error.if_of_step(|source| Error::AtPass { pass: self.pass, source })
     }
 }
 
@@ -51,7 +51,7 @@ impl Record for IncrementRecord {
     const COLUMNS: &'static [Column] = Self::COLUMNS;
 
     fn at(&self, error: Error) -> Error {
-        error.if_not_finite(|source| Error::AtIncrement { increment: self.increment, source })
+        error.if_of_step(|source| Error::AtIncrement { increment: self.increment, source })
     }
 }
 
@@ -59,7 +59,7 @@ impl Record for UpdateRecord {
     const COLUMNS: &'static [Column] = Self::COLUMNS;
 
     fn at(&self, error: Error) -> Error {
-        error.if_not_finite(|source| Error::AtUpdate { update: self.update, source })
+        error.if_of_step(|source| Error::AtUpdate { update: self.update, source })
     }
 }
 

@@ -19,6 +19,7 @@ mod hardness;
 mod in_place;
 mod kinematics;
 mod laws;
+mod limits;
 mod line;
 mod loading;
 mod messages;

@@ -213,3 +213,33 @@ fn paraview_gets_every_field_and_the_stress_as_a_volume() {
     run(MOVING, wanted, directory.path(), Existing::Overwrite);
     assert!(!file("pass-0002.vti").exists() && !file("subsurface-0001.vti").exists());
 }
+
+/// A contact in a shift may begin in the middle of a body, and goes on at its beginning.
+#[test]
+fn places_in_a_shift_are_on_the_body() {
+    let case = r#"
+lower = { young = "210 GPa", poisson = 0.3, topography = { form = "sphere", radius = "1 mm", shape = [24, 24], pitch = "1 um" } }
+upper = { young = "210 GPa", poisson = 0.3, topography = { form = "flat" } }
+contact = { load = "0.1 N", boundary = "periodic" }
+motion = { strategy = "shift", speed_lower = "2 m/s", speed_upper = "1 m/s" }
+"#;
+    let mut beyond = 0;
+    for step in [3, 9, 16, 22] {
+        let directory = tempfile::tempdir().unwrap();
+        let wanted =
+            format!("to = \"6 um\"\nlayers = 6\nstep = {step}\ncolumns = [[\"2.5 um\", \"11.5 um\"]]");
+        let summary = run(case, &wanted, directory.path(), Existing::Keep);
+        let record = &summary.subsurface[0];
+        for [x, y, _] in [record.position, record.max_shear_position] {
+            assert!((x - 12e-6).abs() < 1e-6 && (y - 12e-6).abs() < 1e-6, "position {step}: {record:?}");
+        }
+        let results = Results::open(directory.path()).unwrap();
+        let stress = results.subsurface_fields(Some(1)).unwrap();
+        assert_eq!(stress.attributes().unwrap()["columns"], vec![2.5e-6, 11.5e-6].into());
+        // The section counts on beyond the end of the body, and has the point of the body in it.
+        let section = stress.read("section_von_mises").unwrap();
+        let last = section.origin[0] + 23.0 * section.pitch[0];
+        beyond += usize::from(record.position[0] < section.origin[0] && last > 24e-6);
+    }
+    assert!(beyond > 0);
+}

@@ -15,6 +15,7 @@ use crate::motion::plastic::PlasticFlow;
 use crate::motion::record::{RunningRecord, StepRecord};
 use crate::motion::watch::Watch;
 use crate::motion::wear::WEAR;
+use crate::motion::worn_away;
 use crate::units::CubicMetre;
 
 /// Laws that change the bodies after a pass, and the extrapolation over passes.
@@ -87,11 +88,12 @@ impl Simulation {
         // The return stroke wears as much again at the same pressures.
         let distance = position_data.distance * (self.positions.len() / self.distinct) as f64;
         let compliance = law::compliance(laws, &outcome.pair, &sums, friction, distance);
-        let explicit = Some(law::tried(laws, &outcome.pair, &sums, 1));
+        let explicit = law::tried(laws, &outcome.pair, &sums, 1);
+        worn_away::check_losses(&outcome.pair, &explicit)?;
         outcome.contacts.truncate(self.distinct);
         outcome.contacts = self.solver(watch).solve_implicitly(outcome, compliance, &self.params)?;
         self.come_back(&mut outcome.contacts);
-        Ok(Some(PassWear { compliance_of_grid, stable, explicit }))
+        Ok(Some(PassWear { compliance_of_grid, stable, explicit: Some(explicit) }))
     }
 
     /// Lets the laws change the bodies after a solved pass, by the number of passes of its extrapolation.

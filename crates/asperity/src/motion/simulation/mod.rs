@@ -356,8 +356,14 @@ impl Simulation {
     /// [finished](Simulation::finish).
     ///
     /// # Errors
-    /// The errors of [`crate::solver::solve_normal`], [`Error::LoadNotReached`], [`Error::Interrupted`].
+    /// The errors of [`crate::solver::solve_normal`] in an [`Error::AtPosition`], or in an [`Error::AtPass`] if all positions are
+    /// solved together; [`Error::LoadNotReached`], [`Error::WornAway`] in an [`Error::AtPass`], [`Error::Interrupted`].
     pub fn solve(&self, watch: &dyn Watch) -> Result<SolvedPass> {
+        let pass = self.passes_done + 1;
+        self.solve_next(watch).map_err(|error| error.if_of_step(|source| Error::AtPass { pass, source }))
+    }
+
+    fn solve_next(&self, watch: &dyn Watch) -> Result<SolvedPass> {
         let began = Instant::now();
         let pass = self.passes_done + 1;
         if self.volumes.is_some() && self.changes.laws.len() > 1 {

@@ -120,7 +120,7 @@ impl Record for ConductanceRecord {
 
     fn at(&self, error: Error) -> Error {
         match self.pass {
-            Some(pass) => error.if_not_finite(|source| Error::AtPass { pass, source }),
+            Some(pass) => error.if_of_step(|source| Error::AtPass { pass, source }),
             None => error,
         }
     }

@@ -15,6 +15,7 @@ use crate::io::lock::{self, Lock};
 use crate::motion::{StepRecord, SweepRecord};
 use crate::study::case::Keep;
 use crate::study::identity;
+use crate::study::limits::LIMITS_TABLE;
 use crate::study::observed::OBSERVERS;
 use crate::study::tables;
 use serde_json::Value;
@@ -300,7 +301,7 @@ pub(super) fn clear(results: &Results, kept: ExistingResults, keep: Keep) -> Res
             {
                 results.remove(&at(name))?;
             }
-            for name in OBSERVERS {
+            for name in OBSERVERS.into_iter().chain([LIMITS_TABLE]) {
                 results.remove(&results.observer_table(name))?;
             }
             let folders = [results.fields_folder(), results.figures_folder()];

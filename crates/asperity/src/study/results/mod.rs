@@ -12,6 +12,7 @@
 //!     increments.csv       with friction or a history, a row per increment of its loading
 //!     updates.csv          a contact that wears in place: a row per update
 //!     conductance.csv      a row per observed contact, if requested
+//!     limits.csv           a row per limit of the model that a step exceeds, if any
 //!     flow.csv             a row per observed contact and direction, if requested
 //!     fields/flow-0001.h5  fields of the observers at the positions or points kept
 //!     sweep.csv            a load sweep: a row per point; `fields.h5` is that of the last
@@ -59,6 +60,7 @@ use crate::motion::{
 };
 use crate::plasticity::{PlasticState, TensorField, VolumeField};
 use crate::stress::Component;
+use crate::study::limits::{BrokenLimit, LIMITS_TABLE};
 use crate::study::observed::{ConductanceRecord, GapFlowRecord};
 use crate::study::summary::{Outcome, Summary};
 use crate::surface::Topography;
@@ -362,6 +364,14 @@ impl Results {
     /// [`Error::File`].
     pub fn observed_fields(&self, name: &str, step: usize) -> Result<Fields> {
         Fields::open(&self.observer_fields(name, step))
+    }
+
+    /// Reads the limits of the model that the results exceed, in the order of their steps; empty if there are none.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn broken_limits(&self) -> Result<Vec<BrokenLimit>> {
+        self.observed(LIMITS_TABLE)
     }
 
     /// Reads the rows of an observer; empty if there are none.

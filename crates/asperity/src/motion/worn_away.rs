@@ -1,0 +1,58 @@
+//! The end of every model: a body that loses more height than it is long is no longer a surface.
+
+use crate::error::{Error, Result};
+use crate::grid::Field;
+use crate::motion::pair::Pair;
+use crate::motion::record::{LostVolume, PassRecord, UpdateRecord};
+use crate::motion::wear::WEAR;
+use crate::units::Metre;
+
+/// Checks the bodies after a pass.
+///
+/// # Errors
+/// [`Error::WornAway`].
+pub(super) fn check_pass(pair: &Pair, pass: &PassRecord) -> Result<()> {
+    let deepest = pass.running.map_or([0.0; 2], |running| [running.max_wear_lower, running.max_wear_upper]);
+    check(pair, |body| lost(pair, body, &pass.lost).max(deepest[body]).max(worn(pair, body)))
+}
+
+/// Checks the bodies after an update of a contact that wears in place.
+///
+/// # Errors
+/// [`Error::WornAway`].
+pub(super) fn check_update(pair: &Pair, update: &UpdateRecord) -> Result<()> {
+    check(pair, |body| lost(pair, body, &update.lost).max(worn(pair, body)))
+}
+
+/// Checks the bodies after losses of these depths, by law, with their mean over the cells. The mean follows from the load and the
+/// distance, however the pressures change.
+///
+/// # Errors
+/// [`Error::WornAway`].
+pub(super) fn check_losses(pair: &Pair, depths: &[[Field; 2]]) -> Result<()> {
+    check(pair, |body| depths.iter().map(|depth| depth[body].mean().unwrap_or(0.0)).fold(0.0, f64::max))
+}
+
+/// Returns [`Error::WornAway`] if the depth that a body loses exceeds the longer side of its grid.
+fn check(pair: &Pair, depth: impl Fn(usize) -> Metre) -> Result<()> {
+    for (body, grid) in [pair.lower_grid(), pair.upper_grid()].iter().enumerate() {
+        let [x, y] = grid.extent();
+        let (depth, length) = (depth(body), x.max(y));
+        if depth > length {
+            return Err(Error::WornAway { body: ["lower", "upper"][body], depth, length });
+        }
+    }
+    Ok(())
+}
+
+/// Largest mean depth that a body loses to a law, or grows by.
+fn lost(pair: &Pair, body: usize, lost: &[LostVolume]) -> Metre {
+    let area = [pair.lower_grid(), pair.upper_grid()][body].area();
+    lost.iter().map(|lost| lost.whole[body].abs() / area).fold(0.0, f64::max)
+}
+
+/// Deepest wear of a cell since the beginning.
+fn worn(pair: &Pair, body: usize) -> Metre {
+    let depths = [&pair.lower, &pair.upper][body].state.get(WEAR);
+    depths.into_iter().flat_map(|wear| &wear.values).copied().fold(0.0, f64::max)
+}

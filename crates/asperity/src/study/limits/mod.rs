@@ -1,0 +1,202 @@
+//! The limits of the model, compared with results while they come.
+//!
+//! A limit is a row of [`LIMITS`]: the quantity that it bounds and the sentence that says how it was exceeded. Its bound, with the
+//! reason, is a field of [`Bounds`]. The first step that exceeds a limit is a row of `limits.csv`, which is written before the row of
+//! the step itself, and the sentence goes to the watch at once. A limit is reported once. A body that is no longer a surface at all
+//! is an error of `motion::worn_away`.
+
+mod bounds; // the bounds of a case
+mod findings; // the quantities of a step
+mod table; // the limits: what exceeds them, and what a warning says
+
+use serde::{Deserialize, Deserializer, Serialize};
+
+use crate::choice::{Choice, choice};
+use crate::error::Result;
+use crate::motion::{Column, Output, Pair, Presence, Step};
+use crate::solver::Solution;
+use crate::study::case::{Case, LoadingPath, Side};
+use crate::study::estimate::Estimate;
+use crate::study::results::Writer;
+use crate::study::tables::{self, GrowingTable, Record};
+
+use bounds::Bounds;
+use findings::{ContactFindings, Finding, Findings};
+use table::{LIMITS, Row};
+
+/// A limit of the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Limit {
+    /// The rms slope of the gap between bodies that have changed.
+    Slope,
+    /// The depth that a cell loses in one pass.
+    Wear,
+    /// The pressure of elastic bodies.
+    Pressure,
+    /// The share of the cells at the hardness.
+    Hardness,
+    /// The surface temperature, K.
+    Temperature,
+    /// The mean thickness of a film.
+    Film,
+    /// The elastic displacement.
+    Displacement,
+    /// The plastic interference.
+    Interference,
+}
+
+choice!(Limit:
+    "slope" => Slope, "wear" => Wear, "pressure" => Pressure, "hardness" => Hardness, "temperature" => Temperature,
+    "film" => Film, "displacement" => Displacement, "interference" => Interference,
+);
+
+/// A limit of the model, the first result beyond it, and its place: a row of `limits.csv`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct BrokenLimit {
+    /// Pass of a motion, from 1; left out of a static contact.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pass: Option<usize>,
+    /// Position in the pass, increment, point (each from 1) or update (from 0); `None` for a pass as a whole.
+    pub step: Option<usize>,
+    /// The limit.
+    #[serde(deserialize_with = "word")]
+    pub limit: Limit,
+    /// The body; `None` if it concerns both.
+    #[serde(deserialize_with = "word_or_none")]
+    pub body: Option<Side>,
+    /// The result, SI.
+    pub value: f64,
+    /// The limit that it exceeds, SI.
+    pub bound: f64,
+}
+
+impl Record for BrokenLimit {
+    const COLUMNS: &'static [Column] = &[
+        Column { presence: Presence::Optional, ..Column::new("pass", "1", "Pass.") },
+        Column {
+            presence: Presence::Unknown,
+            ..Column::new("step", "1", "Position, increment, point or update.")
+        },
+        Column::new("limit", "", "Limit."),
+        Column { presence: Presence::Unknown, ..Column::new("body", "", "Body.") },
+        Column::new("value", "1", "Result, SI."),
+        Column::new("bound", "1", "Limit, SI."),
+    ];
+}
+
+/// Reads an option from its word.
+fn word<'de, D: Deserializer<'de>, C: Choice>(deserializer: D) -> std::result::Result<C, D::Error> {
+    word_or_none(deserializer)?.ok_or_else(|| serde::de::Error::custom("no such word"))
+}
+
+/// Reads an option from its word, `None` from another text.
+fn word_or_none<'de, D: Deserializer<'de>, C: Choice>(
+    deserializer: D,
+) -> std::result::Result<Option<C>, D::Error> {
+    Ok(C::of_word(&String::deserialize(deserializer)?))
+}
+
+impl BrokenLimit {
+    /// Returns the warning about it, for a result of `case`.
+    pub fn sentence(&self, case: &Case) -> String {
+        let row = LIMITS.iter().find(|row| row.limit == self.limit).expect("a row for each limit");
+        self.place(case) + &(row.says)(case, self)
+    }
+
+    /// Returns the place of the result as the beginning of a sentence; empty for a contact in one step.
+    fn place(&self, case: &Case) -> String {
+        let several = match case.loading_path(1.0) {
+            Some(LoadingPath::Stages(stages)) => {
+                stages.iter().map(|stage| stage.increments).sum::<usize>() > 1
+            }
+            _ => false,
+        };
+        match (self.pass, self.step) {
+            (Some(pass), Some(position)) => format!("pass {pass}, position {position}: "),
+            (Some(pass), None) => format!("pass {pass}: "),
+            (None, Some(update)) if case.sliding.is_some() => format!("update {update}: "),
+            (None, Some(point)) if case.is_swept() => format!("point {point}: "),
+            (None, Some(increment)) if several => format!("increment {increment}: "),
+            (None, _) => String::new(),
+        }
+    }
+}
+
+/// The limits of a case, and what has exceeded them.
+pub(super) struct Limits {
+    case: Case,
+    bounds: Bounds,
+    broken: Vec<BrokenLimit>,
+    /// Number of limits that the step received last exceeds for the first time.
+    new: usize,
+    table: Option<GrowingTable>,
+}
+
+/// Name of the table of limits, without its ending.
+pub(super) const LIMITS_TABLE: &str = "limits";
+
+impl Limits {
+    /// Creates the limits of a `case` with these bodies before its first step. With a `writer` broken limits go to its table, after
+    /// those of the steps that are `done`.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub(super) fn new(
+        case: &Case,
+        pair: &Pair,
+        estimate: &Estimate,
+        (writer, done): (Option<&Writer>, Option<usize>),
+    ) -> Result<Self> {
+        let (bounds, case) = (Bounds::of(case, pair, estimate), case.clone());
+        let Some(writer) = writer else {
+            return Ok(Self { case, bounds, broken: Vec::new(), new: 0, table: None });
+        };
+        let path = writer.results().observer_table(LIMITS_TABLE);
+        let column = if case.motion.is_some() { "pass" } else { "step" };
+        let rows = done.map_or(Ok(0), |done| tables::rows_up_to(&path, column, done))?;
+        let mut broken = writer.results().broken_limits()?;
+        broken.truncate(rows);
+        Ok(Self { case, bounds, broken, new: 0, table: Some(GrowingTable::open(path, rows)?) })
+    }
+
+    /// Compares a contact that is solved in one step with the limits.
+    ///
+    /// # Errors
+    /// [`crate::Error::File`].
+    pub(super) fn contact(&mut self, solution: &Solution) -> Result<()> {
+        self.compare(&Findings { contacts: vec![ContactFindings::of(1, solution)], ..Findings::default() })
+    }
+
+    /// Returns a warning for each broken limit.
+    pub(super) fn all(&self) -> Vec<String> {
+        self.broken.iter().map(|broken| broken.sentence(&self.case)).collect()
+    }
+
+    fn compare(&mut self, findings: &Findings<'_>) -> Result<()> {
+        let is_new = |row: &&Row| self.broken.iter().all(|broken| broken.limit != row.limit);
+        let broken = |row: &Row| {
+            let Finding { step, body, value, bound } = (row.exceeds)(&self.bounds, findings)?;
+            Some(BrokenLimit { pass: findings.pass, step, limit: row.limit, body, value, bound })
+        };
+        let new: Vec<BrokenLimit> = LIMITS.iter().filter(is_new).filter_map(broken).collect();
+        if let (Some(table), false) = (&mut self.table, new.is_empty()) {
+            table.add(&new)?;
+        }
+        self.new = new.len();
+        self.broken.extend(new);
+        Ok(())
+    }
+}
+
+impl Output for Limits {
+    fn step(&mut self, step: &Step<'_>) -> Result<()> {
+        self.compare(&Findings::of(step))
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let new = &self.broken[self.broken.len() - self.new..];
+        new.iter().map(|broken| broken.sentence(&self.case)).collect()
+    }
+}
