@@ -4,11 +4,14 @@
 //! channels unless their `unit` (or `units`) is not a length. `scale_factor`, `add_offset`, `_FillValue` and
 //! `missing_value` are applied; without `_FillValue` the number of the format for values that were never written is missing.
 //! A height is missing where a variable `mask` is not 0. The pitch is that of the variables
-//! named like the dimensions: their attribute `length` over their number, or the spacing of their values, in their unit.
+//! named like the dimensions: their attribute `length` over their number, or the spacing of their values, in their unit;
+//! values that fall reverse the order.
 //! Lines run along x if the first dimension is `y` (or `lat`) or the second is `x` (or `lon`); otherwise they run along y,
 //! as in NumPy.
 
 use std::collections::HashMap;
+
+use ndarray::Axis;
 
 use super::binary::{Cursor, Number, Order, Raster, shape, text};
 use super::words::unit_of_length;
@@ -125,12 +128,19 @@ impl<'a> File<'a> {
             (None, false) => LengthUnit::MetresThroughout,
         };
         let pitch = axes.map(|axis| match axis {
-            Some((step, Some(unit))) => step * unit_of_length(unit).unwrap_or(f64::NAN),
-            Some((step, None)) if kind == LengthUnit::MetresThroughout => step,
+            Some((step, Some(unit))) => step.abs() * unit_of_length(unit).unwrap_or(f64::NAN),
+            Some((step, None)) if kind == LengthUnit::MetresThroughout => step.abs(),
             _ => f64::NAN,
         });
         let name = variable.name.clone();
-        let heights = Box::new(move || self.heights(variable, shape, along_x));
+        let falls = axes.map(|axis| axis.is_some_and(|(step, _)| step < 0.0));
+        let heights = Box::new(move || {
+            let mut heights = self.heights(variable, shape, along_x)?;
+            for axis in (0..2).filter(|axis| falls[*axis]) {
+                heights.invert_axis(Axis(axis));
+            }
+            Ok(heights.as_standard_layout().into_owned())
+        });
         Ok(Some(Channel { name, pitch, unit: kind, heights }))
     }
 
@@ -183,7 +193,7 @@ impl<'a> File<'a> {
                 let even = |(index, place): (usize, &f64)| {
                     (place - places[[0, 0]] - index as f64 * step).abs() < 0.1 * step.abs()
                 };
-                places.iter().enumerate().all(even).then_some(step.abs())?
+                places.iter().enumerate().all(even).then_some(step)?
             }
             _ => return None,
         };

@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! 16    smallest and largest height in µm 2 f64     1368  sizes along x and y 2 u32, steps along x and y in nm 2 f64
-//! 3468  heights u16, x fastest, 0 the smallest, 65534 the largest, 65535 missing; then an image
+//! 3468  heights u16, x fastest, 0 the smallest, 65534 the largest; then an image
 //! ```
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
@@ -33,6 +33,5 @@ fn heights(bytes: &[u8]) -> Result<([f64; 2], Field), Defect> {
     file.seek(3468)?;
     let raster = Raster::new(shape, Number::Uint16, Order::Little, file.rest())?;
     let height = |number: f64| number / 65_534.0 * (largest - least) + least;
-    let height = |number: f64| if number > 65_534.0 { f64::NAN } else { height(number) * MICROMETRE };
-    Ok((pitch, raster.heights(height)))
+    Ok((pitch, raster.heights(|number| height(number) * MICROMETRE)))
 }

@@ -278,7 +278,7 @@ fn heights_of_an_nms_reach_from_the_least_to_the_largest() {
     assert_eq!(defect(&nms()[..3475]), "nms: the part of the heights holds 7 bytes, expected 12");
 }
 
-pub(super) fn nms() -> Vec<u8> {
+fn nms() -> Vec<u8> {
     let mut file = vec![0; 3468];
     let mut put = |at: usize, bytes: &[u8]| file[at..at + bytes.len()].copy_from_slice(bytes);
     put(16, &[1f64, 66.534].map(f64::to_le_bytes).concat());

@@ -4,7 +4,7 @@ use ::tiff::encoder::{TiffEncoder, colortype};
 use ::tiff::tags::Tag;
 use hdf5_pure::{AttrValue, FileBuilder};
 
-use super::containers::{netcdf, nms};
+use super::containers::netcdf;
 use super::files::bcr;
 use super::*;
 
@@ -22,19 +22,27 @@ fn the_largest_number_of_a_bcrstm_is_missing_and_the_smallest_is_a_height() {
 }
 
 #[test]
-fn a_number_above_the_largest_height_of_an_nms_is_missing() {
-    let mut file = nms();
-    file[3468..3472].copy_from_slice(&[0xff, 0xff, 0xfe, 0xff]);
-    assert_eq!(missing(&file), [true, false, false, false, false, false]);
-}
-
-#[test]
 fn a_value_of_a_netcdf_that_was_never_written_is_missing() {
     let mut file = netcdf(1, ["y", "x"], "nm", false);
     let numbers = [1i16, 2, 3, 4, 5, 6].map(i16::to_be_bytes).concat();
     let at = file.windows(numbers.len()).position(|part| part == numbers).unwrap();
     file[at + 6..at + 8].copy_from_slice(&(-32_767i16).to_be_bytes());
     assert_eq!(missing(&file), [false, false, false, true, false, false]);
+}
+
+#[test]
+fn a_netcdf_whose_positions_fall_is_read_from_its_other_end() {
+    let file = netcdf(1, ["y", "x"], "nm", false);
+    let rising = decode(&file, None).unwrap();
+    let places = [2f32, 4.0].map(f32::to_be_bytes).concat();
+    let at = file.windows(places.len()).position(|part| part == places).unwrap();
+    let mut falling = file.clone();
+    falling[at..at + 8].copy_from_slice(&[4f32, 2.0].map(f32::to_be_bytes).concat());
+    let falling = decode(&falling, None).unwrap();
+    assert_eq!(falling.pitch, rising.pitch);
+    let mut heights = rising.heights;
+    heights.invert_axis(ndarray::Axis(1));
+    assert_same(&falling.heights, &heights);
 }
 
 #[test]

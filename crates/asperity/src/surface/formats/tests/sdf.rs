@@ -24,7 +24,7 @@ pub(super) fn samples() -> [Vec<u8>; 2] {
 }
 
 const TEXT: &str = "aISO-1.0\r\nManufacID = me\r\nNumPoints = 3 ; of each\r\nNumProfiles = 2\r\nXscale = 0.5\r\nYscale=0.25\r\n\
-                    Zscale = 2\r\nCompression = 0\r\nDataType = 5\r\n*\r\n1 BAD\r\n-2 3\r\n\r\n4 5.5\r\n*\r\n<a> \u{b5} </a>*";
+                    Zscale = 2\r\nCompression = 0\r\nDataType = 5\r\n*\r\n1 BAD\r\n-2 3\r\n\r\n4 5.5\r\n*\r\n<a> \u{b5} </a>\r\n*\r\n";
 
 /// The numbers 1, `marker` and 3 as the type with this code.
 fn three(kind: u8, marker: f64) -> Vec<u8> {
@@ -108,6 +108,24 @@ fn the_heights_of_an_sdf_in_text_may_break_lines_anywhere() {
     let scan = decode(TEXT.as_bytes(), None).unwrap();
     assert_eq!((scan.format, scan.pitch), ("sdf", Some([0.5, 0.25])));
     assert_same(&scan.heights, &ndarray::array![[2.0, 6.0], [f64::NAN, 8.0], [-4.0, 11.0]]);
+}
+
+#[test]
+fn an_sdf_in_text_may_have_comments_words_and_any_ends_of_lines() {
+    let bcr = TEXT
+        .replace("aISO-1.0", "ABCR-1.0")
+        .replace("= 5", "= INTEGER ; *")
+        .replace("Compression = 0", "Compression = NULL");
+    for text in [
+        bcr.clone(),
+        bcr.replace("\r\n", "\r"),
+        bcr.replace("\r\n", "\n").replace("1 BAD", "1 bad ; the first"),
+    ] {
+        let scan = decode(text.as_bytes(), None).unwrap();
+        assert_same(&scan.heights, &ndarray::array![[6.0, 2.0], [8.0, f64::NAN], [11.0, -4.0]]);
+    }
+    let iso = TEXT.replace("DataType = 5", "DataType = binary32").replace("BAD", "-3.402823E+38");
+    assert!(decode(iso.as_bytes(), None).unwrap().heights[[1, 0]].is_nan());
 }
 
 #[test]
