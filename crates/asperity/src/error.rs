@@ -649,7 +649,7 @@ pub enum Defect {
         count: usize,
         /// Numbers in a line.
         columns: usize,
-        /// What the lines look like.
+        /// Kind of table that the lines look like.
         what: &'static str,
         /// The accepted tables.
         expected: &'static str,

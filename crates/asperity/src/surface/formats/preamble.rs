@@ -11,7 +11,7 @@ use super::words::{excerpt, unit_of_length};
 use crate::error::Defect;
 use crate::units::Metre;
 
-/// What stands above the numbers of a text.
+/// Lines above the numbers of a text, and the place of the numbers.
 pub(super) struct Preamble<'a> {
     pub(super) words: Words,
     /// Names of the columns, if these are positions and heights.
@@ -82,7 +82,10 @@ impl<'a> Preamble<'a> {
         if fields.iter().all(is_word) {
             if csv::are_positions(&fields) {
                 self.names = Some(fields);
-            } else if separator != Separator::Space && fields.len() <= MOST_NAMED && !are_numbered(&fields) {
+            } else if fields.len() <= MOST_NAMED
+                && !are_numbered(&fields)
+                && self.last.1.contains([';', '\t', ','])
+            {
                 // Words between spaces may be a title.
                 return Err(self.unclear());
             }
@@ -289,7 +292,7 @@ impl Word {
     }
 }
 
-/// What the known words say.
+/// Meaning of the known words.
 #[derive(Default)]
 pub(super) struct Words {
     pub(super) height_unit: Option<Metre>,

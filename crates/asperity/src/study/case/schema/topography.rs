@@ -130,7 +130,7 @@ pub(in crate::study) mod file {
             "`\"x\"` for text, `\"y\"` for npy, npz, mat and HDF5, which are indexed `[ix, iy]`",
             "\"y\"",
             "direction of a line of a matrix; a text that looks like points is a matrix if this is given; an error for a format that \
-             determines it, see [formats](formats.md#text)",
+             determines it, see [formats](formats.md)",
         );
         SKIP: Optional<usize> =
             optional("skip", count(0), "0", "6", "number of lines above the numbers of a text");
