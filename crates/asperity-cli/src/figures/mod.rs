@@ -28,7 +28,7 @@ use asperity::study::Results;
 use asperity::units::{Dimension, format};
 
 use crate::draw::{Charts, Mark, Paper, Series};
-use crate::report::Outcome;
+use crate::report::{Failure, Outcome};
 
 pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, has_new_upper};
 pub(crate) use flow::{FlowSection, flow_sections, of_increments as of_flow_increments};
@@ -132,6 +132,10 @@ fn gather_on<'a>(
 ) -> Outcome<Sheet<'a>> {
     let passes = results.passes()?;
     let of = match passes.is_empty() {
+        true if results.case()?.motion.is_some() => {
+            let message = format!("{} has no finished pass to draw", results.directory().display());
+            return Err(Failure::usage(message, None));
+        }
         true => rest::draw(results, &mut sheet, witness)?,
         false => motion::draw(results, &passes, &mut sheet)?,
     };

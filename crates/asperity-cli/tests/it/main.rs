@@ -6,6 +6,7 @@ mod command;
 mod damage;
 mod digests;
 mod documents;
+mod limits;
 mod passage;
 mod run;
 mod study;

@@ -32,7 +32,7 @@ fn flank(wear: &str, friction: f64, passes: usize) -> String {
     };
     format!(
         "{}[lower.wear]\n{wear}\n{}[contact]\nmean_pressure = \"400 MPa\"\nboundary = \"periodic\"\n[motion]\n\
-         strategy = \"shift\"\nspeed_lower = \"3 m/s\"\nspeed_upper = \"5 m/s\"\npasses = {passes}\n[friction]\n\
+         strategy = \"shift\"\nspeed_lower = \"3 m/s\"\nspeed_upper = \"5 m/s\"\nstride = 4\npasses = {passes}\n[friction]\n\
          coefficient = {friction}\ncoupling = \"none\"\n[temperature]\nbulk = \"80 °C\"\n",
         body("lower", "shape = [16, 8]\npitch = \"8 um\"\n", 1),
         body("upper", "", 2)
@@ -86,29 +86,37 @@ fn a_pass_that_wears_more_than_the_body_is_long_ends_the_run() {
     }
 }
 
+/// A law of the caller takes 50 µm in each pass off a body of 128 µm.
 #[test]
 fn finished_passes_are_kept_when_a_body_has_worn_away() {
     let folder = tempfile::tempdir().unwrap();
-    let text = flank("coefficient = 2.5e-9", 0.1, 4);
-    let log = Log::default();
-    let error = run(&text, folder.path(), Existing::Keep, &log).unwrap_err();
-    // 51 µm in each pass of a body of 128 µm.
-    let says =
-        |error: &Error| matches!(error, AtPass { pass: 3, source } if matches!(**source, WornAway { .. }));
+    let case = case(&flank("coefficient = 1e-18", 0.1, 4));
+    let worn = |existing| {
+        let log = Log::default();
+        let mut passes = Passes::enter(&case, SurfaceInput::default(), folder.path(), existing).unwrap();
+        let end = loop {
+            let mut pass = passes.solve(&log).unwrap().unwrap();
+            let number = pass.record().pass as f64;
+            let depth = Field::from_elem([16, 8], 50e-6 * number);
+            pass.remove("wear", &[depth, Field::zeros([16, 8])]);
+            if let Err(error) = passes.finish(pass, &log) {
+                break error;
+            }
+        };
+        (end, log.lines())
+    };
+    let says = |error: &Error| matches!(error, AtPass { pass: 3, source } if matches!(**source, WornAway { body: "lower", .. }));
+    let (error, lines) = worn(Existing::Keep);
     assert!(says(&error), "{error:?}");
-    let lines = log.lines();
-    assert!(
-        lines[1].starts_with("pass 1: the lower body wears ") && lines[1].contains("in one pass"),
-        "{lines:?}"
-    );
-    assert_eq!((lines.first().unwrap().as_str(), lines.last().unwrap().as_str()), ("done 1", "done 2"));
+    assert_eq!([&lines[0], lines.last().unwrap()], ["done 1", "done 2"]);
+    assert!(lines[1].starts_with("pass 1: the lower body wears 50 µm deep in one pass"), "{lines:?}");
     let results = Results::open(folder.path()).unwrap();
-    assert_eq!((results.passes().unwrap().len(), results.steps().unwrap().len()), (2, 32));
+    assert_eq!((results.passes().unwrap().len(), results.steps().unwrap().len()), (2, 8));
     assert!(results.surfaces_after(2).is_ok() && results.summary().is_err());
     let broken = results.broken_limits().unwrap();
     assert!(broken.iter().any(|broken| broken.limit == Limit::Wear && broken.pass == Some(1)), "{broken:?}");
-    let error = run(&text, folder.path(), Existing::Resume, &()).unwrap_err();
-    assert!(says(&error), "{error:?}");
+    let (error, lines) = worn(Existing::Resume);
+    assert!(says(&error) && lines.is_empty(), "{error:?} {lines:?}");
 }
 
 #[test]
@@ -173,8 +181,8 @@ fn no_solid_is_elastic_above_a_tenth_of_its_modulus() {
 fn increments_points_and_updates_name_themselves() {
     let stages = rough("", "mean_pressure = \"100 MPa\"\n[friction]\ncoefficient = 0.1\nincrements = 4");
     let (_, at_once) = at_rest(&stages);
-    assert!(at_once.len() == 1 && at_once[0].starts_with("increment 1: the largest pressure"), "{at_once:?}");
-    let sweep = rough("", "mean_pressure = [\"1 kPa\", \"100 MPa\", \"200 MPa\"]");
+    assert!(at_once.len() == 1 && at_once[0].starts_with("increment 2: the largest pressure"), "{at_once:?}");
+    let sweep = rough("", "mean_pressures = [\"1 kPa\", \"100 MPa\", \"200 MPa\"]");
     let (warnings, at_once) = at_rest(&sweep);
     assert!(at_once.len() == 1 && at_once[0].starts_with("point 2: the largest pressure"), "{at_once:?}");
     assert!(warnings.contains(&at_once[0]));

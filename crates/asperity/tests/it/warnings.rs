@@ -97,7 +97,7 @@ fn wear_of_the_rim_a_thick_film_and_passes_all_computed_are_told_of() {
     let flat =
         sliding_under("2 N", ROUGH, "0.5 m/s", &format!("{wear}{film}"), &format!("stride = 4\n{bulk}"));
     let flat = run(&flat).warnings;
-    assert!(told(&flat, "the film on the lower body is up to "), "{flat:?}");
+    assert!(told(&flat, "pass 1: the film on the lower body is "), "{flat:?}");
     let case = sliding_under("30 mN", RAISED, "0.5 m/s", wear, &format!("stride = 4\n{bulk}"));
     let mut given = study::SurfaceInput::default();
     for name in ["lower", "upper"] {
