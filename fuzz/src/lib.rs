@@ -13,16 +13,19 @@ use asperity::{Error, Field, Grid};
 pub type Target = fn(&[u8]);
 
 /// The targets by their names, which are those of the corpora too.
-pub const TARGETS: [(&str, Target); 30] = [
+pub const TARGETS: [(&str, Target); 34] = [
     ("al3d", al3d),
+    ("asc", asc),
     ("bcr", bcr),
     ("csv", csv),
     ("frt", frt),
+    ("gsf", gsf),
     ("gwy", gwy),
     ("gzip", gzip),
     ("hdf5", hdf5),
     ("headed", headed),
     ("ibw", ibw),
+    ("mat", mat),
     ("metropro", metropro),
     ("mi", mi),
     ("mnt", mnt),
@@ -31,6 +34,7 @@ pub const TARGETS: [(&str, Target); 30] = [
     ("nid", nid),
     ("nms", nms),
     ("npy", npy),
+    ("npz", npz),
     ("opd", opd),
     ("opdx", opdx),
     ("plu", plu),
@@ -51,6 +55,11 @@ pub fn al3d(data: &[u8]) {
     check(&["al3d"], &beginning_with(&[b"AliconaImaging\0\r\n"], data));
 }
 
+/// ASC.
+pub fn asc(data: &[u8]) {
+    check(&["asc"], &beginning_with(&[b"ncols", b"NCOLS", b"nrows"], data));
+}
+
 /// BCR: the header, which ends at a zero and is padded here, in UTF-16 if it says so; then the heights.
 pub fn bcr(data: &[u8]) {
     let data = beginning_with(&[b"fileformat = bcr"], data);
@@ -65,12 +74,17 @@ pub fn bcr(data: &[u8]) {
 
 /// CSV.
 pub fn csv(data: &[u8]) {
-    check(&["csv", "text", "xyz"], &beginning_with(&[b"x,y", b"X", b"x"], data));
+    check(&["csv", "text", "xyz", "xz"], &beginning_with(&[b"x,y", b"X", b"x"], data));
 }
 
 /// FRT.
 pub fn frt(data: &[u8]) {
     check(&["frt"], &beginning_with(&[b"FRTM_GLIDERV1.00"], data));
+}
+
+/// GSF.
+pub fn gsf(data: &[u8]) {
+    check(&["gsf"], &beginning_with(&[b"Gwyddion Simple Field 1.0\n"], data));
 }
 
 /// GWY: a file, or the components of the container.
@@ -117,6 +131,24 @@ pub fn ibw(data: &[u8]) {
         file[place..place + 2].copy_from_slice(&if big { rest.to_be_bytes() } else { rest.to_le_bytes() });
     }
     check(&["ibw"], &file);
+}
+
+/// MAT: a file, or a variable of version 5, which is packed if its first byte is odd.
+pub fn mat(data: &[u8]) {
+    if data.starts_with(b"MATLAB ") {
+        return check(&["mat"], data);
+    }
+    let size = |content: &[u8]| (content.len() as u32).to_le_bytes();
+    let mut element = [&14u32.to_le_bytes()[..], &size(data), data].concat();
+    if data.first().is_some_and(|byte| byte % 2 == 1) {
+        let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::fast());
+        encoder.write_all(&element).expect("memory takes all");
+        let packed = encoder.finish().expect("memory takes all");
+        element = [&15u32.to_le_bytes()[..], &size(&packed), &packed].concat();
+    }
+    let mut file = b"MATLAB 5.0 MAT-file".to_vec();
+    file.resize(124, b' ');
+    check(&["mat"], &[&file[..], b"\0\x01IM", &element].concat());
 }
 
 /// MetroPro.
@@ -170,6 +202,17 @@ pub fn nms(data: &[u8]) {
 /// NPY.
 pub fn npy(data: &[u8]) {
     check(&["npy"], &beginning_with(&[b"\x93NUMPY"], data));
+}
+
+/// NPZ: an archive, or an array in it.
+pub fn npz(data: &[u8]) {
+    if data.starts_with(b"PK\x03\x04") {
+        return check(&["npz", "x3p"], data);
+    }
+    let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
+    archive.start_file("heights.npy", zip::write::SimpleFileOptions::default()).expect("a new name");
+    archive.write_all(&beginning_with(&[b"\x93NUMPY"], data)).expect("memory takes all");
+    check(&["npz"], archive.finish().expect("memory takes all").get_ref());
 }
 
 /// OPD.

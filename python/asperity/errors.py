@@ -49,6 +49,7 @@ __all__ = [
     "NotResumable",
     "NotThisStudy",
     "NothingDefined",
+    "OptionOfText",
     "OtherCase",
     "OtherRows",
     "OutOfRange",
@@ -135,6 +136,10 @@ class NoChannel(BadInput):
 
 class OwnUnit(BadInput):
     """A unit is given for a file that has one: `path`, `format`."""
+
+
+class OptionOfText(BadInput):
+    """``lines`` or ``skip`` is given for a file whose format leaves nothing open: `path`, `format`, `option`."""
 
 
 class NoPitch(BadInput):

@@ -464,8 +464,10 @@ def read(
     channel: str | None = None,
     unit: Quantity | None = None,
     pitch: Pair | None = None,
+    lines: Literal["x", "y"] | None = None,
+    skip: int = 0,
 ) -> Surface:
-    """Read a topography. The format, one of thirty, is detected from the content of the file.
+    """Read a topography. The format, one of more than thirty, is detected from the content of the file.
 
     Parameters
     ----------
@@ -477,6 +479,11 @@ def read(
         Unit of the heights in a file without units, for example ``"um"``.
     pitch : float, str or pair, optional
         Size of a cell along x and y, m. A file with a pitch is resampled to this one.
+    lines : {"x", "y"}, optional
+        Direction of a line of a matrix. By default it is x for text, and y for npy, npz, mat and HDF5, which are indexed
+        ``[ix, iy]``. Other formats determine it. Text that looks like points is a matrix if this is given.
+    skip : int
+        Number of lines above the numbers of a text.
 
     Returns
     -------
@@ -491,7 +498,7 @@ def read(
     path = paths("path", path)
     if not os.path.exists(path):
         raise _make("File", f"{path}: no such file", {"path": path, "errno": 2}, None)
-    table: dict[str, Any] = {"file": path, "channel": channel, "unit": unit}
+    table: dict[str, Any] = {"file": path, "channel": channel, "unit": unit, "lines": lines, "skip": skip or None}
     if pitch is not None:
         table["pitch"] = list(lengths("pitch", pitch))
     surface = Surface._of({key: value for key, value in table.items() if value is not None})

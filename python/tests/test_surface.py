@@ -180,6 +180,28 @@ def test_one_cell_is_a_surface() -> None:
     assert asp.Surface([[1e-9]], 1e-6).shape == (1, 1)
 
 
+def test_text_and_arrays_have_their_order_of_lines(tmp_path: pathlib.Path) -> None:
+    heights = np.random.default_rng(1).normal(size=(7, 5))
+    np.savetxt(tmp_path / "z.txt", heights.T)
+    np.save(tmp_path / "z.npy", heights)
+    np.savez(tmp_path / "z.npz", first=heights, second=-heights)
+    options: dict[str, str] = {"pitch": "1 um", "unit": "um"}
+    for name in ("z.txt", "z.npy"):
+        assert np.allclose(asp.read(tmp_path / name, **options).heights, heights * 1e-6)
+    turned = asp.read(tmp_path / "z.txt", lines="y", **options)
+    assert np.allclose(turned.heights, heights.T * 1e-6)
+    second = asp.read(tmp_path / "z.npz", channel="second", lines="x", **options)
+    assert np.allclose(second.heights, -heights.T * 1e-6)
+    (tmp_path / "sizes.txt").write_text("a disc\n3 2\n1 2 3\n4 5 7\n")
+    with pytest.raises(errors.CaseError, match="the matrix begins at line 3") as caught:
+        asp.read(tmp_path / "sizes.txt", pitch="1 um")
+    assert "`skip = 2`" in caught.value.__notes__[0]
+    assert asp.read(tmp_path / "sizes.txt", pitch="1 um", skip=2).shape == (3, 2)
+    with pytest.raises(errors.CaseError, match="determines the order"):
+        turned.write(tmp_path / "z.x3p")
+        asp.read(tmp_path / "z.x3p", lines="y")
+
+
 def test_files_that_are_none(tmp_path: pathlib.Path) -> None:
     with pytest.raises(FileNotFoundError):
         asp.read(tmp_path / "nowhere.x3p")

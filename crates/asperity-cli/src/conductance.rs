@@ -95,8 +95,7 @@ impl Found {
             }
         }
         let mut text = line("contact", &contact);
-        let rows =
-            passage::conducts(self.kind, self.solved.conductance, [self.solved.joint_conductance(), None]);
+        let rows = passage::conducts(self.kind, self.solved.conductance, self.solved.joint_conductance());
         text.extend(rows.iter().map(|(name, value)| line(name, value)));
         if let Some(full) = self.full {
             let full = passage::resistance(self.kind, full);

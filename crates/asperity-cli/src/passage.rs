@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use asperity::conductance::Kind;
+use asperity::conductance::{Kind, MAX_CORRELATED_FRACTION};
 use asperity::flow::Along;
 use asperity::io;
 use asperity::study::{Case, ConductanceRecord, GapFlowRecord};
@@ -66,18 +66,43 @@ fn often(case: &Case, every: usize) -> String {
 /// The rows of a conductance: name and value.
 pub(crate) fn conductance(row: &ConductanceRecord) -> Vec<(String, String)> {
     let kind = if row.thermal.is_some() { Kind::Thermal } else { Kind::Electrical };
-    conducts(kind, row.conductance(), row.joint())
+    let [joint, correlation] = row.joint();
+    let mut rows = conducts(kind, row.conductance(), joint);
+    if let (Some(joint), Some((_, value))) = (joint.filter(|joint| *joint > 0.0), rows.get_mut(1)) {
+        if row.gas_share > 0.0 {
+            *value += &format!(", of which the spots {}", of_area(kind, joint * row.spot_share));
+        }
+        match correlation {
+            Some(h) if row.film_share == 0.0 => {
+                *value += &format!(", spots by the correlation {}", of_area(kind, h));
+            }
+            None if row.contact_fraction() > MAX_CORRELATED_FRACTION => {
+                *value += &format!(
+                    " ({:.0} % of the area touch: beyond the {:.0} % of the correlations)",
+                    100.0 * row.contact_fraction(),
+                    100.0 * MAX_CORRELATED_FRACTION
+                );
+            }
+            _ => {}
+        }
+    }
+    rows
 }
 
-/// The rows of a conductance, and of a joint conductance with the correlation beside it.
-pub(crate) fn conducts(
-    kind: Kind,
-    conductance: Option<f64>,
-    joint: [Option<f64>; 2],
-) -> Vec<(String, String)> {
-    let [whole, of_area] = match kind {
-        Kind::Thermal => [Dimension::ThermalConductance, Dimension::ThermalConductanceOfArea],
-        Kind::Electrical => [Dimension::ElectricalConductance, Dimension::ElectricalConductanceOfArea],
+/// A conductance of an area with its unit.
+fn of_area(kind: Kind, value: f64) -> String {
+    let dimension = match kind {
+        Kind::Thermal => Dimension::ThermalConductanceOfArea,
+        Kind::Electrical => Dimension::ElectricalConductanceOfArea,
+    };
+    format(value, dimension)
+}
+
+/// The rows of a conductance and of a joint conductance.
+pub(crate) fn conducts(kind: Kind, conductance: Option<f64>, joint: Option<f64>) -> Vec<(String, String)> {
+    let whole = match kind {
+        Kind::Thermal => Dimension::ThermalConductance,
+        Kind::Electrical => Dimension::ElectricalConductance,
     };
     let Some(conductance) = conductance else {
         return vec![("conductance".to_owned(), "no resistance: all cells touch without a film".to_owned())];
@@ -87,11 +112,7 @@ pub(crate) fn conducts(
         value += &format!(", resistance {}", resistance(kind, conductance.recip()));
     }
     let mut rows = vec![("conductance".to_owned(), value)];
-    if let [Some(joint), correlation] = joint {
-        let beside = correlation
-            .map_or(String::new(), |h| format!(", of clean spots by the correlation {}", format(h, of_area)));
-        rows.push(("joint conductance".to_owned(), format(joint, of_area) + &beside));
-    }
+    rows.extend(joint.map(|joint| ("joint conductance".to_owned(), of_area(kind, joint))));
     rows
 }
 

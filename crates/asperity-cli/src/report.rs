@@ -300,6 +300,10 @@ fn hint(error: &Error) -> Option<String> {
         Error::Case(case) => case.hint.clone(),
         // Mistakes in a case are [`Error::Case`]; these files are named by arguments.
         Error::NoChannel { .. } => error.hint().map(|hint| hint.replace("one of them", "one with --channel")),
+        Error::CorruptTopography { reason, .. } => error.hint().map(|hint| match reason.option() {
+            Some((option, value)) => format!("{hint}: `--{option} {value}`"),
+            None => hint,
+        }),
         Error::UndefinedSamples { .. } => {
             Some("`--fill nearest` or `--fill harmonic`, a membrane over each hole, fills them".to_owned())
         }

@@ -138,6 +138,7 @@ pub(crate) fn quantity(
         },
     };
     let range = dimension.range();
+    let number = if positive { number } else { range.without_dust(number) };
     match number {
         f64::INFINITY if infinite => Ok(number),
         number if positive && range.holds(number) || !positive && range.holds_signed(number) => Ok(number),

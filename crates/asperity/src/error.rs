@@ -116,6 +116,16 @@ pub enum Error {
         /// The format it was recognised as.
         format: &'static str,
     },
+    /// An option for text or for a matrix of open order, given for a file of another format.
+    #[error("{path}: {format}: {}", needless(option))]
+    OptionOfText {
+        /// The file.
+        path: PathBuf,
+        /// The format it was recognised as.
+        format: &'static str,
+        /// `lines` or `skip`.
+        option: &'static str,
+    },
     /// A topography file without a pitch, and no pitch given.
     #[error("{path} ({format}) has no pitch")]
     NoPitch {
@@ -495,16 +505,15 @@ impl Error {
             Self::NoField { available, .. } => Some(format!("it holds {}", quoted(available))),
             Self::NotATopography { .. } => Some(
                 "x3p, sdf, gwy, sur, mnt, opd, opdx, MetroPro dat, plu, al3d, frt, tmd, nms, vk4 to vk7, NanoScope spm, \
-                     ibw, nid, WSxM stp, mi, bcr, tiff, NetCDF 3, HDF5, npy, csv, text and tables (also gzipped) are read; \
+                     ibw, nid, WSxM stp, mi, bcr, gsf, asc, tiff, NetCDF 3, HDF5, mat, npy, npz, csv, text and tables (also gzipped) are \
+                     read; \
                      export as one of these"
                     .into(),
             ),
             Self::NoFormat { .. } => {
                 Some("the file extension selects the format: .npy, .x3p, .sdf, .gwy or .vtk".into())
             }
-            Self::CorruptTopography { reason: Defect::NotANumber { .. }, .. } => Some(
-                "a text topography is a matrix of heights in metres; header lines start with # or %".into(),
-            ),
+            Self::CorruptTopography { reason, .. } => reason.hint(),
             Self::UndefinedSamples { .. } => {
                 Some("fill them, from the nearest sample or by a membrane over each hole".into())
             }
@@ -539,6 +548,13 @@ fn in_cell(cell: &[usize]) -> String {
 /// Formats two forces with enough digits to differ.
 fn forces(one: Newton, other: Newton) -> [String; 2] {
     format_distinct([one, other], Dimension::Force)
+}
+
+fn needless(option: &str) -> &'static str {
+    match option {
+        "skip" => "it is no text, expected no lines to be skipped",
+        _ => "its format determines the order of the heights, expected none to be given",
+    }
 }
 
 fn no_channel(path: &std::path::Path, channel: &str) -> String {
@@ -616,7 +632,70 @@ pub enum Defect {
         /// The text.
         token: String,
     },
+    /// Lines above a matrix of text that are not all words, or may be its labels.
+    #[error("line {line}: `{token}` is no height; the matrix begins at line {first}")]
+    Preamble {
+        /// Line, from 1, that is not understood.
+        line: usize,
+        /// Its text.
+        token: String,
+        /// First line of the matrix, from 1.
+        first: usize,
+    },
+    /// A table that looks like points or a line scan, which are on no grid.
+    #[error("{count} lines of {columns} numbers look like {what}, expected {expected}")]
+    Points {
+        /// Number of lines.
+        count: usize,
+        /// Numbers in a line.
+        columns: usize,
+        /// Kind of table that the lines look like.
+        what: &'static str,
+        /// The accepted tables.
+        expected: &'static str,
+        /// Whether a line of names calls them points.
+        named: bool,
+    },
+    /// A first column of a matrix that looks like labels.
+    #[error("the first of {columns} columns, {found}, looks like labels, expected heights alone")]
+    Labels {
+        /// Number of columns.
+        columns: usize,
+        /// The first numbers of the column.
+        found: String,
+    },
     /// Message of the container's decoder.
     #[error("{0}")]
     Container(String),
+}
+
+impl Defect {
+    fn hint(&self) -> Option<String> {
+        Some(match self {
+            Self::NotANumber { .. } => {
+                "a text topography is a matrix of heights in metres; header lines start with # or %, or are skipped".into()
+            }
+            Self::Preamble { first: 2, .. } => "skip the line above the matrix".into(),
+            Self::Preamble { first, .. } => format!("skip the {} lines above the matrix", first - 1),
+            Self::Points { named, .. } => {
+                let way = "bring points onto a regular grid, for example with scipy.interpolate.griddata or Gwyddion's \
+                           import of XYZ data";
+                let matrix = "if they are a matrix of heights, say along which axis its lines lie";
+                if *named { way.to_owned() } else { format!("{way}; {matrix}") }
+            }
+            Self::Labels { .. } => {
+                "remove the labels; if they are heights, say along which axis the lines of the matrix lie".into()
+            }
+            _ => return None,
+        })
+    }
+
+    /// Returns the option of [`ReadOptions`](crate::surface::ReadOptions) that its hint asks for, and the value.
+    pub fn option(&self) -> Option<(&'static str, String)> {
+        match self {
+            Self::Preamble { first, .. } => Some(("skip", (first - 1).to_string())),
+            Self::Points { named: false, .. } | Self::Labels { .. } => Some(("lines", "x".to_owned())),
+            _ => None,
+        }
+    }
 }

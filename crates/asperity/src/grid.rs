@@ -8,6 +8,8 @@ pub(crate) use finite::check_finite;
 pub use placement::Placement;
 pub(crate) use spots::Spots;
 
+use std::borrow::Cow;
+
 use crate::error::{Error, Result};
 use crate::units::{Dimension, Metre, SquareMetre};
 
@@ -20,6 +22,15 @@ pub type SingleField = ndarray::Array2<f32>;
 /// Returns the values of a field by flat index.
 pub(crate) fn flat<T>(field: &ndarray::Array2<T>) -> &[T] {
     field.as_slice().expect("standard layout")
+}
+
+/// Returns a field in standard layout, in which [`flat`] reads it; a copy of one whose memory has another order.
+pub(crate) fn in_rows<T: Clone>(field: &ndarray::Array2<T>) -> Cow<'_, ndarray::Array2<T>> {
+    if field.is_standard_layout() {
+        Cow::Borrowed(field)
+    } else {
+        Cow::Owned(field.as_standard_layout().into_owned())
+    }
 }
 
 /// Returns the mutable values of a field by flat index.
@@ -37,6 +48,16 @@ pub enum CellValues {
 }
 
 impl CellValues {
+    /// Returns the values with a field in standard layout.
+    pub(crate) fn in_rows(self) -> Self {
+        match self {
+            Self::Field(field) if !field.is_standard_layout() => {
+                Self::Field(field.as_standard_layout().into_owned())
+            }
+            values => values,
+        }
+    }
+
     /// Returns the common value of all cells; `None` if they are given as a field.
     pub fn uniform(&self) -> Option<f64> {
         match self {

@@ -77,6 +77,7 @@ async function inflate(packed) {
 function value(packed, level) {
   switch (packed.code) {
     case "positive": return level === 0 ? 0 : ((level - 1) / 254) * packed.high;
+    case "logarithmic": return level === 0 ? 0 : packed.low * (packed.high / packed.low) ** ((level - 1) / 254);
     case "class": return level === 255 ? NaN : level;
     default: return level === 65535 ? NaN : packed.low + (level / 65534) * (packed.high - packed.low);
   }
@@ -121,7 +122,8 @@ function colouring(packed, kind, range) {
     const v = value(packed, level);
     if (Number.isNaN(v)) pixels[level] = missing;
     else if (kind === "class") pixels[level] = classes[Math.min(v, 2)];
-    else if (packed.code === "positive" && level === 0) pixels[level] = blank;
+    else if ((packed.code === "positive" || packed.code === "logarithmic") && level === 0) pixels[level] = blank;
+    else if (kind === "logarithmic") pixels[level] = palette[level];
     else if (kind === "signed" && v <= 0) pixels[level] = v < -1e-9 * high ? classes[2] : blank;
     else pixels[level] = palette[high > low ? Math.max(0, Math.min(255, Math.round((255 * (v - low)) / (high - low)))) : 128];
   }
@@ -134,7 +136,7 @@ function paletteOf(kind) {
 
 /** Whether the colours of a kind run from the lowest value on, and not from 0. */
 function runsFromLowest(kind) {
-  return kind === "heights" || kind === "between" || kind === "diverging";
+  return kind === "heights" || kind === "between" || kind === "diverging" || kind === "logarithmic";
 }
 
 /** Offers bytes as a file. */

@@ -272,10 +272,10 @@ function paintBar(c, { range, unit, label, kind }, [left, top, w, h]) {
   c.fillStyle = style("--ink");
   c.textAlign = "left";
   c.textBaseline = "middle";
-  for (const t of ticks(low / unit.factor, high / unit.factor, Math.max(4, h / 40))) {
-    const at = top + h - ((t * unit.factor - low) / (high - low)) * h;
-    c.fillText(round(t), left + w + 5, at);
-  }
+  const log = kind === "logarithmic";
+  const [first, last] = [low, high].map((v) => (log ? Math.log10(v / unit.factor) : v / unit.factor));
+  const marks = log ? decades(first, last) : ticks(first, last, Math.max(4, h / 40));
+  labels(marks, log).forEach((text, k) => c.fillText(text, left + w + 5, top + h - ((marks[k] - first) / (last - first)) * h));
   c.save();
   c.translate(left + w + 46, top + h / 2);
   c.rotate(Math.PI / 2);

@@ -7,7 +7,9 @@ use clap::{Args, Subcommand};
 use super::drawing::RangedDrawing;
 use super::generate::Generate;
 use super::preparation::PreparationArguments;
-use super::values::{Pair, lengths, positive_length};
+use asperity::surface::{Axis, ReadOptions};
+
+use super::values::{Pair, choice, lengths, positive_length};
 
 /// Generate, describe, draw and convert topographies
 #[derive(Debug, Subcommand)]
@@ -84,15 +86,31 @@ pub(crate) struct Input {
     pub(crate) preparing: PreparationArguments,
 }
 
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(crate) struct ReadingArguments {
     /// Height channel; default: the first
     #[arg(long, value_name = "NAME")]
     pub(crate) channel: Option<String>,
-    /// Unit of the numbers in a file without units (npy, text, xyz, csv, tiff): 1um
+    /// Unit of the numbers in a file without units (npy, npz, mat, text, csv, asc, tiff): 1um
     #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
     pub(crate) unit: Option<f64>,
     /// Pitch of a file without one: 0.5um, or 0.5um,1um
     #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]
     pub(crate) pitch: Option<Pair>,
+    /// Direction of a line of a matrix; default: x for text, y for arrays [ix, iy] (npy, npz, mat, HDF5)
+    #[arg(long, value_name = "AXIS", value_parser = choice::<Axis>())]
+    pub(crate) lines: Option<Axis>,
+    /// Lines of a text above its numbers
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    pub(crate) skip: usize,
+}
+
+impl ReadingArguments {
+    /// Returns the options for reading the file, without the pitch.
+    pub(crate) fn options(&self) -> ReadOptions {
+        let mut options = ReadOptions::default();
+        options.channel.clone_from(&self.channel);
+        (options.unit, options.lines, options.skip) = (self.unit, self.lines, self.skip);
+        options
+    }
 }

@@ -43,7 +43,7 @@ pub(super) fn positive_length(text: &str) -> Result<f64, String> {
 
 pub(super) fn angle(text: &str) -> Result<f64, String> {
     let range = Dimension::Angle.range();
-    let angle = quantity(text, Dimension::Angle)?;
+    let angle = range.without_dust(quantity(text, Dimension::Angle)?);
     if range.holds_signed(angle) { Ok(angle) } else { Err(format!("expected an angle of {range}")) }
 }
 

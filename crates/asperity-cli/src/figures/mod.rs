@@ -35,7 +35,9 @@ pub(crate) use flow::{FlowSection, flow_sections, of_increments as of_flow_incre
 pub(crate) use force_distance::curves as of_force_distance;
 pub(crate) use friction::stick;
 pub(crate) use loading::curves as of_loading;
-pub(crate) use passage::{FLOW, FLUX, curves as passage_curves, flow_map, flux_map};
+pub(crate) use passage::{
+    FLOW, FLUX, LEAST_FLOW, curves as passage_curves, flow_map, flux_map, passes_everywhere,
+};
 pub(crate) use pressure::histogram;
 pub(crate) use rest::{HeightRange, Witness, approach, open_gap, profile as profile_at_rest};
 pub(crate) use rolling::curves as of_rolling;

@@ -15,7 +15,7 @@ use crate::report::Outcome;
 /// From such a ratio of the largest to the smallest value an axis is logarithmic.
 const DECADE: f64 = 10.0;
 /// Smallest flow with a colour of its own over the largest: dead ends carry next to nothing.
-const LEAST_FLOW: f64 = 1e-6;
+pub(crate) const LEAST_FLOW: f64 = 1e-6;
 /// Relative change of the load from which the curves are drawn over the mean pressure.
 const LOADED: f64 = 0.01;
 
@@ -64,11 +64,15 @@ pub(crate) const FLOW: [(&str, &str); 2] = [
     ("flow_y", "flow through the gap under a pressure that falls along y"),
 ];
 
+/// Whether a flux passes through all cells: without gas all of it passes through the spots; with gas the spots would hide what
+/// passes beside them.
+pub(crate) fn passes_everywhere(flux: &Field) -> bool {
+    flux.iter().all(|flux| *flux > 0.0)
+}
+
 /// The map of a flux through a contact.
 pub(crate) fn flux_map<'a>(flux: &'a Field, grid: &Grid, unit: Unit) -> Maps<'a> {
-    // Without gas all of it passes through the spots; with gas the spots would hide what passes beside them.
-    let everywhere = flux.iter().all(|flux| *flux > 0.0);
-    let colours = if everywhere { Colours::Logarithmic } else { Colours::Pressure };
+    let colours = if passes_everywhere(flux) { Colours::Logarithmic } else { Colours::Pressure };
     Maps::new(vec![Map::new("", flux, grid, Quantity::new("flux", unit), colours)])
 }
 
@@ -184,13 +188,20 @@ fn of_conductance(rows: &[&ConductanceRecord], name: &'static str) -> Option<Cur
     }
     let pressures: Vec<f64> = rows.iter().map(|row| row.mean_pressure).collect();
     let order = Order::of(&pressures);
-    let curve = |which: usize| {
-        order.curve(rows.iter().map(|row| (row.mean_pressure, row.joint()[which].unwrap_or(f64::NAN))))
+    let curve = |value: &dyn Fn(&ConductanceRecord) -> Option<f64>| {
+        order.curve(rows.iter().map(|row| (row.mean_pressure, value(row).unwrap_or(f64::NAN))))
     };
-    let series = vec![
-        Series::new("computed", curve(0), Mark::LineAndPoints),
-        Series::new("correlation of clean spots", curve(1), Mark::Dashed),
-    ];
+    let has_gas = rows.iter().any(|row| row.gas_share > 0.0);
+    let is_correlated = rows.iter().any(|row| row.joint()[1].is_some() && row.film_share == 0.0);
+    let mut series = vec![Series::new("computed", curve(&|row| row.joint()[0]), Mark::LineAndPoints)];
+    if has_gas {
+        let spots = |row: &ConductanceRecord| row.joint()[0].map(|joint| joint * row.spot_share);
+        series.push(Series::new("through the spots", curve(&spots), Mark::LineAndPoints));
+    }
+    if is_correlated {
+        let correlation = |row: &ConductanceRecord| row.joint()[1].filter(|_| row.film_share == 0.0);
+        series.push(Series::new("correlation of clean spots", curve(&correlation), Mark::Dashed));
+    }
     let vertical = Axis { log: order.log, ..Axis::of("joint conductance", joint_column(rows[0])) };
     let title = if order.by_pressure {
         "joint conductance over mean pressure"

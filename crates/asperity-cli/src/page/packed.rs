@@ -37,6 +37,8 @@ pub(super) struct QuantisedField {
 enum Code {
     /// One byte: 0 for what is not above 0, 1 to 255 evenly from 0 to the highest value.
     Positive,
+    /// One byte: 0 for what is not above 0, 1 to 255 in equal ratios from the lowest to the highest value.
+    Logarithmic,
     /// Two bytes: 0 to 65534 evenly from the lowest to the highest value, 65535 undefined. Differences along y; first all
     /// high, then all low bytes.
     Even,
@@ -67,6 +69,21 @@ impl Levels {
         let level = |p: &f64| if *p > 0.0 { 1 + (p / high * 254.0).round().min(254.0) as u8 } else { 0 };
         let levels: Vec<u8> = field.iter().map(level).collect();
         Self::new(Code::Positive, &field, pitch, [0.0, high], levels)
+    }
+
+    /// Numbers above 0 over decades, such as flows: those below `least` of the largest count as that.
+    pub(super) fn logarithmic(field: &Field, pitch: [f64; 2], least: f64) -> Self {
+        let (field, pitch) = reduced(field, pitch, Reduction::Largest);
+        let above = || field.iter().copied().filter(|value| *value > 0.0 && value.is_finite());
+        let high = above().fold(0.0, f64::max);
+        let low = above().fold(high, f64::min).max(least * high);
+        let steps = 254.0 / (high / low).ln().max(f64::MIN_POSITIVE);
+        let level = |value: &f64| match *value > 0.0 {
+            true => 1 + ((value / low).ln() * steps).round().clamp(0.0, 254.0) as u8,
+            false => 0,
+        };
+        let levels: Vec<u8> = field.iter().map(level).collect();
+        Self::new(Code::Logarithmic, &field, pitch, [low, high], levels)
     }
 
     /// Numbers of any sign, such as heights.
@@ -126,6 +143,11 @@ impl QuantisedField {
     /// Numbers of which those above 0 count, such as pressures.
     pub(super) fn positive(field: &Field, pitch: [f64; 2]) -> Self {
         Levels::positive(field, pitch).deflated()
+    }
+
+    /// Numbers above 0 over decades, such as flows: those below `least` of the largest count as that.
+    pub(super) fn logarithmic(field: &Field, pitch: [f64; 2], least: f64) -> Self {
+        Levels::logarithmic(field, pitch, least).deflated()
     }
 
     /// Numbers of any sign, such as heights.
@@ -205,6 +227,10 @@ pub(super) mod tests {
             match packed.code {
                 Code::Positive if levels[n] == 0 => 0.0,
                 Code::Positive => f64::from(levels[n] - 1) / 254.0 * packed.high,
+                Code::Logarithmic if levels[n] == 0 => 0.0,
+                Code::Logarithmic => {
+                    packed.low * (packed.high / packed.low).powf(f64::from(levels[n] - 1) / 254.0)
+                }
                 Code::Class if levels[n] == u8::MAX => f64::NAN,
                 Code::Class => f64::from(levels[n]),
                 Code::Even => {
@@ -217,6 +243,20 @@ pub(super) mod tests {
                 }
             }
         })
+    }
+
+    #[test]
+    fn numbers_over_decades_come_back_within_half_a_level() {
+        let field =
+            Field::from_shape_fn([5, 4], |(i, j)| if i == 0 { 0.0 } else { 10f64.powi(-((i * j) as i32)) });
+        let packed = QuantisedField::logarithmic(&field, [1.0; 2], 1e-6);
+        assert_eq!([packed.low, packed.high], [1e-6, 1.0]);
+        for (found, given) in unpacked(&packed).iter().zip(&field) {
+            let expected = if *given > 0.0 { given.max(1e-6) } else { 0.0 };
+            assert!((found - expected).abs() <= 0.03 * expected, "{found} {given}");
+        }
+        let flat = QuantisedField::logarithmic(&Field::from_elem([2, 2], 3.0), [1.0; 2], 1e-6);
+        assert!(unpacked(&flat).iter().all(|value| *value == 3.0));
     }
 
     #[test]

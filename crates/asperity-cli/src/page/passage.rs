@@ -11,7 +11,7 @@ use super::html::{escaped, facts};
 use super::packed::QuantisedField;
 use super::plane::{self, Plane, Shades};
 use crate::draw::Unit;
-use crate::figures;
+use crate::figures::{self, LEAST_FLOW, passes_everywhere};
 use crate::passage;
 
 /// The section, and the data that it shows; none where nothing was asked for.
@@ -93,28 +93,38 @@ fn planes(found: &mut PageData, flow: &[GapFlowRecord]) -> Vec<Plane> {
         let (pitch, unit) = ([stored.pitch[0], stored.pitch[1]], stored.unit.clone());
         Some((stored.into_field()?, pitch, unit))
     };
-    let plane =
-        |name: &str, title: String, quantity, (field, pitch, unit): &(Field, [f64; 2], String), mark| Plane {
-            file: name.to_owned(),
-            title,
-            map: QuantisedField::positive(field, *pitch),
-            x: 0.0,
-            down: false,
-            quantity,
-            unit: Unit::Of(match unit.as_str() {
-                "A/m²" => "A/m²",
-                "W/m²" => "W/m²",
-                _ => "m²/s",
-            }),
-            shades: Shades::FromZero,
-            spans: Vec::new(),
-            mark,
-        };
+    let plane = |name: &str,
+                 title: String,
+                 quantity,
+                 (field, pitch, unit): &(Field, [f64; 2], String),
+                 mark,
+                 shades| Plane {
+        file: name.to_owned(),
+        title,
+        map: match shades {
+            Shades::Logarithmic => QuantisedField::logarithmic(field, *pitch, LEAST_FLOW),
+            _ => QuantisedField::positive(field, *pitch),
+        },
+        x: 0.0,
+        down: false,
+        quantity,
+        unit: Unit::Of(match unit.as_str() {
+            "A/m²" => "A/m²",
+            "W/m²" => "W/m²",
+            _ => "m²/s",
+        }),
+        shades,
+        spans: Vec::new(),
+        mark,
+    };
     let is_there = |(field, ..): &(Field, [f64; 2], String)| field.iter().any(|value| *value > 0.0);
     let flux = read("flux").filter(is_there);
     let mut planes: Vec<Plane> = flux
         .iter()
-        .map(|flux| plane("flux", "Flux through the contact.".to_owned(), "flux", flux, None))
+        .map(|flux| {
+            let shades = if passes_everywhere(&flux.0) { Shades::Logarithmic } else { Shades::FromZero };
+            plane("flux", "Flux through the contact.".to_owned(), "flux", flux, None, shades)
+        })
         .collect();
     for row in flow {
         let axis = row.along.word();
@@ -122,7 +132,7 @@ fn planes(found: &mut PageData, flow: &[GapFlowRecord]) -> Vec<Plane> {
         if let Some(rate) = read(name).filter(is_there) {
             let title = format!("Flow per width through the gap under a pressure that falls along {axis}.");
             let place = row.critical_x.zip(row.critical_y).map(|(x, y)| ([x, y], "critical constriction"));
-            planes.push(plane(name, title, "flow per width", &rate, place));
+            planes.push(plane(name, title, "flow per width", &rate, place, Shades::Logarithmic));
         }
     }
     planes

@@ -30,6 +30,8 @@ pub(super) struct Plane {
 pub(super) enum Shades {
     /// From 0 to the highest.
     FromZero,
+    /// From the lowest to the highest, over the logarithm.
+    Logarithmic,
     /// As far below 0 as above.
     AroundZero,
 }
@@ -52,6 +54,7 @@ impl Plane {
     fn data(self) -> Value {
         let [low, high] = match (self.shades, [self.map.low, self.map.high]) {
             (Shades::FromZero, [_, high]) => [0.0, high],
+            (Shades::Logarithmic, range) => range,
             (Shades::AroundZero, [low, high]) => [-high.max(-low), high.max(-low)],
         };
         let [along, down] = self.map.extent();
@@ -63,7 +66,11 @@ impl Plane {
             "down": self.down,
             "quantity": self.quantity,
             "unit": curves::unit(self.unit, high.max(-low)),
-            "kind": if self.shades == Shades::FromZero { "positive" } else { "diverging" },
+            "kind": match self.shades {
+                Shades::FromZero => "positive",
+                Shades::Logarithmic => "logarithmic",
+                Shades::AroundZero => "diverging",
+            },
             "range": [low, high],
             "mark": self.mark.map(|(at, what)| json!({ "at": at, "what": what })),
             "spans": self.spans,

@@ -22,7 +22,7 @@ pub(super) fn generate(arguments: Generate) -> Outcome {
         Recipe::Form(form) => form.on(&grid)?,
     };
     for file in &target.plus {
-        let reading = ReadingArguments { channel: None, unit: None, pitch: Some(target.pitch) };
+        let reading = ReadingArguments { pitch: Some(target.pitch), ..ReadingArguments::default() };
         topography = topography.plus(&read(file, &reading)?.topography)?;
     }
     output.write(&topography, Some(grid.pitch))?;

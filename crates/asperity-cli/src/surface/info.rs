@@ -1,7 +1,8 @@
 //! `asperity surface info`.
 
+use asperity::Choice;
 use asperity::study::exact_pitch;
-use asperity::surface::{GreenwoodWilliamson, LengthUnit, Parameter, Parameters, Unit};
+use asperity::surface::{Axis, GreenwoodWilliamson, LengthUnit, Parameter, Parameters, Unit};
 use asperity::units::{self, Metre, Multiple};
 use serde_json::{Value, json};
 
@@ -34,6 +35,7 @@ fn json(file: &ReadSurface, description: &Description) -> Value {
         "format": file.scan.format,
         "channel": file.scan.channel,
         "channels": file.scan.channels,
+        "lines": file.scan.lines,
         "shape": file.topography.grid().shape,
         "pitch": file.pitch,
         "undefined": file.topography.undefined(),
@@ -102,6 +104,11 @@ fn about_file(table: &mut Table, file: &ReadSurface) {
         table.words("channels", file.scan.channels.join(", "), "");
     }
     table.words("shape", format!("{} × {}", grid.shape[0], grid.shape[1]), "samples along x and y");
+    if let Some(along) = file.scan.lines {
+        let other = if along == Axis::X { Axis::Y } else { Axis::X };
+        let remark = format!("direction of a line of the matrix; --lines {} for the other", other.word());
+        table.words("lines", along.word(), &remark);
+    }
     let none = || "– (the file has none: --pitch)".to_owned();
     let pitch = file.pitch.map_or_else(none, |[x, y]| format!("{} × {}", exact_pitch(x), exact_pitch(y)));
     table.words("pitch", pitch, "");

@@ -13,7 +13,7 @@ pub(crate) use description::RINGS;
 use std::path::Path;
 
 use asperity::grid::Grid;
-use asperity::surface::{Axis, Findings, LengthUnit, Level, ReadOptions, Scan, Topography};
+use asperity::surface::{Axis, Findings, LengthUnit, Level, Scan, Topography};
 use asperity::units::{self, Dimension, Metre};
 
 use crate::args::{Input, ReadingArguments, Surface};
@@ -37,10 +37,7 @@ pub(crate) struct ReadSurface {
 
 /// Without any pitch the heights stand on cells of 1 m.
 fn read(path: &Path, reading: &ReadingArguments) -> Outcome<ReadSurface> {
-    let mut options = ReadOptions::default();
-    options.channel.clone_from(&reading.channel);
-    options.unit = reading.unit;
-    let mut scan = options.scan(path)?;
+    let mut scan = reading.options().scan(path)?;
     if let (Some(own), Some(_)) = (scan.pitch, &reading.pitch) {
         return Err(has_pitch(path, own, &scan));
     }
@@ -64,10 +61,7 @@ pub(crate) fn read_prepared(input: &Input) -> Outcome<ReadSurface> {
 
 /// Reads and prepares a second file with the arguments of a first one, whose pitch it has unless it has its own.
 pub(crate) fn read_beside(path: &Path, input: &Input, pitch: [Metre; 2]) -> Outcome<ReadSurface> {
-    let mut options = ReadOptions::default();
-    options.channel.clone_from(&input.reading.channel);
-    options.unit = input.reading.unit;
-    let mut scan = options.scan(path)?;
+    let mut scan = input.reading.options().scan(path)?;
     let pitch = scan.pitch.or(input.reading.pitch.map(|pitch| pitch.0)).unwrap_or(pitch);
     let heights = std::mem::take(&mut scan.heights);
     let topography = Topography::new(Grid::new([heights.nrows(), heights.ncols()], pitch)?, heights)?;

@@ -191,6 +191,7 @@ fn a_surface_survives_every_format_that_holds_it() {
         "channel",
         "channels",
         "format",
+        "lines",
         "max",
         "mean",
         "min",
@@ -238,6 +239,55 @@ fn conversion_prepares_in_its_order() {
     assert_eq!(info("part.npy")["shape"], serde_json::json!([2, 2]));
     let error = refused(&at("surface convert z.txt part.x3p --window 2,0,2,2"));
     assert!(error.contains("needs a pitch") && error.contains("hint: give it: --pitch"), "{error}");
+}
+
+#[test]
+fn text_is_read_as_instruments_export_it() {
+    let folder = folder();
+    let at = |arguments: &str| run(folder.path(), arguments);
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    let json = |arguments: &str| -> Value { serde_json::from_str(&ok(&at(arguments))).unwrap() };
+    write("matrix.txt", "1 2 3 4 7\n5 3 1 2 4\n2 6 1 8 9\n");
+    let matrix = "surface info matrix.txt --unit 1um --pitch 1um";
+    for (option, lines, shape) in [("", "x", [5, 3]), ("--lines x", "x", [5, 3]), ("--lines y", "y", [3, 5])]
+    {
+        let info = json(&format!("{matrix} --json {option}"));
+        assert_eq!((&info["lines"], &info["shape"]), (&lines.into(), &serde_json::json!(shape)));
+    }
+    let text = ok(&at(matrix));
+    assert!(text.contains("direction of a line of the matrix; --lines y for the other"), "{text}");
+    ok(&at("surface convert matrix.txt z.npy --unit 1um"));
+    assert_eq!(json("surface info z.npy --json")["lines"], "y");
+    ok(&at("surface convert matrix.txt z.x3p --unit 1um --pitch 1um"));
+    assert_eq!(json("surface info z.x3p --json")["lines"], Value::Null);
+    let error = refused(&at("surface info z.x3p --lines y"));
+    assert!(error.contains("its format determines the order of the heights"), "{error}");
+
+    write("words.csv", "Height map\nXY calibration,2,um\nUnit,um\n\n1,2,3,4\n5,3,1,2\n");
+    let words = json("surface info words.csv --json");
+    assert_eq!(
+        (&words["shape"], &words["pitch"]),
+        (&serde_json::json!([4, 2]), &serde_json::json!([2e-6, 2e-6]))
+    );
+    write("sizes.txt", "a disc\n4 2\n1 2 3 4\n5 3 1 2\n");
+    let error = refused(&at("surface info sizes.txt"));
+    assert!(error.contains("line 2: `4 2` is no height; the matrix begins at line 3"), "{error}");
+    assert!(error.contains("hint: skip the 2 lines above the matrix: `--skip 2`"), "{error}");
+    assert_eq!(json("surface info sizes.txt --skip 2 --json")["shape"], serde_json::json!([4, 2]));
+
+    let profile: String = (0..64).map(|i| format!("{}\t{}\n", 0.5 * f64::from(i), i * i % 7)).collect();
+    write("stylus.txt", &profile);
+    let stylus = json("surface info stylus.txt --unit 1um --json");
+    assert_eq!((&stylus["format"], &stylus["shape"]), (&"xz".into(), &serde_json::json!([64, 1])));
+    assert_eq!(stylus["pitch"], serde_json::json!([0.5e-6, 0.5e-6]));
+    assert!(stylus["profiles"]["x"]["Ra"].as_f64().unwrap() > 1e-6);
+    ok(&at("surface plot stylus.txt --unit 1um --out figures"));
+    let cloud: String =
+        (0..25).map(|i| format!("0.{} 0.{} 0.{}\n", i * i * 7 % 97, i * i * 5 % 89, i * 3 % 7)).collect();
+    write("cloud.txt", &cloud);
+    let error = refused(&at("surface info cloud.txt --unit 1um"));
+    assert!(error.contains("25 lines of 3 numbers look like points x, y and height on no grid"), "{error}");
+    assert!(error.contains("scipy.interpolate.griddata") && error.contains("`--lines x`"), "{error}");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use crate::support::{asperity, change, files, ok, refused, stderr};
+use crate::support::{asperity, change, files, ok, program, refused, stderr};
 use crate::survival::{ball, computations, contents, folder_with, motion};
 
 /// Every kind of results, small, with the files of each.
@@ -197,7 +197,7 @@ fn put(what: &str, path: &Path) {
 
 /// Runs the command with 2 GB of memory, so that what reads without end comes to one.
 fn bounded(folder: &Path, arguments: &str) -> Output {
-    let program = env!("CARGO_BIN_EXE_asperity");
+    let program = program();
     let script = format!("ulimit -v 2000000; exec timeout 120 '{program}' {arguments}");
     Command::new("bash").args(["-c", &script]).current_dir(folder).output().unwrap()
 }

@@ -2,46 +2,42 @@
 //!
 //! The commands of their `sh` and `python` blocks are run in their order, in one folder for each document; a `text` block that
 //! follows is what the last of them prints. A `toml` block with a name, such as `toml two.toml`, is a file in that folder.
-//! With `ASPERITY_DOCUMENTS=write` the `text` blocks are written anew. `ASPERITY_BINARY` names another build of the program to run,
-//! such as an optimised one.
+//! With `ASPERITY_DOCUMENTS=write` the `text` blocks are written anew.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::support::program;
+
 /// Numbers may differ by so much of themselves, or by one in their last decimal: loads are met to 10⁻⁴, and machines round differently.
 const TOLERANCE: f64 = 0.01;
 
-/// Tutorials whose examples take minutes in an unoptimised build.
-const LONG: [&str; 2] = ["rolling.md", "wear-and-film.md"];
-
 #[test]
-fn readme_and_short_tutorials_show_what_is_printed() {
-    hold(|name| !LONG.contains(&name));
+fn readme_shows_what_is_printed() {
+    hold(&root().join("README.md"));
 }
 
 #[test]
-#[ignore = "minutes in an unoptimised build"]
-fn long_tutorials_show_what_is_printed() {
-    hold(|name| LONG.contains(&name));
+#[ignore = "needs an optimised build, which ASPERITY_BINARY names, and a Python with numpy and h5py, which ASPERITY_PYTHON names"]
+fn tutorials_show_what_is_printed() {
+    let tutorials = fs::read_dir(root().join("docs/tutorials")).unwrap();
+    tutorials.for_each(|entry| hold(&entry.unwrap().path()));
 }
 
-/// Compares the documents with these names with what their commands print.
-fn hold(is_wanted: impl Fn(&str) -> bool) {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let tutorials = fs::read_dir(root.join("docs/tutorials")).unwrap().map(|entry| entry.unwrap().path());
-    let wanted = |path: &PathBuf| is_wanted(&path.file_name().unwrap().to_string_lossy());
-    let documents: Vec<PathBuf> = tutorials.chain([root.join("README.md")]).filter(wanted).collect();
-    let write = std::env::var("ASPERITY_DOCUMENTS").is_ok_and(|value| value == "write");
-    for path in documents {
-        let text = fs::read_to_string(&path).unwrap();
-        let (made, shown) = with_outputs(&text);
-        assert!(shown > 0, "{} shows nothing that is printed", path.display());
-        if write {
-            fs::write(&path, made).unwrap();
-        } else if let Some((shown, printed)) = first_difference(&text, &made) {
-            panic!("{} shows\n{shown}\nbut printed is\n{printed}", path.display());
-        }
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Compares a document with what its commands print.
+fn hold(path: &Path) {
+    let text = fs::read_to_string(path).unwrap();
+    let (made, shown) = with_outputs(&text);
+    assert!(shown > 0, "{} shows nothing that is printed", path.display());
+    if std::env::var("ASPERITY_DOCUMENTS").is_ok_and(|value| value == "write") {
+        fs::write(path, made).unwrap();
+    } else if let Some((shown, printed)) = first_difference(&text, &made) {
+        panic!("{} shows\n{shown}\nbut printed is\n{printed}", path.display());
     }
 }
 
@@ -66,7 +62,7 @@ fn with_outputs(text: &str) -> (String, usize) {
         match language {
             "sh" => printed = run(&block, folder.path()),
             // The tests of the Python package run what uses it.
-            "python" if !block.contains("import asperity") => printed = python(&block, folder.path()),
+            "python" if !block.contains("import asperity") => printed = Some(python(&block, folder.path())),
             _ => {
                 if let Some(name) = language.strip_prefix("toml ") {
                     fs::write(folder.path().join(name), &block).unwrap();
@@ -91,27 +87,20 @@ fn run(block: &str, folder: &Path) -> Option<String> {
             continue;
         };
         let arguments = command.split('#').next().unwrap().split_whitespace();
-        let program = std::env::var_os("ASPERITY_BINARY");
-        let output = Command::new(program.unwrap_or_else(|| env!("CARGO_BIN_EXE_asperity").into()))
-            .args(arguments)
-            .current_dir(folder)
-            .output()
-            .unwrap();
+        let output = Command::new(program()).args(arguments).current_dir(folder).output().unwrap();
         assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
         printed = Some(String::from_utf8(output.stdout).unwrap());
     }
     printed
 }
 
-/// What a program prints, if there is a Python with numpy and h5py.
-fn python(block: &str, folder: &Path) -> Option<String> {
-    let Some(python) = std::env::var_os("ASPERITY_PYTHON") else {
-        assert!(std::env::var_os("CI").is_none(), "ASPERITY_PYTHON names no Python");
-        return None;
-    };
+/// What a Python program prints.
+fn python(block: &str, folder: &Path) -> String {
+    let python =
+        std::env::var_os("ASPERITY_PYTHON").expect("ASPERITY_PYTHON names a Python with numpy and h5py");
     let output = Command::new(python).args(["-c", block]).current_dir(folder).output().unwrap();
     assert!(output.status.success(), "{block}: {}", String::from_utf8_lossy(&output.stderr));
-    Some(String::from_utf8(output.stdout).unwrap())
+    String::from_utf8(output.stdout).unwrap()
 }
 
 /// The first lines that differ by more than the last digits of their numbers.

@@ -17,7 +17,9 @@ use asperity::surface::ReadOptions;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use crate::support::{asperity, change, command, files, ok, refused, send, spawn, stderr, wait_for};
+use crate::support::{
+    asperity, change, command, files, limited, ok, program, refused, send, spawn, stderr, wait_for,
+};
 
 // ---- what a run leaves -----------------------------------------------------------------------------------
 
@@ -740,8 +742,7 @@ fn a_page_is_made_again_from_the_results_alone_and_replaced_whole_or_not_at_all(
     assert_eq!(ok(&asperity(&folder, "report out --out page.html")), "page.html\n");
     assert!(page("page.html") == written, "it shows something else than the results");
 
-    let script = format!("ulimit -f 16; exec '{}' report out", env!("CARGO_BIN_EXE_asperity"));
-    let output = Command::new("bash").args(["-c", &script]).current_dir(&folder).output().unwrap();
+    let output = limited(&folder, "-f 16", "report out");
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(stderr(&output).contains("out/report.html: File too large"), "{}", stderr(&output));
     assert!(page("out/report.html") == written, "the page that was there is gone");
@@ -857,11 +858,9 @@ fn an_animation_is_an_mp4_where_there_is_ffmpeg() {
 fn a_full_disk_is_an_error_that_leaves_no_half_written_file() {
     let folder = folder_with("case.toml", &moving(1, 8));
     let out = folder.path().join("out");
-    // Files of at most so many KiB, as on a disk that fills up: the first that is larger is not there.
+    // The first file that is larger than so many KiB is not there.
     let limited = |limit: usize, arguments: &str| {
-        let asperity = env!("CARGO_BIN_EXE_asperity");
-        let script = format!("ulimit -f {limit}; exec '{asperity}' {arguments}");
-        let output = Command::new("bash").args(["-c", &script]).current_dir(&folder).output().unwrap();
+        let output = limited(&folder, &format!("-f {limit}"), arguments);
         assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
         stderr(&output)
     };
@@ -1056,7 +1055,7 @@ fn a_case_is_known_again_from_another_folder_and_by_numbers_of_any_length() {
     fs::write(folder.path().join("sub/case.toml"), case).unwrap();
     ok(&at("run sub/case.toml --out out"));
     ok(&at("run sub/case.toml --out out --resume"));
-    let inside = Command::new(env!("CARGO_BIN_EXE_asperity"))
+    let inside = Command::new(program())
         .args(["run", "case.toml", "--out", "../out", "--resume"])
         .current_dir(folder.path().join("sub"))
         .output()

@@ -10,7 +10,7 @@ use asperity::io::fields::Fields;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::support::{asperity, change, command, files, ok, refused, spawn, stderr, wait_for};
+use crate::support::{asperity, change, command, files, limited, ok, refused, spawn, stderr, wait_for};
 
 /// A rough body against a flat one, of few cells.
 const CASE: &str = r#"
@@ -490,9 +490,7 @@ fn bad_usage_of_study_is_told() {
 #[cfg(unix)]
 fn a_full_disk_ends_a_process_and_no_case() {
     let folder = folder_with(STUDY);
-    let script = format!("ulimit -f 8; exec '{}' study load.toml", env!("CARGO_BIN_EXE_asperity"));
-    let output =
-        std::process::Command::new("bash").args(["-c", &script]).current_dir(&folder).output().unwrap();
+    let output = limited(&folder, "-f 8", "study load.toml");
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(stderr(&output).contains("fields.h5: File too large"), "{}", stderr(&output));
     let there = files(&folder.path().join("load"));

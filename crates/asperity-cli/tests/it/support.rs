@@ -8,9 +8,14 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
+/// The program: `ASPERITY_BINARY` names another build of it, such as an optimised one.
+pub(crate) fn program() -> String {
+    std::env::var("ASPERITY_BINARY").unwrap_or_else(|_| env!("CARGO_BIN_EXE_asperity").to_owned())
+}
+
 /// The command in `folder`; `arguments` are split at spaces.
 pub(crate) fn command(folder: &TempDir, arguments: &str) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+    let mut command = Command::new(program());
     command.current_dir(folder).args(arguments.split_whitespace());
     command
 }
@@ -18,6 +23,12 @@ pub(crate) fn command(folder: &TempDir, arguments: &str) -> Command {
 /// Runs the command to its end.
 pub(crate) fn asperity(folder: &TempDir, arguments: &str) -> Output {
     command(folder, arguments).output().unwrap()
+}
+
+/// Runs the command to its end under a limit of `ulimit`: `-f 8` for files of at most 8 KiB, as on a disk that fills up.
+pub(crate) fn limited(folder: &TempDir, limit: &str, arguments: &str) -> Output {
+    let script = format!("ulimit {limit}; exec '{}' {arguments}", program());
+    Command::new("bash").args(["-c", &script]).current_dir(folder).output().unwrap()
 }
 
 /// Starts the command.

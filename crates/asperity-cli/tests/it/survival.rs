@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::support::{asperity, change, files, ok, refused, send, spawn, stderr, wait_for};
+use crate::support::{asperity, change, files, limited, ok, program, refused, send, spawn, stderr, wait_for};
 
 // ---- directories -----------------------------------------------------------------------------------------
 
@@ -212,7 +212,7 @@ fn what_cannot_be_written_to_stdout_is_an_error_and_a_closed_pipe_is_none() {
     ));
     ok(&asperity(&folder, "run case.toml --out there"));
     let shell = |script: &str| {
-        let script = script.replace("asperity", env!("CARGO_BIN_EXE_asperity"));
+        let script = script.replace("asperity", &program());
         Command::new("bash").args(["-c", &script]).current_dir(&folder).output().unwrap()
     };
     let commands = [
@@ -260,12 +260,8 @@ fn threads_are_as_many_as_there_is_use_for_and_room() {
     ok(&output);
     assert!(stderr(&output).starts_with("note: --threads 300 is more than the "), "{}", stderr(&output));
     if cfg!(target_os = "linux") {
-        let asperity = env!("CARGO_BIN_EXE_asperity");
         let limited = |threads: usize| {
-            let run = format!(
-                "ulimit -v 500000; exec '{asperity}' run case.toml --out out --overwrite --threads {threads}"
-            );
-            Command::new("bash").args(["-c", &run]).current_dir(&folder).output().unwrap()
+            limited(&folder, "-v 500000", &format!("run case.toml --out out --overwrite --threads {threads}"))
         };
         let output = limited(1000);
         assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
@@ -418,6 +414,7 @@ fn kills() -> usize {
 }
 
 #[test]
+#[ignore = "a minute of an unoptimised build; ASPERITY_BINARY names an optimised one"]
 fn a_run_that_is_killed_at_any_moment_is_resumed_to_the_same_bits() {
     let mut random = 1u64;
     let mut number = move || {
@@ -448,16 +445,12 @@ fn a_run_that_is_killed_at_any_moment_is_resumed_to_the_same_bits() {
     }
 }
 
-/// Where `strace` is installed, which ends a process at a call: a run into a new directory, and one that replaces the
-/// results of another case. Every call that changes a file with `ASPERITY_KILLS`, some of them otherwise.
+/// `strace` ends a process at a call: a run into a new directory, and one that replaces the results of another case.
+/// Every call that changes a file with `ASPERITY_KILLS`, some of them otherwise.
 #[test]
 #[cfg(target_os = "linux")]
+#[ignore = "needs strace"]
 fn a_run_that_is_killed_at_a_call_that_changes_a_file_is_resumed_to_the_same_bits() {
-    if !Command::new("strace").arg("-V").output().is_ok_and(|output| output.status.success()) {
-        // `.ci/run` installs it; without it the kills at random moments remain.
-        assert!(std::env::var_os("CI").is_none(), "strace is not installed");
-        return;
-    }
     let stride = if kills() > 2 { 1 } else { 61 };
     let other = folder_with(&motion(1, ""));
     ok(&asperity(&other, "run case.toml --out out --quiet"));
@@ -531,7 +524,7 @@ fn traced(folder: &TempDir, options: &[&str], arguments: &str) -> bool {
     Command::new("strace")
         .args(["-f", "-qq", "-e", CALLS])
         .args(options)
-        .arg(env!("CARGO_BIN_EXE_asperity"))
+        .arg(program())
         .args(arguments.split_whitespace())
         .current_dir(folder)
         .stdout(Stdio::null())
@@ -542,6 +535,7 @@ fn traced(folder: &TempDir, options: &[&str], arguments: &str) -> bool {
 }
 
 #[test]
+#[ignore = "a minute of an unoptimised build; ASPERITY_BINARY names an optimised one"]
 fn a_run_that_met_a_full_disk_is_resumed_to_the_same_bits() {
     for (name, case) in computations() {
         let folder = folder_with(&case);
@@ -551,9 +545,7 @@ fn a_run_that_met_a_full_disk_is_resumed_to_the_same_bits() {
             whole.iter().filter(|(name, _)| !name.starts_with("figures")).map(|(_, b)| b.len()).max();
         let largest = largest.unwrap().div_ceil(1024);
         for limit in [1, 2, largest / 2, largest - 1] {
-            let asperity_ = env!("CARGO_BIN_EXE_asperity");
-            let script = format!("ulimit -f {limit}; exec '{asperity_}' run case.toml --out out --quiet");
-            let output = Command::new("bash").args(["-c", &script]).current_dir(&folder).output().unwrap();
+            let output = limited(&folder, &format!("-f {limit}"), "run case.toml --out out --quiet");
             assert_eq!(output.status.code(), Some(1), "{name}, {limit} KiB: {}", stderr(&output));
             assert!(stderr(&output).contains("File too large"), "{}", stderr(&output));
             assert!(temporary(&folder.path().join("out")).is_empty());

@@ -3,6 +3,10 @@
 use crate::grid::{Field, Grid};
 use crate::units::{Metre, Pascal};
 
+/// Largest contact fraction for which the correlations are to be compared with: they are fits to clean spots far apart, for a
+/// pressure of up to 0.023 of the hardness.
+pub const MAX_CORRELATED_FRACTION: f64 = 0.05;
+
 /// Roughness of the sum of two surfaces, on which the correlations are based.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointRoughness {

@@ -4,7 +4,7 @@ use ndarray::{Array2, Zip};
 
 use crate::conductance::{ContactSpots, Gas, Joint};
 use crate::error::{Error, Result, check, check_in};
-use crate::grid::{CellValues, Field, Grid};
+use crate::grid::{CellValues, Field, Grid, in_rows};
 use crate::operator::{Boundary, Operator};
 use crate::solver::{Params, Stats, UniformDisplacement, displace_uniformly};
 use crate::units::Dimension;
@@ -94,6 +94,8 @@ pub fn solve(
     params: &Params,
 ) -> Result<Conductance> {
     joint.check()?;
+    let (touching, gap, start) = (in_rows(touching), gap.map(in_rows), start.map(in_rows));
+    let (touching, gap, start) = (&*touching, gap.as_deref(), start.as_deref());
     let grid = *operator.grid();
     assert_eq!(touching.dim(), (grid.shape[0], grid.shape[1]), "shape of the cells in contact");
     let (conducting, resistance) = cells(touching, gap, joint)?;

@@ -51,7 +51,7 @@ mod spots;
 
 pub use barber::Bracket;
 pub use bodies::{ConductingCoating, Conductor, composite_conductivity, response};
-pub use correlations::JointRoughness;
+pub use correlations::{JointRoughness, MAX_CORRELATED_FRACTION};
 pub use doubts::doubts;
 pub use joint::{Conductance, Shares, full_resistance, solve};
 pub use settings::{Gas, Joint, Kind};

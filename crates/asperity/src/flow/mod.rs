@@ -48,7 +48,7 @@ use pressure::Solved;
 
 use crate::choice::choice;
 use crate::error::{Error, Result, check_in};
-use crate::grid::{Field, Grid, check_finite};
+use crate::grid::{Field, Grid, check_finite, in_rows};
 use crate::math::parallel;
 use crate::units::{CubicMetre, Dimension, Metre};
 
@@ -247,7 +247,8 @@ pub fn solve(gap: &Field, grid: &Grid, settings: &Settings) -> Result<Flow> {
     let most = Dimension::Length.range().most;
     check_in(Dimension::Length, "gap", largest, largest <= most, "at most 1e6 m")?;
 
-    let gaps = Gaps::new(gap, grid, largest);
+    let gap = in_rows(gap);
+    let gaps = Gaps::new(&gap, grid, largest);
     let asked = settings.along.axes();
     let periodic = settings.ends == Ends::Periodic && settings.sides == Sides::Periodic;
     let mut along = [None, None];
@@ -285,7 +286,7 @@ pub fn solve(gap: &Field, grid: &Grid, settings: &Settings) -> Result<Flow> {
         coupling,
         mean_gap: gaps.mean * largest,
         closed_share: 1.0 - open as f64 / grid.cells() as f64,
-        effective_medium: effective_medium(gap),
+        effective_medium: effective_medium(&gap),
     })
 }
 

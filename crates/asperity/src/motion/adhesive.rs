@@ -130,6 +130,10 @@ mod tests {
         let size = path.iter().fold(0.0, |most: f64, [load, ..]| most.max(load.abs()));
         for (contact, [load, ..]) in solved.contacts().iter().zip(&path) {
             assert!((contact.load - load).abs() < 1e-4 * size, "{} {load}", contact.load);
+            // The field has the tension of open cells, too.
+            let pressure = contact.pressure_field(pair.lower.width());
+            assert!(pressure.iter().any(|p| *p < 0.0));
+            assert!((pair.cell_area() * pressure.sum() / contact.load - 1.0).abs() < 1e-9);
         }
         // The energy lost is the work of the force along the path, less what is stored.
         let work: f64 = path.windows(2).map(|pair| 0.5 * (pair[0][2] + pair[1][2])).sum();

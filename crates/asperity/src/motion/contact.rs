@@ -26,6 +26,8 @@ pub struct Contact {
     pub position: Position,
     /// Flat cells in contact and their pressure, Pa: with p > 0, or with p > −σ(0) where the bodies attract each other.
     pub pressure: Vec<(u32, Pascal)>,
+    /// Flat cells that are open and attract each other, and their pressure, Pa, below 0. None without adhesion.
+    pub tension: Vec<(u32, Pascal)>,
     /// Flat cells at the hardness and their plastic interference w, m.
     pub plastic: Vec<(u32, Metre)>,
     /// Absolute temperature of the surfaces on each cell in contact, in the order of the pressures; `None` if it is not
@@ -119,6 +121,7 @@ impl Contact {
         Self {
             position,
             pressure,
+            tension: Vec::new(),
             plastic: Vec::new(),
             temperature: None,
             gap: None,
@@ -134,12 +137,13 @@ impl Contact {
 
     /// Creates the contact from a solution.
     pub(super) fn new(position: Position, sliding: Option<&Sliding>, solution: &Solution) -> Self {
-        let mut pressure = Vec::new();
-        let mut plastic = Vec::new();
+        let (mut pressure, mut tension, mut plastic) = (Vec::new(), Vec::new(), Vec::new());
         let cells = solution.pressure.iter().zip(&solution.displacement).zip(&solution.initial_gap);
         for (cell, ((&p, u), h)) in cells.enumerate() {
             if solution.bounds.touches(cell, p) {
                 pressure.push((cell as u32, p));
+            } else if p < 0.0 {
+                tension.push((cell as u32, p));
             }
             if solution.bounds.caps(cell, p) {
                 plastic.push((cell as u32, (solution.approach - h - u).max(0.0)));
@@ -150,6 +154,7 @@ impl Contact {
             position,
             tangential_force: solution.grid.cell_area() * sliding.map_or(0.0, shear),
             pressure,
+            tension,
             plastic,
             temperature: None,
             gap: None,
@@ -162,11 +167,11 @@ impl Contact {
         }
     }
 
-    /// Returns the pressure on all cells of the overlap, `width` across.
+    /// Returns the pressure on all cells of the overlap, `width` across; below 0 under tension.
     pub fn pressure_field(&self, width: usize) -> Field {
         let mut field = Field::zeros([self.position.columns, width]);
         let cells = field.as_slice_mut().expect("standard layout");
-        self.pressure.iter().for_each(|(cell, p)| cells[*cell as usize] = *p);
+        self.pressure.iter().chain(&self.tension).for_each(|(cell, p)| cells[*cell as usize] = *p);
         field
     }
 

@@ -49,13 +49,14 @@ impl PassReport<'_> {
         self.pair.bounds_of(self.hardness, &contact.position, self.motion.friction.as_ref())
     }
 
-    /// Computes the mean pressure over the positions of the pass on each cell of the lower and of the upper body, Pa.
+    /// Computes the mean pressure over the positions of the pass on each cell of the lower and of the upper body, Pa; tension of
+    /// bodies that attract each other counts as below 0.
     pub fn mean_pressure(&self) -> [Field; 2] {
         let mut mean = [&self.pair.lower, &self.pair.upper].map(|body| Field::zeros(body.heights.raw_dim()));
         for contact in self.contacts {
             for (mean, placement) in mean.iter_mut().zip(self.pair.placements(&contact.position)) {
                 let mean = mean.as_slice_mut().expect("standard layout");
-                for &(cell, p) in &contact.pressure {
+                for &(cell, p) in contact.pressure.iter().chain(&contact.tension) {
                     let parts = placement.parts(placement.cell(cell as usize));
                     parts.for_each(|(cell, weight)| mean[cell] += weight * p);
                 }

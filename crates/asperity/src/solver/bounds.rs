@@ -23,12 +23,12 @@ impl Bounds {
     /// Creates bounds for bodies without adhesion and with a largest pressure `upper`, a number or a field: 0 ≤ p
     /// ≤ upper.
     pub fn up_to(upper: impl Into<CellValues>) -> Self {
-        Self { lower: CellValues::Uniform(0.0), upper: upper.into() }
+        Self { lower: CellValues::Uniform(0.0), upper: upper.into().in_rows() }
     }
 
     /// Sets the lower bounds: finite, and 0 or below 0 for bodies that attract each other.
     pub fn above(self, lower: impl Into<CellValues>) -> Self {
-        Self { lower: lower.into(), ..self }
+        Self { lower: lower.into().in_rows(), ..self }
     }
 
     /// The lower bounds of the pressure.

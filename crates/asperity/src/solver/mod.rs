@@ -50,7 +50,7 @@ use ndarray::Array2;
 
 use crate::choice::choice;
 use crate::error::{Error, Result, check, check_in};
-use crate::grid::{CellValues, Field, Grid, flat};
+use crate::grid::{CellValues, Field, Grid, flat, in_rows};
 use crate::math::parallel;
 use crate::math::sum::sums;
 use crate::operator::Operator;
@@ -389,7 +389,7 @@ fn attraction(bounds: &Bounds, cells: usize) -> Pascal {
 /// several ranks.
 ///
 /// # Panics
-/// If a field has another shape than the operator's grid, or a bound is not in standard layout.
+/// If a field has another shape than the operator's grid.
 pub fn solve_normal(
     operator: &mut dyn Operator,
     initial_gap: &Field,
@@ -398,7 +398,8 @@ pub fn solve_normal(
     start: Option<&Field>,
     params: &Params,
 ) -> Result<Solution> {
-    solve_normal_watched(operator, initial_gap, bounds, control, start, params, &())
+    let (initial_gap, start) = (in_rows(initial_gap), start.map(in_rows));
+    solve_normal_watched(operator, &initial_gap, bounds, control, start.as_deref(), params, &())
 }
 
 /// [`solve_normal`] with a watch.

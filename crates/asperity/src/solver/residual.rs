@@ -30,7 +30,7 @@ pub struct Residual {
 /// of h + u over the cells between their bounds, weighted by the pressure above the lower bound.
 ///
 /// # Panics
-/// If a field has another shape than the others, or is not in standard layout.
+/// If a field has another shape than the others.
 pub fn residual(
     pressure: &Field,
     displacement: &Field,

@@ -271,8 +271,8 @@ fn grid(
     let spec = &body.topography;
     let at = Place { document: case.document(), table: &table, spec, pitch };
     let (grid, preparation) = match &spec.source {
-        Source::File { path, channel, unit } => {
-            let (scan, sha256) = read(path, channel.as_deref(), *unit).map_err(|error| at.reading(error))?;
+        Source::File { path, .. } => {
+            let (scan, sha256) = read(path, &spec.source.reading()).map_err(|error| at.reading(error))?;
             let (topography, _, preparation) = measured(at, path, scan, sha256)?;
             (*topography.grid(), preparation)
         }
@@ -347,8 +347,8 @@ fn prepare_topography(
     let spec = at.spec;
     let grid = || spec.made_on(other);
     let (topography, origin, preparation) = match &spec.source {
-        Source::File { path, channel, unit } => {
-            let (scan, sha256) = read(path, channel.as_deref(), *unit).map_err(|error| at.reading(error))?;
+        Source::File { path, .. } => {
+            let (scan, sha256) = read(path, &spec.source.reading()).map_err(|error| at.reading(error))?;
             given.admit(&format!("{}.file", at.table), &sha256)?;
             let (topography, origin, preparation) = measured(at, path, scan, sha256)?;
             (Ok(topography), Some(origin), preparation)
@@ -390,8 +390,13 @@ fn hardness(
     let (mut values, sha256, file, key) = match &body.hardness {
         Hardness::Uniform(value) => return Ok((CellValues::Uniform(*value), None)),
         Hardness::Map(map) => {
-            let (scan, sha256) = read(&map.path, map.channel.as_deref(), None).map_err(|source| {
-                error(if map.channel.is_some() { "channel" } else { "file" }, source.to_string(), None)
+            let (scan, sha256) = read(&map.path, &map.reading()).map_err(|source| {
+                let key = match &source {
+                    Error::NoChannel { .. } => "channel",
+                    Error::OptionOfText { option, .. } => option,
+                    _ => "file",
+                };
+                error(key, source.to_string(), hint_for_key(&source))
             })?;
             given.admit(&format!("{name}.hardness.file"), &sha256)?;
             let file = map.path.display().to_string();
@@ -439,11 +444,22 @@ fn hardness(
     Ok((CellValues::Field(values), Some(sha256)))
 }
 
+/// Returns the hint of an error, with the key that it asks for.
+fn hint_for_key(error: &Error) -> Option<String> {
+    let option = match error {
+        Error::CorruptTopography { reason, .. } => reason.option(),
+        _ => None,
+    };
+    let key = option.map(|(key, value)| match key {
+        "lines" => format!(": `{key} = \"{value}\"`"),
+        _ => format!(": `{key} = {value}`"),
+    });
+    error.hint().map(|hint| hint + &key.unwrap_or_default())
+}
+
 /// Reads a file; also returns its digest.
-fn read(path: &Path, channel: Option<&str>, unit: Option<Metre>) -> Result<(Scan, String)> {
+fn read(path: &Path, options: &ReadOptions) -> Result<(Scan, String)> {
     let bytes = surface::contents(path)?;
-    let mut options = ReadOptions::default();
-    (options.channel, options.unit) = (channel.map(str::to_owned), unit);
     Ok((options.scan_bytes(path, &bytes)?, sha256(&bytes)))
 }
 
@@ -527,11 +543,12 @@ impl Place<'_> {
                 self.error("channel", error.to_string(), Some(hint))
             }
             Error::OwnUnit { .. } => self.error("unit", error.to_string(), None),
+            Error::OptionOfText { option, .. } => self.error(option, error.to_string(), None),
             Error::File { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
                 let hint = "the files of a case are looked for in the case file's folder".to_owned();
                 self.error("file", error.to_string(), Some(hint))
             }
-            _ => self.error("file", error.to_string(), error.hint()),
+            _ => self.error("file", error.to_string(), hint_for_key(&error)),
         }
     }
 

@@ -3,7 +3,7 @@
 use ndarray::Axis;
 
 use super::case::Case;
-use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, cut_off, spot, too_few_cells};
+use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, attraction_cut_off, cut_off, spot, too_few_cells};
 use crate::grid::Field;
 use crate::motion::{
     ElastoPlasticContact, Interior, LoadedContact, Pair, PassFlowRecord, PassRecord, PlasticVolume,
@@ -16,7 +16,8 @@ use crate::units::{self, Dimension, Joule, Metre, SquareMetre};
 pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) -> Vec<String> {
     let gap = || pair.initial_gap(&pair.at_rest());
     let rim = cut_off(pressure, gap, pair.pitch(), boundary);
-    rim.into_iter().chain(too_few_cells(spot(pressure, boundary))).collect()
+    let attraction = attraction_cut_off(pressure, gap, pair.pitch(), boundary);
+    rim.into_iter().chain(attraction).chain(too_few_cells(spot(pressure, boundary))).collect()
 }
 
 /// Returns the warnings of a sweep, from its points and the contact of the `last` one.

@@ -478,6 +478,8 @@ impl Dimension {
         match (self, exponent) {
             (Self::Area, _) => 1e-2,
             (Self::Volume, _) => 1e-3,
+            // A thousandth of the smallest prefix of energies, beside which it is read.
+            (Self::Energy, -18) => 1e-3,
             _ => 1.0,
         }
     }
@@ -885,6 +887,7 @@ mod tests {
             (7.5e-18, Volume, "7.5 µm³"),
             (3.21e-9, Energy, "3.21 nJ"),
             (32e-18, Energy, "32 aJ"),
+            (4.849e-19, Energy, "0.4849 aJ"),
             (0.01, Speed, "10 mm/s"),
             (0.5, Angle, "28.65°"),
             (7200.0, Time, "7200 s"),

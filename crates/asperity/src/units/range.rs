@@ -69,6 +69,11 @@ impl Range {
         (self.least..=self.most).contains(&value)
     }
 
+    /// Returns 0 for a value of any sign below the smallest magnitude, as rounding leaves it in place of 0; otherwise the value.
+    pub fn without_dust(&self, value: f64) -> f64 {
+        if value.abs() < self.least { 0.0 } else { value }
+    }
+
     /// Whether a value of any sign is 0 or has a magnitude within the range.
     pub fn holds_signed(&self, value: f64) -> bool {
         value == 0.0 || self.holds(value.abs())
@@ -91,6 +96,7 @@ mod tests {
         let lengths = Dimension::Length.range();
         assert!(lengths.holds(1e-15) && lengths.holds(1e6) && !lengths.holds(0.0) && !lengths.holds(-1.0));
         assert!(lengths.holds_signed(0.0) && lengths.holds_signed(-1e6) && !lengths.holds_signed(-1e-16));
+        assert_eq!([-2.2e-16, 1e-15, -1.0].map(|value| lengths.without_dust(value)), [0.0, 1e-15, -1.0]);
         assert!(!lengths.holds(f64::NAN) && !lengths.holds_signed(f64::INFINITY));
         assert_eq!(
             (lengths.to_string(), NUMBERS.to_string()),

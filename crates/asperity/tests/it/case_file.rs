@@ -11,8 +11,8 @@ use asperity::Error;
 use asperity::study;
 use asperity::study::Case;
 use asperity::study::case::rules::Rule;
-use asperity::study::case::schema::{Key, Section};
-use asperity::units::Dimension;
+use asperity::study::case::schema::{Exists, Key, Section};
+use asperity::units::{Dimension, format, format_number};
 
 /// Dimensions with units listed in docs/input.md.
 const COMMON: [Dimension; 5] =
@@ -62,6 +62,41 @@ fn the_tables_of_the_documents_are_those_of_the_program() {
     }
     assert!(sections.is_empty(), "docs/input has no table of {:?}", sections.keys());
     assert_eq!(tables_of_rules, 1, "docs/input says once what does not go together");
+}
+
+/// `docs/warnings.md` has what exists of each quantity below `<!-- ranges -->`.
+#[test]
+fn what_exists_of_each_quantity_is_in_the_documents() {
+    let path = documents().join("warnings.md");
+    let page = fs::read_to_string(&path).unwrap();
+    let (before, rest) = page.split_once("<!-- ranges -->\n").expect("a mark");
+    let after = rest.find("\n## ").map_or("", |at| &rest[at..]);
+    let mut rows = Vec::new();
+    for (section, key) in
+        study::keys().iter().flat_map(|section| section.keys.iter().map(move |key| (section, key)))
+    {
+        let Exists::Within { least, most, of, .. } = key.exists else { continue };
+        let [least, most] = [least, most].map(|value| match key.kind.dimension() {
+            Some(dimension) => format(value, dimension),
+            None => format_number(value),
+        });
+        // Both bodies have the same keys.
+        let table = section
+            .tables
+            .first()
+            .map_or(String::new(), |table| table.replace("lower.", "….").replace("lower", "…"));
+        let row = format!("| `{table}.{}` | {least} … {most} | {of} |\n", key.name);
+        if !rows.contains(&row) {
+            rows.push(row);
+        }
+    }
+    let table = format!("\n| key | exists | from, to |\n|---|---|---|\n{}", rows.concat());
+    let written = format!("{before}<!-- ranges -->\n{table}{after}");
+    if std::env::var_os("UPDATE_DOCS").is_some() {
+        fs::write(&path, &written).unwrap();
+    } else {
+        assert!(page == written, "docs/warnings.md is not as the program has it; UPDATE_DOCS=1");
+    }
 }
 
 #[test]
@@ -136,7 +171,7 @@ fn table_of_keys(sections: &[&Section]) -> String {
         false => "| key | meaning | value | default |\n|---|---|---|---|\n".to_owned(),
     };
     for section in sections {
-        for Key { name, kind, default, example, text: meaning } in section.keys {
+        for Key { name, kind, default, example, text: meaning, .. } in section.keys {
             if choices {
                 text += &format!("| `{}` ", section.kind);
             }

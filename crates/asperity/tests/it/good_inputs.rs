@@ -50,17 +50,6 @@ fn adhesion_and_loads_that_pull_are_read_and_written_back() {
 }
 
 #[test]
-fn a_range_that_is_long_beside_the_grid_is_refused_on_that_grid() {
-    let text = include_str!("../inputs/good/sticking.toml").replace("range = \"grid\"", "range = \"1.7 nm\"");
-    let case = Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap();
-    let bodies = bodies(&case, study::SurfaceInput::default()).unwrap();
-    let Err(asperity::Error::Case(error)) = study::estimate(&case, &bodies) else { panic!("it is accepted") };
-    assert_eq!(error.key, "adhesion.range");
-    let expected = "the attraction has a range of 1.7 nm, more than a tenth of the grid, 1.6 nm";
-    assert_eq!(error.message, expected);
-}
-
-#[test]
 fn a_path_an_offset_and_a_fresh_counter_body_are_read_and_written_where_they_are_given() {
     let case = load("there_and_back");
     let motion = case.motion.unwrap();
@@ -90,7 +79,13 @@ fn the_case_of_the_contract_is_read_in_si() {
     let lower = &case.lower.topography;
     assert_eq!(
         lower.source,
-        Source::File { path: inputs("good").join("disc.x3p"), channel: None, unit: None }
+        Source::File {
+            path: inputs("good").join("disc.x3p"),
+            channel: None,
+            unit: None,
+            lines: None,
+            skip: None,
+        }
     );
     let preparation = Preparation {
         fill: Fill::Harmonic,

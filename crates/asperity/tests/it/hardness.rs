@@ -87,6 +87,39 @@ fn each_cell_is_capped_by_its_own_hardness_and_the_softer_cell_flows() {
     assert_eq!(mapped, uniform);
 }
 
+#[test]
+fn a_map_in_text_has_its_lines_along_x_unless_the_case_says_otherwise() {
+    let folder = tempfile::tempdir().unwrap();
+    let map = stripes([24, 20]);
+    write_map(folder.path(), &map);
+    let (from_npy, _) = at_rest(CASE, folder.path(), "npy");
+    let text = |map: ndarray::ArrayView2<'_, f64>| -> String {
+        map.rows()
+            .into_iter()
+            .map(|row| format!("{}\n", row.iter().map(f64::to_string).collect::<Vec<_>>().join(",")))
+            .collect()
+    };
+    for (n, (words, lines, keys)) in [
+        ("", text(map.t()), ""),
+        ("", text(map.view()), ", lines = \"y\""),
+        ("phases\n20 24\n", text(map.t()), ", skip = 2"),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        std::fs::write(folder.path().join("map.csv"), format!("{words}{lines}")).unwrap();
+        let case =
+            CASE.replace("\"map.npy\"", "\"map.csv\"").replace("\"GPa\" }", &format!("\"GPa\"{keys} }}"));
+        let (from_text, _) = at_rest(&case, folder.path(), &format!("text-{n}"));
+        assert_eq!(from_text, from_npy);
+        if n == 2 {
+            let bare = case.replace(keys, "");
+            let error = run(&bare, folder.path(), "none", Existing::Keep).unwrap_err().to_string();
+            assert!(error.contains("the matrix begins at line 3"), "{error}");
+        }
+    }
+}
+
 const MOTION: &str =
     "\n[motion]\nstrategy = \"overlap\"\npasses = 2\nstride = 4\n[output]\npressure_every = 1\n";
 

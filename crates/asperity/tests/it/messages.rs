@@ -5,11 +5,22 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Words known only to a front end.
-const ARGUMENTS: [&str; 9] =
-    ["--channel", "--unit", "--pitch", "--fill", "--level", "--out", "--resume", "--overwrite", "--threads"];
+const ARGUMENTS: [&str; 11] = [
+    "--channel",
+    "--unit",
+    "--pitch",
+    "--lines",
+    "--skip",
+    "--fill",
+    "--level",
+    "--out",
+    "--resume",
+    "--overwrite",
+    "--threads",
+];
 const TABLES: [&str; 7] =
     ["[contact]", "[friction]", "[motion]", "[subsurface]", "[output]", "[[history]]", ".topography]"];
-const KEYS: [&str; 20] = [
+const KEYS: [&str; 22] = [
     "method",
     "tolerance",
     "boundary",
@@ -30,6 +41,8 @@ const KEYS: [&str; 20] = [
     "pressure_every",
     "load_tolerance",
     "channel",
+    "lines",
+    "skip",
 ];
 
 #[test]

@@ -1,7 +1,6 @@
 //! A measured surface, as written by an instrument, against a generated one: from the file to the last pass.
 //!
-//! The file is `x3p-2.x3p` in the folder `ASPERITY_TOPOGRAPHIES`, by default `shared/topographies` beside the workspace.
-//! Without it the test is skipped, but not in CI.
+//! The file is `x3p-2.x3p` in the folder that `ASPERITY_TOPOGRAPHIES` names.
 
 use std::path::{Path, PathBuf};
 
@@ -11,8 +10,11 @@ use asperity::study::Outcome;
 use asperity::study::{Existing, Results};
 
 #[test]
+#[ignore = "reads measured files, which are not part of the repository"]
 fn a_measured_surface_runs_in_against_a_generated_one() {
-    let Some(file) = measured("x3p-2.x3p") else { return };
+    let folder = std::env::var_os("ASPERITY_TOPOGRAPHIES")
+        .expect("ASPERITY_TOPOGRAPHIES names the folder of measured files");
+    let file = PathBuf::from(folder).join("x3p-2.x3p");
     // The 230 × 230 samples of the file cover 83.0 µm × 204.5 µm.
     let body = "young = \"210 GPa\"\npoisson = 0.3\nhardness = \"4 GPa\"\n";
     let text = format!(
@@ -41,15 +43,4 @@ fn a_measured_surface_runs_in_against_a_generated_one() {
     for step in &steps {
         assert!(step.residual < 1e-6, "{step:?}");
     }
-}
-
-fn measured(name: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os("ASPERITY_TOPOGRAPHIES").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/topographies"),
-        PathBuf::from,
-    );
-    let file = folder.join(name);
-    let found = file.exists();
-    assert!(found || std::env::var_os("CI").is_none(), "{} is missing", file.display());
-    found.then_some(file)
 }

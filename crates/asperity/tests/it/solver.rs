@@ -1,9 +1,12 @@
 //! Every method solves the same problem, and the solution satisfies the conditions of contact.
 
+use asperity::adhesion::Adhesion;
+use asperity::conductance::{self, Gas, Joint, Kind};
+use asperity::flow;
 use asperity::operator::{DirectSum, FreeFft, Operator, PeriodicFft};
-use asperity::solver::{Bounds, Control, Method, Params, Solution, residual, solve_normal};
+use asperity::solver::{Bounds, Control, Method, Params, Solution, residual, solve_adhesive, solve_normal};
 use asperity::surface::{Amplitude, SelfAffine};
-use asperity::{Error, Field, Grid};
+use asperity::{CellValues, Error, Field, Grid};
 
 const INF: f64 = f64::INFINITY;
 const METHODS: [Method; 3] = [Method::Direct, Method::PolonskyKeer, Method::ActiveSet];
@@ -73,6 +76,51 @@ fn active_set(periodic: bool, gap: &Field, hardness: f64, control: Control) -> S
 fn difference(a: &Field, b: &Field) -> f64 {
     let largest = b.iter().fold(0.0f64, |m, x| m.max(x.abs()));
     a.iter().zip(b).fold(0.0f64, |m, (a, b)| m.max((a - b).abs())) / largest
+}
+
+/// The same values, with the columns one after the other in memory.
+fn in_columns(field: &Field) -> Field {
+    let turned = field.t().as_standard_layout().into_owned().reversed_axes();
+    assert!(turned == *field && !turned.is_standard_layout());
+    turned
+}
+
+#[test]
+fn fields_may_have_any_order_in_memory() {
+    let grid = grid([24, 16]);
+    let gap = rough(&grid, 5);
+    let (caps, params) = (gap.mapv(|h| 0.2 + 0.01 * h), Params::default());
+    let control = Control::Load(3.0);
+    let bounds = [Bounds::up_to(caps.clone()), Bounds::up_to(in_columns(&caps))];
+    let [rows, columns] = [(&gap, &bounds[0]), (&in_columns(&gap), &bounds[1])].map(|(gap, bounds)| {
+        let start = in_columns(&gap.mapv(|h| (0.1 - h).max(0.0)));
+        let mut operator = operator(grid, false);
+        solve_normal(operator.as_mut(), gap, bounds, control, Some(&start), &params).unwrap()
+    });
+    assert_eq!((rows.pressure, rows.approach), (columns.pressure, columns.approach));
+
+    let attraction = Adhesion::new(0.01, 0.3).unwrap();
+    let [rows, columns] = [&gap, &in_columns(&gap)].map(|gap| {
+        let mut operator = operator(grid, false);
+        let caps = CellValues::Field(in_columns(&caps));
+        solve_adhesive(operator.as_mut(), gap, &attraction, &caps, control, None, &params).unwrap()
+    });
+    assert_eq!(rows.pressure, columns.pressure);
+
+    let settings = flow::Settings::default();
+    let [rows, columns] = [&gap, &in_columns(&gap)].map(|gap| {
+        flow::solve(gap, &grid, &settings).unwrap().along.map(|along| along.map(|along| along.permeability))
+    });
+    assert_eq!(rows, columns);
+
+    let touching = gap.mapv(|h| h < 0.05);
+    let turned = touching.t().as_standard_layout().into_owned().reversed_axes();
+    let joint = Joint::new(Kind::Thermal, 1.0).with_gas(Gas { conductivity: 0.01, jump: 0.0 });
+    let [rows, columns] = [(&touching, &gap), (&turned, &in_columns(&gap))].map(|(touching, gap)| {
+        let mut operator = operator(grid, false);
+        conductance::solve(operator.as_mut(), touching, Some(gap), &joint, None, &params).unwrap()
+    });
+    assert_eq!(rows.conductance, columns.conductance);
 }
 
 #[test]

@@ -17,7 +17,7 @@ use ndarray::Zip;
 
 use crate::adhesion::{Adhesion, Potential};
 use crate::error::{Error, Result};
-use crate::grid::{CellValues, Field};
+use crate::grid::{CellValues, Field, in_rows};
 use crate::operator::Operator;
 use crate::solver::watch::check_stop;
 use crate::solver::{
@@ -63,7 +63,8 @@ pub fn solve_adhesive(
     last: Option<&Solution>,
     params: &Params,
 ) -> Result<Solution> {
-    solve_adhesive_watched(operator, initial_gap, adhesion, upper, control, last, params, &())
+    let (initial_gap, upper) = (in_rows(initial_gap), upper.clone().in_rows());
+    solve_adhesive_watched(operator, &initial_gap, adhesion, &upper, control, last, params, &())
 }
 
 /// [`solve_adhesive`] with a watch.

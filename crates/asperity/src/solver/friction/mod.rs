@@ -14,7 +14,7 @@ pub(crate) use rolling::solve_rolling_watched;
 pub use rolling::{Creep, Rolling, RollingSolution, solve_rolling};
 
 use crate::error::{Result, check, check_in};
-use crate::grid::Field;
+use crate::grid::{Field, in_rows};
 use crate::operator::CoupledOperator;
 use crate::solver::{Bounds, Control, Params, Solution, Stats, Watch};
 use crate::units::{Dimension, Joule, Metre, Newton, Pascal};
@@ -173,7 +173,7 @@ pub fn solve_frictional(
     before: Option<&FrictionalSolution>,
     params: &Params,
 ) -> Result<FrictionalSolution> {
-    solve_frictional_watched(operator, initial_gap, bounds, friction, loading, before, params, &())
+    solve_frictional_watched(operator, &in_rows(initial_gap), bounds, friction, loading, before, params, &())
 }
 
 /// [`solve_frictional`] with a watch.

@@ -1,7 +1,7 @@
 //! Steady tractive rolling.
 
 use crate::error::{Error, Result, check};
-use crate::grid::{Field, Grid};
+use crate::grid::{Field, Grid, in_rows};
 use crate::operator::{Boundary, CoupledOperator};
 use crate::solver::friction::bodies::Bodies;
 use crate::solver::friction::transport::{ShiftByCell, SteadyMethod, Transport};
@@ -112,7 +112,7 @@ pub fn solve_rolling(
     rolling: Rolling,
     params: &Params,
 ) -> Result<RollingSolution> {
-    solve_rolling_watched(operator, initial_gap, bounds, friction, normal, rolling, params, &())
+    solve_rolling_watched(operator, &in_rows(initial_gap), bounds, friction, normal, rolling, params, &())
 }
 
 /// [`solve_rolling`] with a watch.

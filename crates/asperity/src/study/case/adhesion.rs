@@ -8,10 +8,10 @@ use super::schema::adhesion as keys;
 use super::schema::tables::known_in;
 use super::schema::values::adhesion::AdhesionRange;
 use crate::adhesion::{Adhesion, Potential};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::grid::Grid;
 use crate::motion::AdhesionHistory;
-use crate::units::{Dimension, JoulePerSquareMetre, Metre, Pascal, format};
+use crate::units::{JoulePerSquareMetre, Pascal};
 
 /// Attraction between the bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -38,34 +38,18 @@ pub(super) fn adhesion(table: &Table<'_>) -> Result<AdhesionSpec> {
     })
 }
 
-/// Largest range of the attraction, as a fraction of the shorter side of the grid.
-const MAX_RANGE: f64 = 0.1;
-
 impl Case {
     /// Returns the attraction of bodies with this composite modulus on a `grid`; `None` without adhesion.
     ///
     /// # Errors
-    /// [`Error::Case`] for a range above a tenth of the grid.
+    /// The errors of [`Adhesion::new`].
     pub(in crate::study) fn attraction(&self, grid: &Grid, modulus: Pascal) -> Result<Option<Adhesion>> {
         let Some(AdhesionSpec { work, range, potential, .. }) = self.adhesion else { return Ok(None) };
         let range = match range {
             AdhesionRange::Length(range) => range,
             AdhesionRange::Grid => Adhesion::grid_range(work, modulus, grid.pitch[0].max(grid.pitch[1])),
         };
-        let most = MAX_RANGE * grid.extent()[0].min(grid.extent()[1]);
-        if range > most {
-            return Err(self.too_long(range, most));
-        }
         Ok(Some(Adhesion::new(work, range)?.with_potential(potential)))
-    }
-
-    fn too_long(&self, range: Metre, most: Metre) -> Error {
-        let [range, most] = [range, most].map(|length| format(length, Dimension::Length));
-        self.error_at(
-            "adhesion.range",
-            format!("the attraction has a range of {range}, more than a tenth of the grid, {most}"),
-            Some("a range is some nanometres; take a larger grid for a longer one".to_owned()),
-        )
     }
 }
 

@@ -232,16 +232,18 @@ impl<'a> Entry<'a> {
     pub(super) fn number_within(&self, range: units::Range, zero: bool) -> Result<f64> {
         let expected = format!("{}a magnitude of {range}", if zero { "0, or " } else { "" });
         let value = self.plain().unwrap_or_else(|| Err(self.wrong_type(&expected)))?;
+        let value = if zero { range.without_dust(value) } else { value };
         let good = range.holds(value) || (zero && value == 0.0);
         if good { Ok(value) } else { Err(self.unexpected(&expected, None)) }
     }
 
-    /// Returns a number without a unit, or infinity.
+    /// Returns a number without a unit, or infinity. A number below the smallest magnitude is 0 if 0 is good.
     pub(super) fn number_or_infinite(&self, good: impl Fn(f64) -> bool, expected: &str) -> Result<f64> {
         let value = match self.value.as_str() {
             Some("inf") => f64::INFINITY,
             _ => self.plain().unwrap_or_else(|| Err(self.wrong_type(expected)))?,
         };
+        let value = if good(0.0) { NUMBERS.without_dust(value) } else { value };
         match value {
             value if !good(value) => Err(self.unexpected(expected, None)),
             value if value.is_infinite() || NUMBERS.holds_signed(value) => Ok(value),
@@ -264,9 +266,9 @@ impl<'a> Entry<'a> {
         units::parse(text, dimension).map_err(|error| self.error(error.for_key(self.key()), error.hint()))
     }
 
-    /// Returns a finite quantity.
+    /// Returns a finite quantity, 0 for one below the smallest magnitude.
     pub(in crate::study) fn quantity(&self, dimension: Dimension) -> Result<f64> {
-        let value = self.any_quantity(dimension)?;
+        let value = dimension.range().without_dust(self.any_quantity(dimension)?);
         if !value.is_finite() {
             return Err(self.unexpected(&expectation(dimension, ""), None));
         }
@@ -290,7 +292,8 @@ impl<'a> Entry<'a> {
         zero: bool,
         example: &str,
     ) -> Result<f64> {
-        let value = if zero { self.quantity(dimension)? } else { self.positive(dimension)? };
+        let value =
+            if zero { range.without_dust(self.quantity(dimension)?) } else { self.positive(dimension)? };
         if range.holds(value) || (zero && value == 0.0) {
             return Ok(value);
         }

@@ -68,6 +68,11 @@ impl Document {
         }
     }
 
+    /// Returns the dotted keys of the file with the texts of their values.
+    pub(in crate::study) fn values(&self) -> impl Iterator<Item = (&str, String)> {
+        self.spans.iter().map(|(key, span)| (key.as_str(), self.written(span.clone())))
+    }
+
     pub(super) fn written(&self, span: Range<usize>) -> String {
         let text = self.text.get(span).unwrap_or_default();
         text.split_whitespace().collect::<Vec<_>>().join(" ")

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use serde::{Serialize, Serializer};
 
 use super::Number;
+use crate::surface::{Axis, ReadOptions};
 use crate::units::Pascal;
 
 /// Hardness of a body.
@@ -37,6 +38,22 @@ pub struct HardnessMap {
     pub channel: Option<String>,
     /// Size of the unit of the values in the file, > 0.
     pub unit: Pascal,
+    /// Direction of a line of a matrix whose format does not determine it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lines: Option<Axis>,
+    /// Number of lines above the numbers of a text.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub skip: Option<usize>,
+}
+
+impl HardnessMap {
+    /// Returns the options for reading the file.
+    pub(in crate::study) fn reading(&self) -> ReadOptions {
+        let mut options = ReadOptions::default();
+        options.channel.clone_from(&self.channel);
+        (options.lines, options.skip) = (self.lines, self.skip.unwrap_or_default());
+        options
+    }
 }
 
 impl Hardness {

@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer};
 
 use super::Number;
 use crate::grid::Grid;
-use crate::surface::{Form, Generator, Preparation, Topography};
+use crate::surface::{Axis, Form, Generator, Preparation, ReadOptions, Topography};
 use crate::units::Metre;
 
 /// A topography as described in the case file.
@@ -46,6 +46,12 @@ pub enum Source {
         /// Size of the unit in a file without units.
         #[serde(skip_serializing_if = "Option::is_none")]
         unit: Option<Metre>,
+        /// Direction of a line of a matrix whose format does not determine it.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        lines: Option<Axis>,
+        /// Number of lines above the numbers of a text.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        skip: Option<usize>,
     },
     /// Heights supplied in memory by the caller, see [`SurfaceInput`](crate::study::SurfaceInput).
     Given {
@@ -73,6 +79,18 @@ pub enum Source {
         #[serde(skip_serializing_if = "Option::is_none")]
         shape: Option<[usize; 2]>,
     },
+}
+
+impl Source {
+    /// Returns the options for reading the file; those for any other file for another source.
+    pub(in crate::study) fn reading(&self) -> ReadOptions {
+        let mut options = ReadOptions::default();
+        if let Self::File { channel, unit, lines, skip, .. } = self {
+            options.channel.clone_from(channel);
+            (options.unit, options.lines, options.skip) = (*unit, *lines, skip.unwrap_or_default());
+        }
+        options
+    }
 }
 
 impl TopographySpec {

@@ -95,7 +95,13 @@ fn measured(table: &Table<'_>, folder: &Path) -> Result<Source> {
         "" => return Err(file::FILE.demand(table)?.unexpected("the name of a file", None)),
         path => folder.join(path),
     };
-    Ok(Source::File { path, channel: file::CHANNEL.of(table)?, unit: file::UNIT.of(table)? })
+    Ok(Source::File {
+        path,
+        channel: file::CHANNEL.of(table)?,
+        unit: file::UNIT.of(table)?,
+        lines: file::LINES.of(table)?,
+        skip: file::SKIP.of(table)?,
+    })
 }
 
 fn layers(entry: &Entry<'_>) -> Result<Vec<Layer>> {

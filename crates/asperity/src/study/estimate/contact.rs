@@ -317,6 +317,26 @@ pub(in crate::study) fn cut_off(
     ))
 }
 
+/// Warns if a free side of the grid cuts the attraction of curved bodies off, according to the `pressure`, which is negative
+/// under tension.
+pub(in crate::study) fn attraction_cut_off(
+    pressure: &Field,
+    gap: impl FnOnce() -> Field,
+    pitch: [Metre; 2],
+    boundary: Boundary,
+) -> Option<String> {
+    /// Largest share of the adhesive load in the outermost cells without a warning.
+    const FELT: f64 = 0.01;
+    let tension = pressure.mapv(|pressure| (-pressure).max(0.0));
+    let share = outermost(&tension, boundary) / tension.sum();
+    (share > FELT).then_some(())?;
+    Paraboloid::of(&gap(), pitch)?;
+    Some(format!(
+        "the rim of the grid cuts the attraction off: the outermost cells have {:.1} % of the adhesive load; take a larger `shape`",
+        100.0 * share
+    ))
+}
+
 /// Sums the outermost cells of a field at its free sides.
 fn outermost(field: &Field, boundary: Boundary) -> f64 {
     let shape = [field.nrows(), field.ncols()];

@@ -102,6 +102,10 @@ const DRAWN: f64 = 6.0;
 /// Numbers of each cell for adhesion: the directions of a step of Newton's iteration, usually 25 or less and 60 at most, and the fields
 /// of two states.
 const ATTRACTED: f64 = 40.0;
+/// Numbers of each cell for an iteration, with the gap; some are in single precision.
+const ITERATION: f64 = 5.7;
+/// Numbers of each cell for the near copy of the operator on a free grid.
+const NEAR_COPY: f64 = 1.3;
 /// Bytes of a number.
 const NUMBER: f64 = 8.0;
 
@@ -175,14 +179,15 @@ impl Sizes<'_> {
     fn memory(&self, threads: usize) -> Memory {
         let case = self.case;
         let [nx, ny] = self.facing();
-        // Seven numbers of the iteration for each cell. Half of the padded transform is stored, if single precision is
+        // Numbers of the iteration for each cell. Half of the padded transform is stored, if single precision is
         // enough. Of the real kernel a quarter is stored, and the kernels of the coarse grids.
         let [padded_x, padded_y] = case.contact.boundary.wraps().map(|wraps| if wraps { 1.0 } else { 2.0 });
         let padded = padded_x * nx * (padded_y * ny + 2.0);
         let stored = if matches!(case.contact.method, Method::Auto | Method::ActiveSet) { 0.5 } else { 1.0 };
         let transforms = padded * (stored / padded_x + 1.0 / 3.0);
         let dense = if case.contact.method == Method::Direct { (0.5 * nx * ny).powi(2) } else { 0.0 };
-        let normal = 7.0 * nx * ny + transforms + dense;
+        let iteration = if padded_x * padded_y > 1.0 { ITERATION + NEAR_COPY } else { ITERATION };
+        let normal = iteration * nx * ny + transforms + dense;
         // Six kernels, three transforms, and about thirty numbers for each cell: tractions, displacements and slips of two
         // increments, and the tangential iteration.
         let coupled = 1.5 * padded + 3.0 * nx * (padded_y * ny + 2.0) + 34.0 * nx * ny;
@@ -206,7 +211,7 @@ impl Sizes<'_> {
             })
             .unwrap_or(0.0);
         // The fields besides the bodies, and one while it is written.
-        let statics = if case.friction.is_some() { 16.0 } else { 8.0 };
+        let statics = if case.friction.is_some() { 16.0 } else { 6.0 };
         let results = case.motion.map_or(statics * nx * ny, |_| {
             let cells = [&self.lower, &self.upper].map(|grid| grid.shape[0] as f64 * grid.shape[1] as f64);
             let kept = match case.output.pressure_every {

@@ -8,6 +8,7 @@ use toml::Value;
 use crate::error::Result;
 use crate::study::case::cursor::{Entry, Table};
 use crate::study::case::document::join;
+use crate::study::case::schema::list::points;
 use crate::study::case::schema::tables::dimension;
 use crate::units::{self, Dimension};
 
@@ -199,7 +200,7 @@ fn axis(key: String, entry: &Entry<'_>) -> Result<Axis> {
 
 /// Expected form of an axis.
 const AXIS: &str = "a list of values or a range";
-const EXAMPLE: &str = r#"{ from = "1 N", to = "5 N", count = 5 }"#;
+const EXAMPLE: &str = r#"{ from = "1 N", to = "5 N", points = 5 }"#;
 
 fn listed(key: &str, entry: &Entry<'_>) -> Result<Vec<ValueInFile>> {
     let items = entry.items(AXIS)?;
@@ -212,13 +213,15 @@ fn listed(key: &str, entry: &Entry<'_>) -> Result<Vec<ValueInFile>> {
     Ok(values)
 }
 
-/// Reads `{ from = "1 N", to = "5 N", count = 5, spacing = "log" }` or `{ seeds = 20, first = 100 }`.
+/// Reads `{ from = "1 N", to = "5 N", points = 5, spacing = "log" }` or `{ seeds = 20, first = 100 }`.
 fn ranged(key: &str, entry: &Entry<'_>) -> Result<Vec<ValueInFile>> {
     let table = entry.clone().table()?;
-    table.known(&["from", "to", "count", "spacing", "seeds", "first"], |_| None)?;
+    table.known(&["from", "to", "points", "count", "spacing", "seeds", "first"], |_| None)?;
     let at = |value: Value| ValueInFile { value, span: entry.span() };
     if let Some(seeds) = table.get("seeds") {
-        if let Some(other) = ["from", "to", "count", "spacing"].iter().find_map(|key| table.get(key)) {
+        if let Some(other) =
+            ["from", "to", "points", "count", "spacing"].iter().find_map(|key| table.get(key))
+        {
             let message = format!("'{}' has no meaning beside 'seeds'", other.key());
             return Err(other.error(message, None));
         }
@@ -240,8 +243,7 @@ fn ranged(key: &str, entry: &Entry<'_>) -> Result<Vec<ValueInFile>> {
         let message = format!("the axis '{key}' is from {} to {}", from.literal()?, to.literal()?);
         return Err(to.error(message, Some("give both ends in one unit".to_owned())));
     }
-    let count = table.required("count", "5")?;
-    let number = count.count(2)?;
+    let number = points(&table)?;
     let spacing = table.get("spacing").map_or(Ok(Spacing::Linear), |word| {
         word.word(&[("linear", Spacing::Linear), ("log", Spacing::Log)])
     })?;

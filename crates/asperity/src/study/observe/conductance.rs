@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use super::{Observer, Place};
-use crate::conductance::{self, Conductance, JointRoughness, Kind};
+use crate::conductance::{self, Conductance, JointRoughness, Kind, MAX_CORRELATED_FRACTION};
 use crate::error::{Error, Result};
 use crate::motion::{ObservedContact, Pair, Position};
 use crate::operator::Operators;
@@ -98,6 +98,8 @@ impl Observer for ConductanceObserver {
         drop(operator);
         let full = if place.pass.is_none() { self.full(shape)? } else { None };
         let touching = contact.touching.iter().filter(|touches| **touches).count();
+        let fraction = touching as f64 / contact.touching.len() as f64;
+        let is_correlated = touching > 0 && fraction <= MAX_CORRELATED_FRACTION;
         let mean_pressure = contact.load / contact.grid.area();
         let quantities = Quantities {
             conductivity: self.composite,
@@ -106,7 +108,7 @@ impl Observer for ConductanceObserver {
             resistance: found.resistance(),
             full,
             holm_greenwood: found.holm_greenwood,
-            correlation: self.correlation(mean_pressure).filter(|_| touching > 0),
+            correlation: self.correlation(mean_pressure).filter(|_| is_correlated),
         };
         let (thermal, electrical) = quantities.of_kind(self.spec.kind);
         let record = ConductanceRecord {

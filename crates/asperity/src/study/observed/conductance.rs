@@ -78,7 +78,8 @@ columns! {
         /// Estimate of Holm and Greenwood of the thermal resistance of the spots, under a free boundary.
         #[serde(deserialize_with = "known_or_none")]
         pub thermal_resistance_holm_greenwood: Option<KelvinPerWatt>,
-        /// Thermal joint conductance by the correlation of Cooper, Mikic and Yovanovich, or of Mikic for elastic bodies.
+        /// Thermal joint conductance of clean spots by the correlation of Cooper, Mikic and Yovanovich, or of Mikic for elastic bodies;
+        /// unknown from 5 % of contact on.
         #[serde(deserialize_with = "known_or_none")]
         pub thermal_joint_correlation: Option<WattPerSquareMetreKelvin>,
     }
@@ -107,7 +108,8 @@ columns! {
         /// Estimate of Holm and Greenwood of the electrical resistance of the spots, under a free boundary.
         #[serde(deserialize_with = "known_or_none")]
         pub electrical_resistance_holm_greenwood: Option<Ohm>,
-        /// Electrical joint conductance by the correlation of Cooper, Mikic and Yovanovich, or of Mikic for elastic bodies.
+        /// Electrical joint conductance of clean spots by the correlation of Cooper, Mikic and Yovanovich, or of Mikic for elastic bodies;
+        /// unknown from 5 % of contact on.
         #[serde(deserialize_with = "known_or_none")]
         pub electrical_joint_correlation: Option<SiemensPerSquareMetre>,
     }
@@ -134,7 +136,12 @@ impl ConductanceRecord {
         }
     }
 
-    /// Joint conductance, W/(m² K) or S/m², and that of the correlation beside it.
+    /// Real contact area over the apparent area; 0 without a load.
+    pub fn contact_fraction(&self) -> f64 {
+        if self.load == 0.0 { 0.0 } else { self.contact_area * self.mean_pressure / self.load }
+    }
+
+    /// Joint conductance, W/(m² K) or S/m², and that of clean spots by the correlation.
     pub fn joint(&self) -> [Option<f64>; 2] {
         match (&self.thermal, &self.electrical) {
             (Some(thermal), _) => [thermal.thermal_joint_conductance, thermal.thermal_joint_correlation],

@@ -56,5 +56,6 @@ fn heights(bytes: &[u8]) -> Result<([f64; 2], Field), Defect> {
         header.number("xlength")? * unit("xunit")? / f64::from(nx),
         header.number("ylength")? * unit("yunit")? / f64::from(ny),
     ];
-    Ok((pitch, raster.heights(|number| if number.abs() >= missing { f64::NAN } else { number * height })))
+    let is_missing = |stored: f64| stored >= missing || !number.is_integer() && stored <= -missing;
+    Ok((pitch, raster.heights(|stored| if is_missing(stored) { f64::NAN } else { stored * height })))
 }

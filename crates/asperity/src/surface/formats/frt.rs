@@ -42,6 +42,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
         pitch,
         heights,
         unit: LengthUnit::Known,
+        lines: None,
     })
 }
 

@@ -96,6 +96,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
         pitch: usable_pitch(pitch),
         heights,
         unit: LengthUnit::Known,
+        lines: None,
     })
 }
 

@@ -3,15 +3,19 @@
 //! Results are identified by the file attributes `version` and `identity`. Their channels are the fields in metres over x
 //! and y, with `lower` and `upper` first. In other files every data set with two dimensions and real numbers is a channel,
 //! named by its path, `/group/name`, and indexed `[ix, iy]`. If there are several, the user must choose one. Its heights
-//! are in metres unless it has an attribute `unit` or `units`. It has no pitch.
+//! are in metres unless it has an attribute `unit` or `units`. A height is missing if it equals the attribute `_FillValue` or
+//! `missing_value`. It has no pitch.
 
 use std::collections::HashMap;
 
 use hdf5_pure::{AttrValue, DType, Dataset, File, Group};
 
-use super::{Decoded, Fault, LengthUnit, MAX_CELLS, Scan, UNDERSIDE, cells, choose, finite, usable_pitch};
+use super::{
+    Decoded, Fault, LengthUnit, MAX_CELLS, Scan, UNDERSIDE, cells, choose, choose_among, finite, usable_pitch,
+};
 use crate::error::Defect;
 use crate::grid::Field;
+use crate::surface::Axis;
 
 /// First bytes of the file.
 pub(super) const MAGIC: &[u8] = b"\x89HDF\r\n\x1a\n";
@@ -26,25 +30,37 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     if ["version", "identity"].iter().all(|name| attributes.contains_key(*name)) {
         return result(bytes, &file, channel);
     }
+    decode_sets("hdf5", bytes, channel, |_| true)
+}
+
+/// Decodes the matrices of real numbers that are `suitable`, in a file of this format.
+pub(super) fn decode_sets(
+    format: &'static str,
+    bytes: &[u8],
+    channel: Option<&str>,
+    suitable: impl Fn(&Dataset) -> bool,
+) -> Decoded {
+    let fault = |defect| Fault::defect(format, defect);
+    let file = File::from_bytes(bytes.to_vec()).map_err(container).map_err(fault)?;
     let mut channels = Vec::new();
     matrices(&file.root(), "", &mut 0, &mut channels);
+    channels.retain(|path| file.dataset(path).is_ok_and(|set| suitable(&set)));
     if channels.is_empty() {
         return Err(fault(Defect::Missing("data set of two dimensions and real numbers")));
     }
-    if channel.is_none() && channels.len() > 1 {
-        return Err(Fault::NoChannel { available: channels });
-    }
     let wanted = channel.map(|channel| format!("/{}", channel.trim_start_matches('/')));
-    let channel = channels[choose(&channels, wanted.as_deref())?].clone();
+    let channel = channels[choose_among(&channels, wanted.as_deref())?].clone();
     let (heights, unit) = dataset(&file, &channel)
         .and_then(|set| {
             let unit = ["unit", "units"].iter().find_map(|name| set.text(name));
             let factor = unit.as_deref().map_or(Ok(1.0), super::words::unit_of_length)?;
             let kind = if unit.is_some() { LengthUnit::Known } else { LengthUnit::Metres };
-            Ok((set.values(bytes.len())?.mapv_into(|z| finite(factor * z)), kind))
+            let missing = set.missing();
+            let height = |z| if missing.contains(&z) { f64::NAN } else { finite(factor * z) };
+            Ok((set.values(bytes.len())?.mapv_into(height), kind))
         })
         .map_err(fault)?;
-    Ok(Scan { format: "hdf5", channel, channels, pitch: None, heights, unit })
+    Ok(Scan { format, channel, channels, pitch: None, heights, unit, lines: Some(Axis::Y) })
 }
 
 type Outcome<T> = Result<T, Defect>;
@@ -67,7 +83,8 @@ fn result(bytes: &[u8], file: &File, channel: Option<&str>) -> Decoded {
     let pitch = set.attributes.get("pitch").and_then(AttrValue::to_f64s).unwrap_or_default();
     let pitch = <[f64; 2]>::try_from(pitch).ok().and_then(usable_pitch);
     let heights = set.values(bytes.len()).map_err(fault)?.mapv_into(finite);
-    Ok(Scan { format: RESULTS, channel, channels, pitch, heights, unit: LengthUnit::Known })
+    let unit = LengthUnit::Known;
+    Ok(Scan { format: RESULTS, channel, channels, pitch, heights, unit, lines: None })
 }
 
 /// A data set and its attributes.
@@ -85,6 +102,16 @@ fn dataset(file: &File, path: &str) -> Outcome<Set> {
 impl Set {
     fn text(&self, name: &str) -> Option<String> {
         self.attributes.get(name).and_then(AttrValue::as_str).map(|text| text.trim().to_owned())
+    }
+
+    /// Numbers that mark a missing height, by the conventions of NetCDF 4.
+    fn missing(&self) -> Vec<f64> {
+        let integers = |value: &AttrValue| Some(value.to_i64s()?.into_iter().map(|n| n as f64).collect());
+        let numbers = |name| {
+            let value = self.attributes.get(name)?;
+            value.to_f64s().or_else(|| integers(value))
+        };
+        ["_FillValue", "missing_value"].into_iter().filter_map(numbers).flatten().collect()
     }
 
     /// Reads the numbers of the set; `bytes` is the size of the file.

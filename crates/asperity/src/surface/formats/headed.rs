@@ -11,20 +11,20 @@
 
 use super::binary::shape;
 use super::header::Header;
-use super::text::matrix;
+use super::text::{Part, matrix};
 use super::words::{excerpt, unit_of_length};
 use super::{Decoded, Fault, LengthUnit, ONLY_CHANNEL, Scan, choose, finite, usable_pitch};
 use crate::error::Defect;
 use crate::grid::Field;
 
-type Read = fn(&[u8]) -> Result<Heights, Defect>;
+type Read = fn(&str) -> Result<Heights, Defect>;
 
 /// First bytes, name and reader of each kind.
-const KINDS: [(&[u8], &str, Read); 4] = [
-    (b"# File Format = ASCII", "spip", spip),
-    (b"# Channel:", "gwyddion text", gwyddion),
-    (b"h=", "koala", koala),
-    (b"Zygo XYZ Data File", "zygo xyz", zygo),
+const KINDS: [(&str, &str, Read); 4] = [
+    ("# File Format = ASCII", "spip", spip),
+    ("# Channel:", "gwyddion text", gwyddion),
+    ("h=", "koala", koala),
+    ("Zygo XYZ Data File", "zygo xyz", zygo),
 ];
 
 struct Heights {
@@ -34,8 +34,8 @@ struct Heights {
 }
 
 /// Decodes the heights, if the content begins like one of these kinds.
-pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Option<Decoded> {
-    let (_, format, read) = KINDS.iter().find(|(magic, ..)| bytes.starts_with(magic))?;
+pub(super) fn decode(text: &str, channel: Option<&str>) -> Option<Decoded> {
+    let (_, format, read) = KINDS.iter().find(|(magic, ..)| text.starts_with(magic))?;
     let scan = |read: Heights| {
         let channels = vec![read.channel];
         choose(&channels, channel)?;
@@ -47,35 +47,33 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Option<Decoded> {
             pitch: usable_pitch(read.pitch),
             heights: read.heights,
             unit: LengthUnit::Known,
+            lines: None,
         })
     };
-    Some(read(bytes).map_err(|defect| Fault::defect(format, defect)).and_then(scan))
+    Some(read(text).map_err(|defect| Fault::defect(format, defect)).and_then(scan))
 }
 
-fn spip(bytes: &[u8]) -> Result<Heights, Defect> {
-    let text = String::from_utf8_lossy(bytes);
-    let header = Header::of(head(&text), '=');
-    let lines = Lines::read(bytes, 0, Some([header.size("x-pixels")?, header.size("y-pixels")?]))?;
+fn spip(text: &str) -> Result<Heights, Defect> {
+    let header = Header::of(head(text), '=');
+    let lines = Lines::read(text, 0, Some([header.size("x-pixels")?, header.size("y-pixels")?]))?;
     let nanometres = [header.number("x-length")?, header.number("y-length")?];
     let unit = header.get("z-unit").unwrap_or("nm").trim_matches(['[', ']']);
     Ok(lines.over(ONLY_CHANNEL, nanometres.map(|length| length * 1e-9), unit_of_length(unit)?))
 }
 
-fn gwyddion(bytes: &[u8]) -> Result<Heights, Defect> {
-    let text = String::from_utf8_lossy(bytes);
-    let header = Header::of(head(&text), ':');
+fn gwyddion(text: &str) -> Result<Heights, Defect> {
+    let header = Header::of(head(text), ':');
     let unit = header.get("Value units").ok_or(Defect::Missing("Value units"))?;
     let lengths = [header.length("Width")?, header.length("Height")?];
     let channel = header.get("Channel").unwrap_or(ONLY_CHANNEL);
-    Ok(Lines::read(bytes, 0, None)?.over(channel, lengths, unit_of_length(unit)?))
+    Ok(Lines::read(text, 0, None)?.over(channel, lengths, unit_of_length(unit)?))
 }
 
-fn koala(bytes: &[u8]) -> Result<Heights, Defect> {
+fn koala(text: &str) -> Result<Heights, Defect> {
     const LINES: usize = 4;
-    let end = bytes.iter().enumerate().filter(|(_, byte)| **byte == b'\n').nth(LINES - 1);
-    let end = end.map_or(bytes.len(), |(at, _)| at + 1);
-    let text = String::from_utf8_lossy(&bytes[..end]).replace(" w=", "\nw=");
-    let header = Header::of(&text, '=');
+    let heights = Part::after(text, LINES).text;
+    let head = text[..text.len() - heights.len()].replace(" w=", "\nw=");
+    let header = Header::of(&head, '=');
     let [nx, ny] = [header.size("w")?, header.size("h")?];
     let pixel = header.get("pixel size").ok_or(Defect::Missing("pixel size"))?;
     let pixel: f64 = pixel.trim_end_matches('m').trim().parse().map_err(|_| Defect::Value {
@@ -85,12 +83,11 @@ fn koala(bytes: &[u8]) -> Result<Heights, Defect> {
     })?;
     let unit = header.number("height conversion factor (-> m)")?;
     let lengths = [pixel * f64::from(nx), pixel * f64::from(ny)];
-    Ok(Lines::read(&bytes[end..], LINES, Some([nx, ny]))?.over(ONLY_CHANNEL, lengths, unit))
+    Ok(Lines::read(heights, LINES, Some([nx, ny]))?.over(ONLY_CHANNEL, lengths, unit))
 }
 
 /// Reads columns, rows and heights, each on its line, between two lines of `#`.
-fn zygo(bytes: &[u8]) -> Result<Heights, Defect> {
-    let text = String::from_utf8_lossy(bytes);
+fn zygo(text: &str) -> Result<Heights, Defect> {
     let mut lines = text.lines().enumerate();
     let header: Vec<&str> =
         lines.by_ref().map(|(_, line)| line.trim()).take_while(|line| *line != "#").collect();
@@ -141,9 +138,9 @@ fn head(text: &str) -> &str {
 struct Lines(Field);
 
 impl Lines {
-    /// Reads the lines of `bytes`, which follow `before` others in the file; `sizes` are those along x and y.
-    fn read(bytes: &[u8], before: usize, sizes: Option<[u32; 2]>) -> Result<Self, Defect> {
-        let lines = matrix(bytes, before)?;
+    /// Reads the lines of `text`, which follow `before` others in the file; `sizes` are those along x and y.
+    fn read(text: &str, before: usize, sizes: Option<[u32; 2]>) -> Result<Self, Defect> {
+        let lines = matrix(Part { text, before }, false)?;
         let (ny, nx) = lines.dim();
         if sizes.is_some_and(|sizes| sizes.map(|size| size as usize) != [nx, ny]) {
             let found = format!("{nx} × {ny}");

@@ -64,6 +64,7 @@ pub(super) fn sections(text: &str) -> Vec<(&str, &str)> {
     sections.iter().zip(ends).map(|((name, _, start), end)| (*name, &text[*start..end])).collect()
 }
 
-fn before_comment(value: &str) -> &str {
+/// Returns a value up to a comment after a semicolon.
+pub(super) fn before_comment(value: &str) -> &str {
     value.split(';').next().unwrap_or_default().trim()
 }

@@ -6,18 +6,23 @@
 
 mod binary;
 mod header;
+mod labels;
 mod points;
+mod preamble;
 mod words;
 mod write;
 
 mod al3d;
+mod asc;
 mod bcr;
 mod csv;
 mod frt;
+mod gsf;
 mod gwy;
 mod hdf5;
 mod headed;
 mod ibw;
+mod mat;
 mod metropro;
 mod mi;
 mod mnt;
@@ -26,6 +31,7 @@ mod netcdf;
 mod nid;
 mod nms;
 mod npy;
+mod npz;
 mod opd;
 mod opdx;
 mod plu;
@@ -48,15 +54,15 @@ pub use write::Format;
 use crate::error::{Defect, Error, Result};
 use crate::grid::{Field, Grid};
 use crate::io::regular;
-use crate::surface::Topography;
+use crate::surface::{Axis, Topography};
 use crate::units::{Dimension, Metre};
 
 /// Heights of a file.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Scan {
-    /// Name of the module of the format, such as `x3p`; for text `text` (a matrix), `xyz` (a table of x, y, height) or the
-    /// program that wrote its header.
+    /// Name of the module of the format, such as `x3p`; for text `text` (a matrix), `xyz` (a table of x, y, height), `xz` (a
+    /// profile of x and height) or the program that wrote its header.
     pub format: &'static str,
     /// The channel read.
     pub channel: String,
@@ -68,6 +74,8 @@ pub struct Scan {
     pub heights: Field,
     /// Information in the file about the unit of its numbers.
     pub unit: LengthUnit,
+    /// Direction along which a line of the matrix in the file was laid; none if the format or the file determines it.
+    pub lines: Option<Axis>,
 }
 
 /// Information in a file about the unit of its numbers.
@@ -103,6 +111,11 @@ pub struct ReadOptions {
     pub unit: Option<Metre>,
     /// Distance between neighbouring heights along x and y for a file without a pitch, each above 0.
     pub pitch: Option<[Metre; 2]>,
+    /// Direction of a line of a matrix whose format does not determine it: x by default for text, y for arrays (npy, npz,
+    /// mat, HDF5), which are indexed `[ix, iy]`. A text that looks like points is a matrix if this is given.
+    pub lines: Option<Axis>,
+    /// Number of lines above the numbers of a text.
+    pub skip: usize,
 }
 
 impl ReadOptions {
@@ -127,6 +140,20 @@ impl ReadOptions {
         self
     }
 
+    /// Sets the direction of a line of a matrix whose format does not determine it.
+    #[must_use]
+    pub fn with_lines(mut self, along: Axis) -> Self {
+        self.lines = Some(along);
+        self
+    }
+
+    /// Sets the number of lines above the numbers of a text.
+    #[must_use]
+    pub fn with_skip(mut self, lines: usize) -> Self {
+        self.skip = lines;
+        self
+    }
+
     /// Reads the topography in the file at `path`.
     ///
     /// # Errors
@@ -144,7 +171,8 @@ impl ReadOptions {
     /// # Errors
     /// [`Error::File`] if it cannot be read, [`Error::NotATopography`] if its format is unknown,
     /// [`Error::CorruptTopography`] if it is damaged, uses an unsupported part of the format or lacks a required unit,
-    /// [`Error::NoChannel`], [`Error::OwnUnit`] if a unit is given for a file that has one.
+    /// [`Error::NoChannel`], [`Error::OwnUnit`] if a unit is given for a file that has one, [`Error::OptionOfText`] if `lines`
+    /// or `skip` is given for a format that leaves nothing open.
     pub fn scan(&self, path: impl AsRef<Path>) -> Result<Scan> {
         let path = path.as_ref();
         self.scan_bytes(path, &contents(path)?)
@@ -155,9 +183,8 @@ impl ReadOptions {
     /// # Errors
     /// The errors of [`scan`](Self::scan) without [`Error::File`].
     pub fn scan_bytes(&self, name: impl AsRef<Path>, bytes: &[u8]) -> Result<Scan> {
-        let channel = self.channel.as_deref();
-        let scan = decode(bytes, channel).and_then(|scan| scan.in_unit(self.unit));
-        let mut scan = scan.map_err(|fault| fault.at(name.as_ref(), channel))?;
+        let scan = decode(bytes, self).and_then(|scan| scan.in_lines(self.lines)?.in_unit(self.unit));
+        let mut scan = scan.map_err(|fault| fault.at(name.as_ref(), self.channel.as_deref()))?;
         scan.pitch = scan.pitch.or(self.pitch);
         Ok(scan)
     }
@@ -177,6 +204,20 @@ impl Scan {
     /// Whether the heights describe an underside, as mounted: that of the upper body in asperity's results.
     pub fn is_underside(&self) -> bool {
         (self.format, self.channel.as_str()) == (hdf5::RESULTS, UNDERSIDE)
+    }
+
+    /// Lays the lines of the matrix in the file along the given direction.
+    fn in_lines(mut self, lines: Option<Axis>) -> Decoded {
+        if let Some(wanted) = lines {
+            let Some(found) = self.lines else {
+                return Err(Fault::OptionOfText { format: self.format, option: "lines" });
+            };
+            if found != wanted {
+                self.heights = self.heights.t().as_standard_layout().into_owned();
+                self.lines = lines;
+            }
+        }
+        Ok(self)
     }
 
     /// Multiplies the heights by the given unit, if they have none of their own.
@@ -214,11 +255,11 @@ pub(crate) fn contents(path: &Path) -> Result<Vec<u8>> {
         .map_err(|source| Error::File { path: path.to_owned(), source })
 }
 
-fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
+fn decode(bytes: &[u8], options: &ReadOptions) -> Decoded {
     if bytes.starts_with(&[0x1f, 0x8b]) {
-        decode_plain(&unpacked(bytes, MAX_UNPACKED)?, channel)
+        decode_plain(&unpacked(bytes, MAX_UNPACKED)?, options)
     } else {
-        decode_plain(bytes, channel)
+        decode_plain(bytes, options)
     }
 }
 
@@ -236,14 +277,16 @@ fn unpacked(bytes: &[u8], most: u64) -> std::result::Result<Vec<u8>, Fault> {
     }
 }
 
-fn decode_plain(bytes: &[u8], channel: Option<&str>) -> Decoded {
+fn decode_plain(bytes: &[u8], options: &ReadOptions) -> Decoded {
     type Decode = fn(&[u8], Option<&str>) -> Decoded;
-    const READ: [(&[&[u8]], Decode); 21] = [
-        (&[b"PK\x03\x04"], x3p::decode),
+    const READ: [(&[&[u8]], Decode); 23] = [
+        (&[b"PK\x03\x04"], decode_archive),
         (&[b"DIGITAL SURF", b"DSCOMPRESSED"], sur::decode),
         (&[b"\x93NUMPY"], npy::decode),
         (&sdf::MAGICS, sdf::decode),
         (&[gwy::MAGIC], gwy::decode),
+        (&[gsf::MAGIC], gsf::decode),
+        (&mat::MAGICS, mat::decode),
         (&bcr::MAGICS, bcr::decode),
         (&[opd::MAGIC], opd::decode),
         (&metropro::MAGICS, metropro::decode),
@@ -277,35 +320,58 @@ fn decode_plain(bytes: &[u8], channel: Option<&str>) -> Decoded {
         return Err(Fault::NotATopography("it is empty"));
     }
     let starts_with = |magics: &[&[u8]]| magics.iter().any(|magic| bytes.starts_with(magic));
-    if let Some((_, decode)) = READ.iter().find(|(magics, _)| starts_with(magics)) {
-        return decode(bytes, channel);
-    }
-    if let Some((_, reason)) = NOT_READ.iter().find(|(magic, _)| bytes.starts_with(magic)) {
+    let known = READ.iter().find(|(magics, _)| starts_with(magics)).map(|(_, decode)| *decode);
+    if let (None, Some((_, reason))) = (known, NOT_READ.iter().find(|(magic, _)| bytes.starts_with(magic))) {
         return Err(Fault::NotATopography(reason));
     }
-    if plu::is_one(bytes) {
-        return plu::decode(bytes, channel);
+    let known = known
+        .or_else(|| plu::is_one(bytes).then_some(plu::decode as Decode))
+        .or_else(|| ibw::is_one(bytes).then_some(ibw::decode as Decode))
+        .or_else(|| nms::is_one(bytes).then_some(nms::decode as Decode));
+    if let Some(decode) = known {
+        let scan = decode(bytes, options.channel.as_deref())?;
+        return match options.skip {
+            0 => Ok(scan),
+            _ => Err(Fault::OptionOfText { format: scan.format, option: "skip" }),
+        };
     }
-    if ibw::is_one(bytes) {
-        return ibw::decode(bytes, channel);
+    if let Some(text) = utf16(bytes) {
+        return decode_text(&text, options);
     }
-    if nms::is_one(bytes) {
-        return nms::decode(bytes, channel);
-    }
-    match utf16(bytes) {
-        Some(text) => decode_text(text.as_bytes(), channel),
-        None => decode_text(bytes, channel),
+    match std::str::from_utf8(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)) {
+        Ok(text) => decode_text(text, options),
+        Err(_) => {
+            refuse_binary(bytes)?;
+            let latin_1: String = bytes.iter().map(|byte| char::from(*byte)).collect();
+            decode_text(&latin_1, options)
+        }
     }
 }
 
-fn decode_text(bytes: &[u8], channel: Option<&str>) -> Decoded {
-    let binary = |byte: &u8| *byte < 0x20 && !matches!(byte, b'\t' | b'\n' | b'\r' | 0x0c);
-    if bytes.iter().take(1 << 16).any(binary) {
-        return Err(Fault::NotATopography("it is binary, of no known format"));
+/// Returns an error if the first bytes are not those of a text.
+fn refuse_binary(bytes: &[u8]) -> std::result::Result<(), Fault> {
+    let is_binary = |byte: &u8| *byte < 0x20 && !matches!(byte, b'\t' | b'\n' | b'\r' | 0x0c);
+    match bytes.iter().take(1 << 16).any(is_binary) {
+        true => Err(Fault::NotATopography("it is binary, of no known format")),
+        false => Ok(()),
     }
-    headed::decode(bytes, channel)
-        .or_else(|| csv::decode(bytes, channel))
-        .unwrap_or_else(|| text::decode(bytes, channel))
+}
+
+fn decode_archive(bytes: &[u8], channel: Option<&str>) -> Decoded {
+    if npz::is_one(bytes) { npz::decode(bytes, channel) } else { x3p::decode(bytes, channel) }
+}
+
+/// Decodes text without a byte order mark. After skipped lines it is a matrix or a table, whatever the lines say.
+fn decode_text(text: &str, options: &ReadOptions) -> Decoded {
+    let channel = options.channel.as_deref();
+    refuse_binary(text.as_bytes())?;
+    if options.skip == 0
+        && let Some(decoded) = headed::decode(text, channel).or_else(|| asc::decode(text, channel))
+    {
+        return decoded;
+    }
+    let numbers = text::Part::after(text, options.skip);
+    csv::decode(numbers, channel).unwrap_or_else(|| text::decode(numbers, options))
 }
 
 /// Decodes text in UTF-16 with a byte order mark; `None` for other text.
@@ -328,6 +394,7 @@ enum Fault {
     Corrupt { format: &'static str, reason: Defect },
     NoChannel { available: Vec<String> },
     OwnUnit { format: &'static str },
+    OptionOfText { format: &'static str, option: &'static str },
 }
 
 impl Fault {
@@ -341,6 +408,7 @@ impl Fault {
             Self::NotATopography(reason) => Error::NotATopography { path, reason },
             Self::Corrupt { format, reason } => Error::CorruptTopography { path, format, reason },
             Self::OwnUnit { format } => Error::OwnUnit { path, format },
+            Self::OptionOfText { format, option } => Error::OptionOfText { path, format, option },
             Self::NoChannel { available } => {
                 Error::NoChannel { path, channel: channel.unwrap_or_default().to_owned(), available }
             }
@@ -356,6 +424,14 @@ fn choose(available: &[String], channel: Option<&str>) -> std::result::Result<us
             .iter()
             .position(|name| name == channel)
             .ok_or_else(|| Fault::NoChannel { available: available.to_vec() }),
+    }
+}
+
+/// Returns the index of the requested channel among `available` (not empty), none of which is a default.
+fn choose_among(available: &[String], channel: Option<&str>) -> std::result::Result<usize, Fault> {
+    match channel {
+        None if available.len() > 1 => Err(Fault::NoChannel { available: available.to_vec() }),
+        _ => choose(available, channel),
     }
 }
 
@@ -398,6 +474,7 @@ fn only(
         pitch: usable_pitch(pitch),
         heights,
         unit: LengthUnit::Known,
+        lines: None,
     })
 }
 
@@ -436,6 +513,7 @@ fn several(
         pitch: usable_pitch(pitch),
         heights,
         unit,
+        lines: None,
     })
 }
 

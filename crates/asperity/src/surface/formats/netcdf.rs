@@ -2,12 +2,16 @@
 //!
 //! Format: Unidata, "NetCDF Classic Format Specification"; big-endian. Variables with two dimensions and real numbers are
 //! channels unless their `unit` (or `units`) is not a length. `scale_factor`, `add_offset`, `_FillValue` and
-//! `missing_value` are applied. A height is missing where a variable `mask` is not 0. The pitch is that of the variables
-//! named like the dimensions: their attribute `length` over their number, or the spacing of their values, in their unit.
+//! `missing_value` are applied; without `_FillValue` the number of the format for values that were never written is missing.
+//! A height is missing where a variable `mask` is not 0. The pitch is that of the variables
+//! named like the dimensions: their attribute `length` over their number, or the spacing of their values, in their unit;
+//! values that fall reverse the order.
 //! Lines run along x if the first dimension is `y` (or `lat`) or the second is `x` (or `lon`); otherwise they run along y,
 //! as in NumPy.
 
 use std::collections::HashMap;
+
+use ndarray::Axis;
 
 use super::binary::{Cursor, Number, Order, Raster, shape, text};
 use super::words::unit_of_length;
@@ -47,6 +51,22 @@ enum Attribute {
     Number(f64),
     Other,
 }
+
+impl Variable {
+    /// The number of a value that was never written, if no attribute gives it.
+    fn unwritten(&self) -> f64 {
+        match self.number {
+            Some(Number::Int16) => -32_767.0,
+            Some(Number::Int32) => -2_147_483_647.0,
+            Some(Number::Float32) => f64::from(UNWRITTEN as f32),
+            Some(Number::Float64) => UNWRITTEN,
+            _ => f64::NAN,
+        }
+    }
+}
+
+/// 15 · 2¹¹⁹, the number of a value of floating point that was never written.
+const UNWRITTEN: f64 = 9.969_209_968_386_869e36;
 
 impl<'a> File<'a> {
     fn read(bytes: &'a [u8]) -> Outcome<Self> {
@@ -108,12 +128,19 @@ impl<'a> File<'a> {
             (None, false) => LengthUnit::MetresThroughout,
         };
         let pitch = axes.map(|axis| match axis {
-            Some((step, Some(unit))) => step * unit_of_length(unit).unwrap_or(f64::NAN),
-            Some((step, None)) if kind == LengthUnit::MetresThroughout => step,
+            Some((step, Some(unit))) => step.abs() * unit_of_length(unit).unwrap_or(f64::NAN),
+            Some((step, None)) if kind == LengthUnit::MetresThroughout => step.abs(),
             _ => f64::NAN,
         });
         let name = variable.name.clone();
-        let heights = Box::new(move || self.heights(variable, shape, along_x));
+        let falls = axes.map(|axis| axis.is_some_and(|(step, _)| step < 0.0));
+        let heights = Box::new(move || {
+            let mut heights = self.heights(variable, shape, along_x)?;
+            for axis in (0..2).filter(|axis| falls[*axis]) {
+                heights.invert_axis(Axis(axis));
+            }
+            Ok(heights.as_standard_layout().into_owned())
+        });
         Ok(Some(Channel { name, pitch, unit: kind, heights }))
     }
 
@@ -123,7 +150,7 @@ impl<'a> File<'a> {
             _ => default,
         };
         let (scale, offset) = (number("scale_factor", 1.0), number("add_offset", 0.0));
-        let missing = ["_FillValue", "missing_value"].map(|name| number(name, f64::NAN));
+        let missing = [number("_FillValue", variable.unwritten()), number("missing_value", f64::NAN)];
         let unit = variable.unit().map_or(Ok(1.0), unit_of_length)?;
         let height = |number: f64| {
             if missing.contains(&number) { f64::NAN } else { (number * scale + offset) * unit }
@@ -166,7 +193,7 @@ impl<'a> File<'a> {
                 let even = |(index, place): (usize, &f64)| {
                     (place - places[[0, 0]] - index as f64 * step).abs() < 0.1 * step.abs()
                 };
-                places.iter().enumerate().all(even).then_some(step.abs())?
+                places.iter().enumerate().all(even).then_some(step)?
             }
             _ => return None,
         };

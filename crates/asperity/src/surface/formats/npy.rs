@@ -9,6 +9,7 @@ use super::{Decoded, Fault, LengthUnit, Scan, cells, only_channel};
 use crate::error::{Defect, Result};
 use crate::grid::Field;
 use crate::io::atomic;
+use crate::surface::Axis;
 
 /// Writes `heights` to `path` as float64 in C order, atomically: `numpy.load` gives `heights[ix, iy]`.
 ///
@@ -30,7 +31,7 @@ pub(super) fn write(path: &Path, heights: &Field) -> Result<()> {
 }
 
 /// Precedes the version, the length of the header and the header.
-const MAGIC: &[u8] = b"\x93NUMPY";
+pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let channels = only_channel(channel)?;
@@ -42,48 +43,70 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
         pitch: None,
         heights,
         unit: LengthUnit::Metres,
+        lines: Some(Axis::Y),
     })
 }
 
-fn array(bytes: &[u8]) -> std::result::Result<Field, Defect> {
+/// Reads a matrix.
+pub(super) fn array(bytes: &[u8]) -> std::result::Result<Field, Defect> {
     let (text, data) = split(bytes)?;
-    let Some(header) = Header::read(&text) else {
-        return Err(Defect::Value {
-            what: "the header",
-            found: text.chars().take(80).collect::<String>().trim_end().to_owned(),
-            expected: "that of a 2-dimensional array",
-        });
-    };
-    let all = header.shape.iter().fold(1u128, |product, n| product.saturating_mul((*n).max(1).into()));
-    if all > 1 << 60 {
-        return Err(Defect::TooLarge { cells: all, limit: super::MAX_CELLS });
-    }
-    let &[nx, ny] = header.shape.as_slice() else {
-        let found = format!("{}-dimensional", header.shape.len());
-        return Err(Defect::Value { what: "the array", found, expected: "2-dimensional" });
-    };
-    let Some((number, order)) = number(header.descr) else {
-        let found = format!("'{}'", header.descr);
-        return Err(Defect::Value { what: "the array's type", found, expected: "real numbers" });
-    };
-    let cells = cells(&[nx, ny])?;
-    if cells == 0 {
-        return Err(Defect::Value {
-            what: "the array",
-            found: format!("{nx} × {ny}"),
-            expected: "not empty",
-        });
-    }
-    let expected = (cells as u64).saturating_mul(number.bytes() as u64);
+    let Matrix { shape, number, order, is_x_fastest } = Matrix::of(&text)?;
+    let expected = ((shape[0] * shape[1]) as u64).saturating_mul(number.bytes() as u64);
     if data.len() as u64 != expected {
         return Err(Defect::Length { what: "the array", expected, found: data.len() as u64 });
     }
-    let raster = Raster::new([nx as usize, ny as usize], number, order, data)?;
-    Ok(if header.fortran_order {
-        raster.heights(|height| height)
-    } else {
-        raster.heights_with_y_fastest(|height| height)
+    let raster = Raster::new(shape, number, order, data)?;
+    Ok(match is_x_fastest {
+        true => raster.heights(|height| height),
+        false => raster.heights_with_y_fastest(|height| height),
     })
+}
+
+/// A matrix of real numbers, as described by its header.
+pub(super) struct Matrix {
+    pub(super) shape: [usize; 2],
+    number: Number,
+    order: Order,
+    is_x_fastest: bool,
+}
+
+impl Matrix {
+    /// Reads the header at the start of `bytes`, an array that may be truncated.
+    pub(super) fn at_start(bytes: &[u8]) -> std::result::Result<Self, Defect> {
+        Self::of(&split(bytes)?.0)
+    }
+
+    /// Number of bytes of the numbers.
+    pub(super) fn bytes(&self) -> u64 {
+        (self.shape[0] * self.shape[1] * self.number.bytes()) as u64
+    }
+
+    fn of(text: &str) -> std::result::Result<Self, Defect> {
+        let Some(header) = Header::read(text) else {
+            return Err(Defect::Value {
+                what: "the header",
+                found: text.chars().take(80).collect::<String>().trim_end().to_owned(),
+                expected: "that of a 2-dimensional array",
+            });
+        };
+        let all = header.shape.iter().fold(1u128, |product, n| product.saturating_mul((*n).max(1).into()));
+        if all > 1 << 60 {
+            return Err(Defect::TooLarge { cells: all, limit: super::MAX_CELLS });
+        }
+        let &[nx, ny] = header.shape.as_slice() else {
+            let found = format!("{}-dimensional", header.shape.len());
+            return Err(Defect::Value { what: "the array", found, expected: "2-dimensional" });
+        };
+        let Some((number, order)) = number(header.descr) else {
+            let found = format!("'{}'", header.descr);
+            return Err(Defect::Value { what: "the array's type", found, expected: "real numbers" });
+        };
+        if cells(&[nx, ny])? == 0 {
+            let found = format!("{nx} × {ny}");
+            return Err(Defect::Value { what: "the array", found, expected: "not empty" });
+        }
+        Ok(Self { shape: [nx as usize, ny as usize], number, order, is_x_fastest: header.fortran_order })
+    }
 }
 
 /// Splits the header from the data.

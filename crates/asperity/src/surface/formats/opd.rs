@@ -38,6 +38,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
         pitch,
         heights,
         unit: LengthUnit::Known,
+        lines: None,
     })
 }
 

@@ -1,4 +1,4 @@
-//! Tables of points: detection of a regular grid, of line scans and of other tables.
+//! Tables of points: detection of a regular grid, of a profile and of other tables.
 
 use ndarray::ArrayView1;
 
@@ -46,40 +46,84 @@ pub(super) fn raster(table: &Field, column: usize) -> Option<Raster> {
 /// Number of points from which a grid with gaps is no coincidence.
 const MIN_POINTS: usize = 6;
 
-/// Returns an error if the columns of `table` are coordinates and heights of points that form no map.
-pub(super) fn refuse_points(table: &Field) -> Result<(), Defect> {
-    let [first, second] = match table.ncols() {
-        0 | 1 => return Ok(()),
-        _ => [table.column(0), table.column(1)],
-    };
-    let points = table.nrows();
-    let refused = |found: String, expected| Err(Defect::Value { what: "the table", found, expected });
-    let line = |columns: &str| {
-        refused(
-            format!("a line scan: {points} points of {columns}"),
-            "a map: lines at several y, or a matrix of heights",
-        )
-    };
-    match table.ncols() {
-        2 if is_line(first) && !alike(first, second) || is_track(first, second) => line("x, z"),
-        3 if is_line(first) && is_constant(second) || is_line(second) && is_constant(first) => {
-            line("x, y, z")
-        }
-        3 if is_line(first) && is_line(second) && !alike(first, table.column(2)) => line("x, y, z"),
-        3 if twice(table) => {
-            refused(format!("{points} points, some of them at one place"), "one height at each x and y")
-        }
-        3 if is_track(first, table.column(2)) && !is_rising(second)
-            || is_track(second, table.column(2)) && !is_rising(first) =>
-        {
-            refused(format!("{points} points of x, y, z on no grid"), "a regular grid of points")
-        }
-        columns if columns > 3 && points >= MANY && raster(table, 2).is_some() => refused(
-            format!("{columns} columns, the first two of them x and y"),
-            "x, y and height, or a first line that names the columns",
-        ),
-        _ => Ok(()),
+/// Heights that a table of points describes.
+pub(super) enum Points {
+    /// From x, y and height.
+    Map(Raster),
+    /// From x and height: a map of one line with square cells.
+    Profile(Raster),
+}
+
+/// Returns the heights of a `table` whose columns are coordinates and height; none for a matrix.
+///
+/// # Errors
+/// [`Defect::Points`] for a narrow table of many lines that form neither a map nor a profile, [`Defect::Value`] for other
+/// tables of coordinates.
+pub(super) fn points(table: &Field) -> Result<Option<Points>, Defect> {
+    let (count, columns) = table.dim();
+    if !(2..=MOST_COLUMNS).contains(&columns) {
+        return Ok(None);
     }
+    let [first, second] = [table.column(0), table.column(1)];
+    if columns == 2 {
+        let is_matrix = count < FEW && alike(first, second);
+        if let (false, Some(profile)) = (is_matrix, profile(table, 1)) {
+            return Ok(Some(Points::Profile(profile)));
+        }
+    }
+    if columns == 3
+        && let Some(map) = raster(table, 2)
+    {
+        return Ok(Some(Points::Map(map)));
+    }
+    let refused = |found: String, expected| Err(Defect::Value { what: "the table", found, expected });
+    if columns == 3 && twice(table) {
+        let found = format!("{count} points, some of them at one place");
+        return refused(found, "one height at each x and y");
+    }
+    if columns > 3 && count >= MANY && raster(table, 2).is_some() {
+        let found = format!("{columns} columns, the first two of them x and y");
+        return refused(found, "x, y and height, or a first line that names the columns");
+    }
+    let points = |what, expected| Err(Defect::Points { count, columns, what, expected, named: false });
+    let is_scan = |along, across| is_line(along) && (is_constant(across) || is_line(across));
+    match columns {
+        3 if count >= FEW && (is_scan(first, second) || is_scan(second, first)) => {
+            points("a line scan with x, y and height", "lines at several y, or x and height alone")
+        }
+        2 if count >= FEW => points("x and height", "evenly spaced x"),
+        3 if count >= FEW => points("points x, y and height on no grid", "a regular grid"),
+        4.. if count >= MANY && count > 3 * columns => {
+            points("points x, y, height and more on no grid", "x, y and height on a regular grid")
+        }
+        _ => Ok(None),
+    }
+}
+
+/// Largest number of columns of a table of points: x, y, height and colours or a normal.
+const MOST_COLUMNS: usize = 7;
+
+/// Number of lines from which a table of three columns is no matrix.
+const FEW: usize = 8;
+
+/// Returns the heights in `column` over the positions in the first one, in rising order, if these are evenly spaced and all
+/// different. With many points up to half of the positions may be missing.
+pub(super) fn profile(table: &Field, column: usize) -> Option<Raster> {
+    let points = table.nrows();
+    let x = even(table.column(0))?;
+    if points < 3 || x.count < points || x.count > if points < FEW { points } else { 2 * points } {
+        return None;
+    }
+    let mut heights = Field::from_elem([x.count, 1], f64::NAN);
+    let mut seen = vec![false; x.count];
+    for point in table.rows() {
+        let at = x.index(point[0]);
+        if std::mem::replace(&mut seen[at], true) {
+            return None;
+        }
+        heights[[at, 0]] = point[column];
+    }
+    Some(Raster { pitch: [x.pitch; 2], heights })
 }
 
 /// Number of rows from which an order is no coincidence.
@@ -102,14 +146,10 @@ fn is_line(column: ArrayView1<'_, f64>) -> bool {
 /// Whether two columns rise uniformly with similar slopes: heights of a plane rather than positions.
 fn alike(one: ArrayView1<'_, f64>, other: ArrayView1<'_, f64>) -> bool {
     let climb = |column: ArrayView1<'_, f64>| column[column.len() - 1] - column[0];
-    is_line(other) && (0.5..=2.0).contains(&(climb(one) / climb(other)))
-}
-
-/// Whether ordered positions, possibly unevenly spaced, stand beside unordered heights.
-fn is_track(positions: ArrayView1<'_, f64>, heights: ArrayView1<'_, f64>) -> bool {
-    let points = positions.len();
-    let steps = positions.iter().zip(positions.iter().skip(1)).filter(|(here, next)| here != next).count();
-    points >= MANY && 2 * steps >= points && is_rising(positions) && !is_rising(heights)
+    is_rising(one)
+        && is_rising(other)
+        && even(other).is_some()
+        && (0.5..=2.0).contains(&(climb(one) / climb(other)))
 }
 
 /// Whether all steps are ≥ 0 or all ≤ 0, and some are not 0.

@@ -12,20 +12,30 @@
 //! ```
 //!
 //! Data types are 0, 1, 2 for unsigned and 4, 5, 6 for signed integers of 8, 16, 32 bits, and 3 and 7 for floating point of
-//! 32 and 64 bits. A missing height is NaN, the largest unsigned or the smallest signed integer; in text it is `BAD`. In
-//! text each record is a line `name = value`, and an asterisk ends each part.
+//! 32 and 64 bits; in text also a word such as `INTEGER`. In text each record is a line `name = value`, a semicolon begins a
+//! comment, and a line with an asterisk ends each part. The first byte may be a capital in BCR files.
+//!
+//! | version | missing height, binary | in text | first profile |
+//! |---|---|---|---|
+//! | ISO | smallest value of the type | `BAD`, or the same number | at y = 0 |
+//! | BCR | largest value of the type, of floating point from 3.4e38 or 1.7e308 | the same number | at the largest y |
+//! | NIST | smallest signed or largest unsigned integer | `BAD` | at y = 0 |
+//!
+//! NaN and `BAD` are missing in every version.
 
 use std::path::Path;
 
+use ndarray::Axis;
+
 use super::binary::{Cursor, Number, Order, Raster, shape};
-use super::header::Header;
+use super::header::{Header, before_comment};
 use super::words::excerpt;
 use super::{Decoded, finite, only, x_fastest};
 use crate::error::{Defect, Result};
 use crate::grid::{Field, Grid};
 use crate::io::atomic;
 
-/// Writes `heights` on `grid` to `path` in binary, as float64, atomically. NaN stays NaN (missing).
+/// Writes `heights` on `grid` to `path` in binary, as float64, atomically. NaN becomes the marker of the standard.
 ///
 /// The version is `ISO-1.0` for sizes up to 65535, and `ISO-2.0` beyond.
 ///
@@ -53,21 +63,85 @@ pub(super) fn write(path: &Path, grid: &Grid, heights: &Field) -> Result<()> {
         }
         file.write_all(&[0, 7, 0])?;
         for height in heights.t() {
-            file.write_all(&height.to_le_bytes())?;
+            let number = if height.is_nan() { f64::MIN } else { *height };
+            file.write_all(&number.to_le_bytes())?;
         }
         Ok(())
     })
 }
 
 /// Possible first bytes of the file.
-pub(super) const MAGICS: [&[u8]; 8] =
-    [b"aISO-1.0", b"bISO-1.0", b"aISO-2.0", b"bISO-2.0", b"aBCR-1.0", b"bBCR-1.0", b"aNIST-1.", b"bNIST-1."];
+pub(super) const MAGICS: [&[u8]; 12] = [
+    b"aISO-1.0",
+    b"bISO-1.0",
+    b"aISO-2.0",
+    b"bISO-2.0",
+    b"aBCR-1.0",
+    b"bBCR-1.0",
+    b"ABCR-1.0",
+    b"BBCR-1.0",
+    b"aBCR-0.0",
+    b"bBCR-0.0",
+    b"aNIST-1.",
+    b"bNIST-1.",
+];
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
-    only("sdf", channel, || if bytes[0] == b'a' { in_text(bytes) } else { in_binary(bytes) })
+    only("sdf", channel, || {
+        let (pitch, mut heights) =
+            if bytes[0].eq_ignore_ascii_case(&b'a') { in_text(bytes) } else { in_binary(bytes) }?;
+        if Version::of(bytes) == Version::Bcr {
+            heights.invert_axis(Axis(1));
+        }
+        Ok((pitch, heights.as_standard_layout().into_owned()))
+    })
 }
 
 type Outcome<T> = std::result::Result<T, Defect>;
+
+/// What determines the marker of missing heights and the order of profiles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Version {
+    Iso,
+    Bcr,
+    Nist,
+}
+
+impl Version {
+    fn of(bytes: &[u8]) -> Self {
+        match bytes[1] {
+            b'I' => Self::Iso,
+            b'B' => Self::Bcr,
+            _ => Self::Nist,
+        }
+    }
+
+    /// Whether `number`, stored as `kind`, marks a missing height.
+    fn is_missing(self, kind: Number, number: f64) -> bool {
+        let [smallest, largest] = match kind {
+            Number::Uint8 => [0.0, 255.0],
+            Number::Uint16 => [0.0, 65_535.0],
+            Number::Uint32 => [0.0, 4_294_967_295.0],
+            Number::Int8 => [-128.0, 127.0],
+            Number::Int16 => [-32_768.0, 32_767.0],
+            Number::Int32 => [-2_147_483_648.0, 2_147_483_647.0],
+            // Programs write the largest numbers with few digits.
+            Number::Float32 => [-f64::from(3.4e38_f32), f64::from(3.4e38_f32)],
+            _ => [-1.7e308, 1.7e308],
+        };
+        match self {
+            Self::Iso => number <= smallest,
+            Self::Bcr => number >= largest,
+            Self::Nist => {
+                if smallest == 0.0 {
+                    number >= largest
+                } else {
+                    number <= smallest
+                }
+            }
+        }
+    }
+}
 
 const LINE: usize = 42;
 
@@ -87,41 +161,35 @@ fn in_binary(bytes: &[u8]) -> Outcome<([f64; 2], Field)> {
     let size = shape[0] * shape[1] * number.bytes();
     let rest = header.rest();
     let data = if rest.len() == size + 8 && bytes.starts_with(b"bISO-1.0") { &rest[8..] } else { rest };
-    let missing = match number {
-        Number::Uint8 => 255.0,
-        Number::Uint16 => 65_535.0,
-        Number::Uint32 => 4_294_967_295.0,
-        Number::Int8 => -128.0,
-        Number::Int16 => -32_768.0,
-        Number::Int32 => -2_147_483_648.0,
-        _ => f64::NAN,
-    };
+    let version = Version::of(bytes);
     let raster = Raster::new(shape, number, Order::Little, data)?;
-    Ok(([dx, dy], raster.heights(|number| if number == missing { f64::NAN } else { number * dz })))
+    let height = |stored| if version.is_missing(number, stored) { f64::NAN } else { stored * dz };
+    Ok(([dx, dy], raster.heights(height)))
 }
 
 fn in_text(bytes: &[u8]) -> Outcome<([f64; 2], Field)> {
-    let mut parts = bytes.split(|byte| *byte == b'*');
-    let text = String::from_utf8_lossy(parts.next().unwrap_or_default());
-    let header = Header::of(&text, '=');
+    // Lines end with CR LF, LF or CR.
+    let text = String::from_utf8_lossy(bytes).replace("\r\n", "\n").replace('\r', "\n");
+    let ends_part = |line: &str| before_comment(line) == "*";
+    let parts: Vec<&str> = text.split_inclusive('\n').collect();
+    let end = parts.iter().position(|line| ends_part(line));
+    let end = end.ok_or(Defect::Missing("asterisk that ends the header"))?;
+    let header_text = parts[..end].concat();
+    let header = Header::of(&header_text, '=');
     let shape = shape([header.size("NumPoints")?, header.size("NumProfiles")?])?;
     let dz = header.number("Zscale")?;
-    vet(header.get("Compression").unwrap_or("0"), header.get("DataType").unwrap_or("7"), dz)?;
+    let kind = vet(header.get("Compression").unwrap_or("0"), header.get("DataType").unwrap_or("7"), dz)?;
+    let version = Version::of(bytes);
 
-    let data = parts.next().ok_or(Defect::Missing("asterisk that ends the header"))?;
-    let first_line = 1 + text.matches('\n').count();
     let mut heights = Vec::new();
-    for (index, line) in data.split(|byte| *byte == b'\n').enumerate() {
-        for token in line.split(u8::is_ascii_whitespace).filter(|token| !token.is_empty()) {
-            let number = std::str::from_utf8(token).ok().and_then(|token| match token {
-                "BAD" => Some(f64::NAN),
-                _ => token.parse::<f64>().ok(),
-            });
-            let unreadable = || Defect::NotANumber {
-                line: first_line + index,
-                token: excerpt(&String::from_utf8_lossy(token)),
-            };
-            heights.push(finite(number.ok_or_else(unreadable)? * dz));
+    let lines = parts[end + 1..].iter().take_while(|line| !ends_part(line));
+    for (index, line) in lines.enumerate() {
+        for token in before_comment(line).split_ascii_whitespace() {
+            let number =
+                if token.eq_ignore_ascii_case("bad") { Some(f64::NAN) } else { token.parse::<f64>().ok() };
+            let number =
+                number.ok_or_else(|| Defect::NotANumber { line: end + 2 + index, token: excerpt(token) })?;
+            heights.push(if version.is_missing(kind, number) { f64::NAN } else { finite(number * dz) });
         }
     }
     if heights.len() != shape[0] * shape[1] {
@@ -135,22 +203,25 @@ fn in_text(bytes: &[u8]) -> Outcome<([f64; 2], Field)> {
 
 /// Returns the kind of number, if heights with these header entries can be read.
 fn vet(compression: &str, kind: &str, dz: f64) -> Outcome<Number> {
-    if compression != "0" {
+    if !["0", "none", "null"].contains(&compression.to_ascii_lowercase().as_str()) {
         let found = compression.to_owned();
         return Err(Defect::Value { what: "Compression", found, expected: "0, none" });
     }
     if !dz.is_finite() || dz == 0.0 {
         return Err(Defect::Value { what: "Zscale", found: dz.to_string(), expected: "a length in metres" });
     }
-    Ok(match kind {
-        "0" => Number::Uint8,
-        "1" => Number::Uint16,
-        "2" => Number::Uint32,
-        "3" => Number::Float32,
-        "4" => Number::Int8,
-        "5" => Number::Int16,
-        "6" => Number::Int32,
-        "7" => Number::Float64,
-        _ => return Err(Defect::Value { what: "DataType", found: kind.to_owned(), expected: "0 to 7" }),
+    Ok(match kind.to_ascii_lowercase().as_str() {
+        "0" | "uint8" | "uchar" => Number::Uint8,
+        "1" | "uint16" | "uinteger" => Number::Uint16,
+        "2" | "uint32" | "ulongint" => Number::Uint32,
+        "3" | "binary32" | "real32" | "float32" | "float" => Number::Float32,
+        "4" | "int8" | "char" => Number::Int8,
+        "5" | "int16" | "integer" => Number::Int16,
+        "6" | "int32" | "longint" => Number::Int32,
+        "7" | "binary64" | "real64" | "float64" | "double" => Number::Float64,
+        _ => {
+            let expected = "0 to 7, or the name of a type";
+            return Err(Defect::Value { what: "DataType", found: excerpt(kind), expected });
+        }
     })
 }

@@ -39,6 +39,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
         pitch: usable_pitch(object.pitch),
         heights,
         unit: LengthUnit::Known,
+        lines: None,
     })
 }
 

@@ -8,16 +8,21 @@ use super::*;
 use crate::grid::Grid;
 use crate::surface::Topography;
 
+mod arrays;
 mod bombs;
 mod containers;
 mod csv;
 mod files;
+mod grids;
 mod gwy;
 mod headed;
 mod instruments;
+mod measured_files;
+mod missing;
 mod points;
 mod probes;
 mod sdf;
+mod text;
 mod tiff;
 
 /// Calls [`ReadOptions::scan`].
@@ -31,109 +36,11 @@ fn from_bytes(name: &Path, bytes: &[u8], channel: Option<&str>, unit: Option<f64
 }
 
 fn options(channel: Option<&str>, unit: Option<f64>) -> ReadOptions {
-    ReadOptions { channel: channel.map(str::to_owned), unit, pitch: None }
+    ReadOptions { channel: channel.map(str::to_owned), unit, ..ReadOptions::default() }
 }
 
-/// Path of a measured file, which is not part of the repository; without it a test is skipped, but not in CI.
-fn measured(name: &str) -> Option<PathBuf> {
-    let folder = match std::env::var_os("ASPERITY_TOPOGRAPHIES") {
-        Some(folder) => PathBuf::from(folder),
-        None => Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/topographies"),
-    };
-    let file = folder.join(name);
-    assert!(file.exists() || std::env::var_os("CI").is_none(), "{} is missing", file.display());
-    file.exists().then_some(file)
-}
-
-/// Compares the file with the heights read by another program (`expected.json`), given in `unit`.
-#[track_caller]
-fn assert_as_expected(name: &str, format: &str, unit: f64) {
-    let (Some(path), Some(expected)) = (measured(name), measured("expected.json")) else { return };
-    let expected: serde_json::Value = serde_json::from_slice(&std::fs::read(expected).unwrap()).unwrap();
-    let expected = &expected[name];
-    let number = |value: &serde_json::Value| value.as_f64().unwrap();
-    let scan = read(&path, None, None).unwrap();
-    assert_eq!((scan.format, &scan.channels[0]), (format, &scan.channel));
-    let (nx, ny) = scan.heights.dim();
-    // A profile is a map of one line.
-    let shape = if ny == 1 { serde_json::json!([nx]) } else { serde_json::json!([nx, ny]) };
-    assert_eq!(shape, expected["shape"]);
-    if let Some(pitch) = scan.pitch {
-        for ((pitch, n), size) in
-            pitch.iter().zip([nx, ny]).zip(expected["physical_sizes_in_file_unit"].as_array().unwrap())
-        {
-            assert_relative_eq!(pitch * n as f64, number(size) * unit, max_relative = 1e-12);
-        }
-    }
-    let there: Vec<f64> = scan.heights.iter().copied().filter(|height| !height.is_nan()).collect();
-    assert_eq!(scan.heights.len() - there.len(), expected["undefined"].as_u64().unwrap() as usize);
-    let least = there.iter().copied().fold(f64::INFINITY, f64::min);
-    let largest = there.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let mean = there.iter().sum::<f64>() / there.len() as f64;
-    let scale = largest.abs().max(least.abs());
-    for (found, key) in [(least, "min"), (largest, "max"), (mean, "mean")] {
-        assert_relative_eq!(
-            found,
-            number(&expected[key]) * unit,
-            epsilon = 1e-12 * scale,
-            max_relative = 1e-12
-        );
-    }
-    if expected["corners"].is_null() {
-        return;
-    }
-    let corners =
-        [((0, 0), "0,0"), ((nx - 1, 0), "-1,0"), ((0, ny - 1), "0,-1"), ((nx - 1, ny - 1), "-1,-1")];
-    for (at, key) in corners.into_iter().chain([((1, 0), "1,0"), ((0, 1), "0,1")]) {
-        let found = scan.heights[at];
-        match &expected["corners"][format!("h[{key}]")] {
-            serde_json::Value::Null => assert!(found.is_nan(), "h[{key}] = {found}, expected none"),
-            corner => assert_relative_eq!(found, number(corner) * unit, max_relative = 1e-12),
-        }
-    }
-}
-
-#[test]
-fn an_x3p_by_mountainsmap_is_read_as_others_read_it() {
-    assert_as_expected("x3p-2.x3p", "x3p", 1.0);
-}
-
-#[test]
-fn a_sur_by_mountainsmap_is_read_as_others_read_it() {
-    assert_as_expected("sur-2.sur", "sur", 1e-3);
-}
-
-#[test]
-fn the_pits_of_a_measured_map_are_the_first_spikes_to_go() {
-    let Some(path) = measured("sur-2.sur") else { return };
-    let scan = read(&path, None, None).unwrap();
-    let grid = Grid::new([563, 484], scan.pitch.unwrap()).unwrap();
-    let measured = Topography::new(grid, scan.heights).unwrap();
-    let cleared = measured.clone().despike(8.0).unwrap();
-    // 98 samples in a few pits, down to 1.25 µm, of a surface whose other samples lie within 0.1 µm of their mean.
-    let middle = measured.mean();
-    let deep = |map: &Topography| map.heights().iter().filter(|z| **z < middle - 1e-7).count();
-    assert_eq!([deep(&measured), deep(&cleared)], [98, 0]);
-    assert!(cleared.undefined() - measured.undefined() < 3000);
-    let sku = |map: &Topography| {
-        let middle = map.mean();
-        map.heights().iter().filter(|z| !z.is_nan()).fold([0.0; 2], |[m2, m4], z| {
-            let height = z - middle;
-            [m2 + height.powi(2), m4 + height.powi(4)]
-        })
-    };
-    let [m2, m4] = sku(&cleared);
-    assert!(m4 * (cleared.heights().len() - cleared.undefined()) as f64 / (m2 * m2) < 3.0);
-}
-
-#[test]
-fn an_npy_is_read_as_numpy_reads_it() {
-    assert_as_expected("example-2d.npy", "npy", 1.0);
-}
-
-#[test]
-fn a_table_of_points_is_read_as_others_read_it() {
-    assert_as_expected("xyz-1.txt", "xyz", 1.0);
+fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
+    super::decode(bytes, &options(channel, None))
 }
 
 #[test]
@@ -465,7 +372,7 @@ fn a_damaged_sur_is_an_error() {
 
 #[test]
 fn a_matrix_is_read_whatever_separates_it() {
-    let expected = ndarray::array![[1.5, -2e-6, 3.0], [4.0, f64::NAN, 6.25]];
+    let expected = ndarray::array![[1.5, 4.0], [-2e-6, f64::NAN], [3.0, 6.25]];
     for text in [
         "1.5 -2e-6 3\n4 nan 6.25\n",
         "  1.5\t-2e-6   3 \r\n  4 NaN 6.25",
@@ -480,13 +387,14 @@ fn a_matrix_is_read_whatever_separates_it() {
     ] {
         let scan = decode(text.as_bytes(), None).unwrap_or_else(|fault| panic!("{text:?}: {fault:?}"));
         assert_eq!((scan.format, scan.channel.as_str(), scan.pitch), ("text", "height", None));
+        assert_eq!(scan.lines, Some(Axis::X));
         assert_same(&scan.heights, &expected);
     }
     // µ in Latin-1 in a comment.
     assert_same(&decode(b"# in \xb5m\n1\n", None).unwrap().heights, &ndarray::array![[1.0]]);
     assert_same(
         &decode(b"1;2;\n3;4;5\n", None).unwrap().heights,
-        &ndarray::array![[1.0, 2.0, f64::NAN], [3.0, 4.0, 5.0]],
+        &ndarray::array![[1.0, 3.0], [2.0, 4.0], [f64::NAN, 5.0]],
     );
 }
 
@@ -495,7 +403,7 @@ fn a_gzipped_matrix_is_read_as_a_plain_one() {
     let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::default());
     encoder.write_all(b"1 2\n3 4\n").unwrap();
     let packed = encoder.finish().unwrap();
-    assert_same(&decode(&packed, None).unwrap().heights, &ndarray::array![[1.0, 2.0], [3.0, 4.0]]);
+    assert_same(&decode(&packed, None).unwrap().heights, &ndarray::array![[1.0, 3.0], [2.0, 4.0]]);
     assert!(defect(&packed[..packed.len() - 6]).starts_with("gzip: "));
 }
 
@@ -507,7 +415,7 @@ fn a_table_of_points_is_a_grid_in_any_order() {
     assert_relative_eq!(scan.pitch.unwrap()[0], 0.3335, max_relative = 1e-12);
     assert_eq!(scan.pitch.unwrap()[1], 1.0);
     // A repeated or missing point: a matrix of three columns.
-    assert_eq!(decode(b"0 0 1\n0 1 2\n1 0 3\n1 0 4\n", None).unwrap().heights.dim(), (4, 3));
+    assert_eq!(decode(b"0 0 1\n0 1 2\n1 0 3\n1 0 4\n", None).unwrap().heights.dim(), (3, 4));
 }
 
 #[test]
@@ -598,7 +506,20 @@ fn samples() -> Vec<Vec<u8>> {
     samples.extend(headed::samples());
     samples.push(tiff::sample());
     samples.push(csv::SAMPLE.as_bytes().to_vec());
+    samples.push(text::WORDS.as_bytes().to_vec());
+    samples.extend(made(&["mat", "npz", "gsf", "asc"]));
     samples
+}
+
+/// Returns the files of these corpora, which are of other programs.
+fn made(formats: &[&str]) -> Vec<Vec<u8>> {
+    let files = |format: &&str| std::fs::read_dir(corpus(format, "")).unwrap();
+    formats.iter().flat_map(files).map(|file| std::fs::read(file.unwrap().path()).unwrap()).collect()
+}
+
+/// Path of a file in the corpus of a format.
+fn corpus(format: &str, name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/corpus").join(format).join(name)
 }
 
 #[test]
@@ -633,7 +554,7 @@ fn a_damaged_file_is_answered_and_never_a_panic() {
 #[test]
 fn random_bytes_are_answered_and_never_a_panic() {
     arbtest(|u| {
-        let magics: [&[u8]; 24] = [
+        let magics: [&[u8]; 29] = [
             b"",
             b"PK\x03\x04",
             b"\x93NUMPY\x01\0",
@@ -658,6 +579,11 @@ fn random_bytes_are_answered_and_never_a_panic() {
             b"CDF\x01\0\0\0\0\0\0\0\x0a\0\0\0\x02",
             b"\x89HDF\r\n\x1a\n\0\0\0\0",
             b"\xff\xfe",
+            b"Gwyddion Simple Field 1.0\nXRes = 1\nYRes = 1\n",
+            b"ncols 2\nnrows 2\ncellsize 1\n",
+            b"Unit,um\nPitch,1\n1,2\n",
+            b"MATLAB 5.0 MAT-file",
+            b"x,z\n0,1\n1,2\n",
         ];
         let mut bytes = u.choose(&magics)?.to_vec();
         bytes.extend(u.arbitrary::<Vec<u8>>()?);

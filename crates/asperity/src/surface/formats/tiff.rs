@@ -2,12 +2,14 @@
 //!
 //! Format: "TIFF, Revision 6.0" and BigTIFF, plain or compressed by LZW or deflate. Lines run along x. Floating-point
 //! numbers are heights in metres. Integers are levels, whose height is not in the file. There is no pitch, because
-//! resolutions are those of a print. Each page is a channel.
+//! resolutions are those of a print. Each page is a channel. A missing height is NaN, or the number that the tag of GDAL
+//! (42113) gives.
 
 use std::io::Cursor;
 
 use tiff::ColorType;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::tags::Tag;
 
 use super::binary::shape;
 use super::{Decoded, Fault, LengthUnit, ONLY_CHANNEL, Scan, choose, finite, x_fastest};
@@ -31,7 +33,8 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     };
     let page = choose(&channels, channel)?;
     let (heights, unit) = heights(bytes, page).map_err(fault)?;
-    Ok(Scan { format: "tiff", channel: channels[page].clone(), channels, pitch: None, heights, unit })
+    let channel = channels[page].clone();
+    Ok(Scan { format: "tiff", channel, channels, pitch: None, heights, unit, lines: None })
 }
 
 type File<'a> = Decoder<Cursor<&'a [u8]>>;
@@ -91,26 +94,29 @@ fn heights(bytes: &[u8], page: usize) -> Result<(Field, LengthUnit), Defect> {
         ColorType::Gray(bits @ (8 | 16 | 32 | 64)) => bits,
         colour => return Err(unlike_heights(format!("{colour:?}"))),
     };
+    let missing = file.get_tag_ascii_string(Tag::GdalNodata).ok();
+    let missing = missing.and_then(|text| text.trim_matches(['\0', ' ']).parse().ok()).unwrap_or(f64::NAN);
     match file.read_image().map_err(container)? {
-        DecodingResult::F32(pixels) => Ok((turned(shape, &pixels)?, LengthUnit::Metres)),
-        DecodingResult::F64(pixels) => Ok((turned(shape, &pixels)?, LengthUnit::Metres)),
-        DecodingResult::U8(pixels) => Ok((turned(shape, &pixels)?, LengthUnit::Levels)),
-        DecodingResult::U16(pixels) => Ok((turned(shape, &pixels)?, LengthUnit::Levels)),
-        DecodingResult::U32(pixels) => Ok((turned(shape, &pixels)?, LengthUnit::Levels)),
-        DecodingResult::I8(pixels) => Ok((turned(shape, &pixels)?, LengthUnit::Levels)),
-        DecodingResult::I16(pixels) => Ok((turned(shape, &pixels)?, LengthUnit::Levels)),
-        DecodingResult::I32(pixels) => Ok((turned(shape, &pixels)?, LengthUnit::Levels)),
+        DecodingResult::F32(pixels) => Ok((turned(shape, &pixels, missing)?, LengthUnit::Metres)),
+        DecodingResult::F64(pixels) => Ok((turned(shape, &pixels, missing)?, LengthUnit::Metres)),
+        DecodingResult::U8(pixels) => Ok((turned(shape, &pixels, missing)?, LengthUnit::Levels)),
+        DecodingResult::U16(pixels) => Ok((turned(shape, &pixels, missing)?, LengthUnit::Levels)),
+        DecodingResult::U32(pixels) => Ok((turned(shape, &pixels, missing)?, LengthUnit::Levels)),
+        DecodingResult::I8(pixels) => Ok((turned(shape, &pixels, missing)?, LengthUnit::Levels)),
+        DecodingResult::I16(pixels) => Ok((turned(shape, &pixels, missing)?, LengthUnit::Levels)),
+        DecodingResult::I32(pixels) => Ok((turned(shape, &pixels, missing)?, LengthUnit::Levels)),
         _ => Err(unlike_heights(format!("numbers of {bits} bits"))),
     }
 }
 
-fn turned<T: Copy + Into<f64>>(shape: [usize; 2], pixels: &[T]) -> Result<Field, Defect> {
+fn turned<T: Copy + Into<f64>>(shape: [usize; 2], pixels: &[T], missing: f64) -> Result<Field, Defect> {
     if pixels.len() != shape[0] * shape[1] {
         return Err(Defect::Missing("height for each pixel"));
     }
     Ok(x_fastest(shape, |first, heights| {
         for (height, pixel) in heights.iter_mut().zip(&pixels[first..]) {
-            *height = finite((*pixel).into());
+            let pixel = (*pixel).into();
+            *height = if pixel == missing { f64::NAN } else { finite(pixel) };
         }
     }))
 }

@@ -9,7 +9,7 @@ pub(super) fn unit_of_length(unit: &str) -> Result<Metre, Defect> {
         "m" | "metre" | "metres" | "meter" | "meters" => Ok(1.0),
         "cm" => Ok(1e-2),
         "mm" => Ok(1e-3),
-        "µm" | "μm" | "um" | "~m" => Ok(1e-6),
+        "µm" | "μm" | "um" | "~m" | "micron" | "microns" => Ok(1e-6),
         "nm" => Ok(1e-9),
         "pm" => Ok(1e-12),
         "Å" | "A" => Ok(1e-10),

@@ -159,6 +159,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
         pitch: usable_pitch(header.increments),
         heights,
         unit: LengthUnit::Known,
+        lines: None,
     })
 }
 

@@ -43,26 +43,28 @@ pub(super) const RULES: &[Rule] = &[
         },
     },
     Rule {
-        this: "wear, a film in an overlap",
+        this: "a film that grows in an overlap",
         with: "no `speed`",
-        message: "missing key 'speed' in [motion]: wear and films need the time of a pass",
+        message: "missing key 'speed' in [motion]: films grow with time",
         hint: "for example `speed = \"0.5 m/s\"` in [motion]",
         at: "motion",
-        example: &[WEARS, AT_ANY_SPEED],
+        example: &[GROWS, AT_ANY_SPEED, WARM],
         broken: |tables| {
-            tables.overlap().filter(|motion| tables.case.runs_in() && motion.speed.is_none())?;
+            tables.film_that_grows()?;
+            tables.overlap().filter(|motion| motion.speed.is_none())?;
             tables.at("motion")
         },
     },
     Rule {
-        this: "wear, a film in a shift",
+        this: "a film that grows in a shift",
         with: "no speeds",
-        message: "missing key 'speed_upper' in [motion]: wear and films need the time of a pass",
+        message: "missing key 'speed_upper' in [motion]: films grow with time",
         hint: "for example `speed_upper = \"0.5 m/s\"` in [motion]",
         at: "motion",
-        example: &[WEARS, r#"motion = { strategy = "shift" }"#],
+        example: &[GROWS, r#"motion = { strategy = "shift" }"#, WARM],
         broken: |tables| {
-            tables.shift().filter(|_| tables.case.runs_in())?;
+            tables.film_that_grows()?;
+            tables.shift()?;
             let given = tables.first("motion", &["speed_upper", "speed_lower"]);
             tables.at("motion").filter(|_| given.is_none())
         },
@@ -171,7 +173,7 @@ pub(super) const RULES: &[Rule] = &[
         this: "`max_jump` above 1",
         with: "a one-way shift with a ratio of speeds other than 0 or 1",
         message: "extrapolation needs passes that repeat: at these speeds the bodies meet at other places in each pass",
-        hint: "set `max_jump = 1`, one speed to 0, both speeds equal, or `path = \"reciprocating\"`",
+        hint: "set `max_jump = 1`, one speed to 0, both speeds equal, or `path = \"reciprocating\"`; docs/models.md compares these",
         at: "acceleration",
         example: &[
             WEARS,

@@ -1,6 +1,7 @@
 //! The keys of `[adhesion]`.
 
 use super::Bounds::AboveZero;
+use super::exists;
 use super::typed::{Typed, choice, defaulted, other, quantity, required, section};
 use crate::adhesion::Potential;
 use crate::motion::AdhesionHistory;
@@ -10,7 +11,7 @@ use crate::units::Dimension;
 section! { &["adhesion"], "";
     WORK: Typed<f64> = required(
         "work",
-        quantity(Dimension::SurfaceEnergy, AboveZero),
+        quantity(Dimension::SurfaceEnergy, AboveZero).exists(exists::ADHESION),
         "\"50 mJ/m2\"",
         "work of adhesion: the energy that separates an area of flat surfaces",
     );
@@ -18,7 +19,8 @@ section! { &["adhesion"], "";
         "range",
         other(Some(Dimension::Length), "length > 0, or `\"grid\"`: the shortest range that the grid resolves", |_, entry| {
             read::range(entry)
-        }),
+        })
+        .exists(exists::ATTRACTION),
         "\"2 nm\"",
         "range of the attraction, the gap at which the exponential tension has fallen to 1/e",
     );

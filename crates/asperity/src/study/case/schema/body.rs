@@ -2,6 +2,7 @@
 
 use super::Bounds::{AboveZero, AboveZeroOrInfinite, Between};
 use super::Fallback::{Absent, Required};
+use super::exists;
 use super::typed::{
     LENGTH, Nested, Optional, PRESSURE, Typed, Value, choice, number, optional, other, quantity, required,
     section, table,
@@ -12,7 +13,7 @@ use crate::units::Dimension;
 const RATIO: Value<f64> = number(Between { least: 0.0, most: 0.5, open: [false, false] });
 
 /// An electrical resistivity.
-const RESISTANCE: Value<f64> = quantity(Dimension::Resistivity, AboveZero);
+const RESISTANCE: Value<f64> = quantity(Dimension::Resistivity, AboveZero).exists(exists::RESISTIVITY);
 
 /// `[lower]` and `[upper]`.
 pub(in crate::study) mod both {
@@ -23,7 +24,7 @@ pub(in crate::study) mod both {
     section! { &["lower", "upper"], "";
         YOUNG: Typed<f64> = required(
             "young",
-            quantity(Dimension::Pressure, AboveZeroOrInfinite("a rigid body")),
+            quantity(Dimension::Pressure, AboveZeroOrInfinite("a rigid body")).exists(exists::YOUNG),
             "\"210 GPa\"",
             "Young's modulus; for a coated body, the modulus below the coating; at most one uncoated body may be rigid",
         );
@@ -35,7 +36,8 @@ pub(in crate::study) mod both {
                 Some(Dimension::Pressure),
                 "pressure > 0, or `inf`: an elastic body, or a table: a [map](#a-map-of-the-hardness)",
                 |_, entry| read::hardness(entry),
-            ),
+            )
+            .exists(exists::HARDNESS),
             "inf",
             "\"4 GPa\"",
             "largest pressure of the body, or a map of it",
@@ -49,7 +51,8 @@ pub(in crate::study) mod both {
             table("plasticity", Absent("elastic"), "plastic deformation below the surface, see [below](#plasticity)");
         CONDUCTIVITY: Optional<f64> = optional(
             "conductivity",
-            quantity(Dimension::Conductivity, AboveZeroOrInfinite("no resistance, only for [conductance]")),
+            quantity(Dimension::Conductivity, AboveZeroOrInfinite("no resistance, only for [conductance]"))
+                .exists(exists::CONDUCTIVITY),
             "unknown",
             "\"46 W/(m K)\"",
             "thermal conductivity, for the flash temperature and for [conductance]; give it for both bodies",
@@ -63,14 +66,14 @@ pub(in crate::study) mod both {
         );
         HEAT_CAPACITY: Optional<f64> = optional(
             "heat_capacity",
-            quantity(Dimension::HeatCapacity, AboveZero),
+            quantity(Dimension::HeatCapacity, AboveZero).exists(exists::HEAT_CAPACITY),
             "unknown",
             "\"460 J/(kg K)\"",
             "heat capacity; required with `conductivity`",
         );
         DENSITY: Optional<f64> = optional(
             "density",
-            quantity(Dimension::Density, AboveZero),
+            quantity(Dimension::Density, AboveZero).exists(exists::DENSITY),
             "unknown",
             "\"7850 kg/m3\"",
             "density; required with `conductivity`",
@@ -99,12 +102,12 @@ pub(in crate::study) mod coating {
     use super::*;
 
     section! { &["lower.coating", "upper.coating"], "";
-        THICKNESS: Typed<f64> = required("thickness", LENGTH, "\"2 um\"", "thickness of the layer");
-        YOUNG: Typed<f64> = required("young", PRESSURE, "\"300 GPa\"", "its Young's modulus");
+        THICKNESS: Typed<f64> = required("thickness", LENGTH.exists(exists::LAYER), "\"2 um\"", "thickness of the layer");
+        YOUNG: Typed<f64> = required("young", PRESSURE.exists(exists::YOUNG), "\"300 GPa\"", "its Young's modulus");
         POISSON: Typed<f64> = required("poisson", RATIO, "0.3", "its Poisson's ratio");
         CONDUCTIVITY: Optional<f64> = optional(
             "conductivity",
-            quantity(Dimension::Conductivity, AboveZero),
+            quantity(Dimension::Conductivity, AboveZero).exists(exists::CONDUCTIVITY),
             "unknown",
             "\"20 W/(m K)\"",
             "its thermal conductivity, for [conductance]",

@@ -1,6 +1,8 @@
 //! Keys of a hardness map.
 
+use super::exists;
 use super::typed::{Optional, TEXT, Typed, optional, other, required, section};
+use crate::surface::Axis;
 use crate::units::Dimension;
 
 /// A map of the hardness.
@@ -12,17 +14,20 @@ pub(in crate::study) mod map {
             "file",
             TEXT,
             "\"hardness.npy\"",
-            "file of numbers (npy, csv, text, tiff or HDF5), relative to the case file",
+            "file of numbers (npy, npz, mat, csv, text, tiff or HDF5), relative to the case file",
         );
         CHANNEL: Optional<String> =
             optional("channel", TEXT, "the first", "\"hardness\"", "channel, if the file has several");
         UNIT: Typed<f64> = super::super::typed::defaulted(
             "unit",
-            other(Some(Dimension::Pressure), "unit, or pressure > 0", |_, entry| entry.unit(Dimension::Pressure)),
+            other(Some(Dimension::Pressure), "unit, or pressure > 0", |_, entry| entry.unit(Dimension::Pressure))
+                .exists(exists::UNIT),
             "\"Pa\"",
             "\"GPa\"",
             "unit of the numbers in the file",
         );
+        LINES: Optional<Axis> = super::super::topography::file::LINES;
+        SKIP: Optional<usize> = super::super::topography::file::SKIP;
     }
 }
 

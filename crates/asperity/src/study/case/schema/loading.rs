@@ -1,6 +1,7 @@
 //! Keys of a contact, its friction and its history.
 
 use super::Bounds::{AboveZero, AboveZeroOrInfinite, Any, FromZero, FromZeroOrInfinite};
+use super::exists;
 use super::typed::{
     FRACTION, Optional, PRESSURE, Typed, Value, choice, count, defaulted, number, number_named, optional,
     other, quantity, required, section, vector,
@@ -9,9 +10,9 @@ use super::values::contact as read;
 use super::values::sweep as list;
 use crate::units::Dimension;
 
-const FORCE: Value<f64> = quantity(Dimension::Force, AboveZero);
-const SIGNED_FORCE: Value<f64> = quantity(Dimension::Force, Any);
-const SIGNED_LENGTH: Value<f64> = quantity(Dimension::Length, Any);
+const FORCE: Value<f64> = quantity(Dimension::Force, AboveZero).exists(exists::LOAD);
+const SIGNED_FORCE: Value<f64> = quantity(Dimension::Force, Any).exists(exists::LOAD);
+const SIGNED_LENGTH: Value<f64> = quantity(Dimension::Length, Any).exists(exists::LENGTH);
 const CREEPAGE: Value<f64> = number_named("a finite number", Any);
 
 const ONE: &str = "exactly one of the first six";
@@ -29,7 +30,7 @@ const LOAD: Optional<f64> = optional(
 );
 const MEAN_PRESSURE: Optional<f64> = optional(
     "mean_pressure",
-    PRESSURE,
+    PRESSURE.exists(exists::LOAD),
     ONE,
     "\"1 MPa\"",
     "load over the apparent area, the area of all cells at full overlap; during an overlap motion half of them overlap on average, so \
@@ -53,7 +54,7 @@ const SIGNED_LOAD: Optional<f64> = optional(
 );
 const SIGNED_MEAN_PRESSURE: Optional<f64> = optional(
     "mean_pressure",
-    quantity(Dimension::Pressure, Any),
+    quantity(Dimension::Pressure, Any).exists(exists::LOAD),
     "unchanged",
     "\"1 MPa\"",
     "as in [contact]; at most one of the three; with [adhesion] it may be 0 or pull, below 0",
@@ -72,21 +73,24 @@ pub(in crate::study) mod contact {
         APPROACH: Optional<f64> = super::APPROACH;
         LOADS: Optional<Vec<f64>> = optional(
             "loads",
-            other(Some(Dimension::Force), SEVERAL, |_, entry| list::loads(entry)),
+            other(Some(Dimension::Force), SEVERAL, |_, entry| list::loads(entry))
+                .exists(exists::LOAD),
             ONE,
             "[\"0.1 N\", \"1 N\"]",
             "several loads, one after the other",
         );
         MEAN_PRESSURES: Optional<Vec<f64>> = optional(
             "mean_pressures",
-            other(Some(Dimension::Pressure), SEVERAL, |_, entry| list::mean_pressures(entry)),
+            other(Some(Dimension::Pressure), SEVERAL, |_, entry| list::mean_pressures(entry))
+                .exists(exists::LOAD),
             ONE,
             "[\"1 MPa\", \"10 MPa\"]",
             "several mean pressures, one after the other",
         );
         APPROACHES: Optional<Vec<f64>> = optional(
             "approaches",
-            other(Some(Dimension::Length), SEVERAL, |_, entry| list::approaches(entry)),
+            other(Some(Dimension::Length), SEVERAL, |_, entry| list::approaches(entry))
+                .exists(exists::LENGTH),
             ONE,
             "[\"10 nm\", \"20 nm\"]",
             "several approaches, one after the other",
@@ -145,7 +149,7 @@ pub(in crate::study) mod friction {
 
     section! { &["friction"], "";
         COEFFICIENT: Typed<f64> =
-            required("coefficient", number(FromZeroOrInfinite("nothing slips")), "0.3", "coefficient of friction μ");
+            required("coefficient", number(FromZeroOrInfinite("nothing slips")).exists(exists::FRICTION), "0.3", "coefficient of friction μ");
         COUPLING: Typed<Coupling> = defaulted(
             "coupling",
             choice::<Coupling>(),
@@ -156,7 +160,7 @@ pub(in crate::study) mod friction {
         );
         SHEAR_STRENGTH: Typed<f64> = defaulted(
             "shear_strength",
-            quantity(Dimension::Pressure, AboveZeroOrInfinite("no limit")),
+            quantity(Dimension::Pressure, AboveZeroOrInfinite("no limit")).exists(exists::SHEAR_STRENGTH),
             "inf",
             "\"20 MPa\"",
             "τ, the largest shear stress of the interface under any pressure, for example of a boundary film",

@@ -5,6 +5,7 @@
 
 pub(in crate::study) mod adhesion;
 pub(in crate::study) mod body;
+mod exists;
 pub(in crate::study) mod loading;
 pub(in crate::study) mod hardness;
 pub(in crate::study) mod list;
@@ -20,6 +21,8 @@ pub(in crate::study) mod values;
 pub(in crate::study) mod running_in;
 
 use std::fmt;
+
+pub use exists::Exists;
 
 use crate::units::{Dimension, Range};
 
@@ -47,6 +50,8 @@ pub struct Key {
     pub example: &'static str,
     /// The meaning, in Markdown.
     pub text: &'static str,
+    /// What exists of the quantity; a value outside is accepted with a warning.
+    pub exists: Exists,
 }
 
 /// The accepted values of a key. Its text is, for example, `length > 0`.

@@ -1,13 +1,14 @@
 //! Keys of moving bodies.
 
 use super::Bounds::{AboveZero, Any};
+use super::exists;
 use super::typed::{
     FRACTION, LENGTH, Optional, SEED, Typed, Value, choice, count, defaulted, optional, other, quantity,
     required, section,
 };
 use crate::units::Dimension;
 
-const SPEED: Value<f64> = quantity(Dimension::Speed, AboveZero);
+const SPEED: Value<f64> = quantity(Dimension::Speed, AboveZero).exists(exists::SPEED);
 
 /// `[motion]`.
 pub(in crate::study) mod motion {
@@ -16,7 +17,7 @@ pub(in crate::study) mod motion {
     use crate::study::case::schema::values::motion as read;
     use crate::study::case::{ControlKind, CounterBody, StrategyKind};
 
-    const SIGNED_SPEED: Value<f64> = quantity(Dimension::Speed, Any);
+    const SIGNED_SPEED: Value<f64> = quantity(Dimension::Speed, Any).exists(exists::SPEED);
 
     section! { &["motion"], "";
         STRATEGY: Typed<StrategyKind> = defaulted(
@@ -66,7 +67,7 @@ pub(in crate::study) mod motion {
             super::SPEED,
             "unknown",
             "\"0.5 m/s\"",
-            "`\"overlap\"` only: speed of the upper body; required for wear, films and temperature",
+            "`\"overlap\"` only: speed of the upper body; required for growing films and temperature",
         );
         PATH: Typed<Path> = defaulted(
             "path",

@@ -1,6 +1,7 @@
 //! The keys of what a contact lets through: heat or current, and a fluid.
 
 use super::Bounds::{AboveZero, FromZero};
+use super::exists;
 use super::typed::{
     DEPTH, FLAG, Optional, Typed, choice, count, defaulted, optional, other, quantity, required, section,
 };
@@ -32,14 +33,14 @@ pub(in crate::study) mod conductance {
         );
         GAS: Optional<f64> = optional(
             "gas",
-            quantity(Dimension::Conductivity, AboveZero),
+            quantity(Dimension::Conductivity, AboveZero).exists(exists::GAS),
             "none",
             "\"0.026 W/(m K)\"",
             "thermal conductivity of a gas in the gap",
         );
         JUMP: Typed<f64> = defaulted(
             "jump",
-            DEPTH,
+            DEPTH.exists(exists::JUMP),
             "0.0",
             "\"0.37 um\"",
             "temperature jump distance of the gas at both surfaces together, which adds to the gap",
@@ -74,13 +75,13 @@ pub(in crate::study) mod flow {
     section! { &["flow"], "";
         VISCOSITY: Typed<f64> = required(
             "viscosity",
-            quantity(Dimension::Viscosity, AboveZero),
+            quantity(Dimension::Viscosity, AboveZero).exists(exists::VISCOSITY),
             "\"80 mPa s\"",
             "viscosity of the fluid, constant",
         );
         PRESSURE: Typed<f64> = defaulted(
             "pressure",
-            quantity(Dimension::Pressure, FromZero),
+            quantity(Dimension::Pressure, FromZero).exists(exists::FLUID_PRESSURE),
             "1e5",
             "\"1 bar\"",
             "pressure difference that drives the leakage",
@@ -109,7 +110,7 @@ pub(in crate::study) mod flow {
         );
         OUTLET: Optional<f64> = optional(
             "outlet",
-            quantity(Dimension::Pressure, AboveZero),
+            quantity(Dimension::Pressure, AboveZero).exists(exists::FLUID_PRESSURE),
             "with a gas: must be given",
             "\"1 bar\"",
             "absolute pressure of a gas at the outlet, to which its leakage refers",

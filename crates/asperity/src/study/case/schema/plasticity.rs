@@ -1,6 +1,7 @@
 //! Keys of elasto-plastic bodies.
 
 use super::Bounds::{Between, FromZero};
+use super::exists;
 use super::typed::{
     FLAG, FRACTION, LENGTH, Optional, PRESSURE, Typed, Value, choice, count, count_to, defaulted, number,
     optional, other, quantity, required, section,
@@ -8,7 +9,7 @@ use super::typed::{
 use super::values::plasticity as read;
 use crate::units::{Dimension, Pascal};
 
-const MODULUS: Value<f64> = quantity(Dimension::Pressure, FromZero);
+const MODULUS: Value<f64> = quantity(Dimension::Pressure, FromZero).exists(exists::HARDENING);
 const ONE: &str = "exactly one of `yield_stress` and `curve`";
 
 /// `[lower.plasticity]` and `[upper.plasticity]`.
@@ -17,7 +18,7 @@ pub(in crate::study) mod flow {
 
     section! { &["lower.plasticity", "upper.plasticity"], "";
         YIELD_STRESS: Optional<f64> =
-            optional("yield_stress", PRESSURE, ONE, "\"1.5 GPa\"", "yield stress in tension σ_Y of the virgin body");
+            optional("yield_stress", PRESSURE.exists(exists::YIELD), ONE, "\"1.5 GPa\"", "yield stress in tension σ_Y of the virgin body");
         HARDENING: Typed<f64> = defaulted(
             "hardening",
             MODULUS,

@@ -1,6 +1,7 @@
 //! Keys of stresses below the surface and of stored results.
 
 use super::Bounds::Between;
+use super::exists;
 use super::typed::{
     DEPTH, FLAG, LENGTH, Optional, Typed, choice, count, count_to, defaulted, number_named, optional, other,
     required, section,
@@ -30,7 +31,8 @@ pub(in crate::study) mod subsurface {
         );
         PLANES: Optional<Vec<Metre>> = optional(
             "planes",
-            other(Some(Dimension::Length), "list of lengths ≥ 0", |_, entry| read::depths(entry)),
+            other(Some(Dimension::Length), "list of lengths ≥ 0", |_, entry| read::depths(entry))
+                .exists(exists::LENGTH),
             "none",
             "[\"1 um\", \"5 um\"]",
             "depths at which von Mises' stress is stored on the whole plane",
@@ -44,7 +46,8 @@ pub(in crate::study) mod subsurface {
         );
         COLUMNS: Optional<Vec<[Metre; 2]>> = optional(
             "columns",
-            other(Some(Dimension::Length), "list of `[x, y]`, lengths ≥ 0", |_, entry| read::positions(entry)),
+            other(Some(Dimension::Length), "list of `[x, y]`, lengths ≥ 0", |_, entry| read::positions(entry))
+                .exists(exists::LENGTH),
             "none",
             "[[\"5 um\", \"10 um\"]]",
             "positions in the contact below which the stress is stored",

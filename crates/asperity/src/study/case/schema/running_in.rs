@@ -1,6 +1,7 @@
 //! Keys of running-in: wear, films, acceleration and temperature.
 
 use super::Bounds::{AboveZero, FromZero, Within};
+use super::exists;
 use super::typed::{
     LENGTH, Optional, PRESSURE, Typed, Value, choice, count, defaulted, number, optional, other, quantity,
     required, section,
@@ -8,7 +9,7 @@ use super::typed::{
 use super::values::running as read;
 use crate::units::Dimension;
 
-const RATE: Value<f64> = quantity(Dimension::WearCoefficient, AboveZero);
+const RATE: Value<f64> = quantity(Dimension::WearCoefficient, AboveZero).exists(exists::WEAR);
 const FILM: &[&str] = &["lower.film", "upper.film"];
 const ONE: &str = "exactly one of the three";
 
@@ -26,13 +27,13 @@ pub(in crate::study) mod wear {
         );
         DIMENSIONLESS: Optional<f64> = optional(
             "dimensionless",
-            number(AboveZero),
+            number(AboveZero).exists(exists::WEAR_NUMBER),
             ONE,
             "4e-7",
             "`coefficient` times the `hardness` of the body, which must be a single number",
         );
         ENERGY: Optional<f64> =
-            optional("energy", RATE, ONE, "\"1e-6 mm3/J\"", "wear volume per frictional energy; requires [friction]");
+            optional("energy", RATE.exists(exists::WEAR_OF_ENERGY), ONE, "\"1e-6 mm3/J\"", "wear volume per frictional energy; requires [friction]");
         UNDER_FILM: Optional<f64> = optional(
             "under_film",
             RATE,
@@ -57,10 +58,10 @@ pub(in crate::study) mod film {
              that is there at its thickest in the beginning and is only worn off",
         );
         MAX_THICKNESS: Typed<f64> =
-            required("max_thickness", LENGTH, "\"150 nm\"", "upper limit of the film thickness");
+            required("max_thickness", LENGTH.exists(exists::FILM), "\"150 nm\"", "upper limit of the film thickness");
         HARDNESS: Optional<f64> = optional(
             "hardness",
-            PRESSURE,
+            PRESSURE.exists(exists::HARDNESS),
             "the hardness of the body",
             "\"2 GPa\"",
             "hardness under the thickest film, at most the hardness of the body; interpolated linearly in the thickness",
@@ -76,7 +77,7 @@ pub(in crate::study) mod arrhenius {
     section! { FILM, "law = \"arrhenius\"";
         RATE: Typed<f64> = required(
             "rate",
-            quantity(Dimension::Speed, AboveZero),
+            quantity(Dimension::Speed, AboveZero).exists(exists::GROWTH),
             "\"20 nm/s\"",
             "initial growth rate, at `at_temperature` and `at_stress`",
         );
@@ -88,7 +89,7 @@ pub(in crate::study) mod arrhenius {
         );
         AT_STRESS: Typed<f64> = required(
             "at_stress",
-            quantity(Dimension::Pressure, FromZero),
+            quantity(Dimension::Pressure, FromZero).exists(exists::STRESS),
             "\"3 GPa\"",
             "stress at which `rate` holds",
         );
@@ -113,7 +114,7 @@ pub(in crate::study) mod arrhenius {
         );
         REMOVAL: Typed<f64> = defaulted(
             "removal",
-            quantity(Dimension::RemovalRate, FromZero),
+            quantity(Dimension::RemovalRate, FromZero).exists(exists::REMOVAL),
             "0",
             "\"1e-11 1/(Pa m)\"",
             "removal per pressure and sliding distance",
@@ -131,7 +132,7 @@ pub(in crate::study) mod mechano_chemical {
         X: Typed<f64> = required("x", number(Within(GROWTH_FACTORS, false)), "1e-16", "factor x of the growth");
         C3: Typed<f64> = required(
             "c3",
-            DEPTH,
+            DEPTH.exists(exists::FILM),
             "\"50 nm\"",
             "final removal C₃ as a thickness, at most `max_thickness`",
         );
@@ -196,7 +197,8 @@ pub(in crate::study) mod temperature {
             "bulk",
             other(Some(Dimension::Temperature), "temperature > 0 K, or two: `[lower, upper]`", |_, entry| {
                 read::bulk(entry)
-            }),
+            })
+            .exists(exists::TEMPERATURE),
             "\"100 °C\"",
             "temperature of the bodies far from the contact; a number without a unit is in kelvin",
         );

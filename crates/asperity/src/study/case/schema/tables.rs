@@ -1,7 +1,7 @@
 //! Keys of each table, and hints for misplaced keys.
 
 use super::super::cursor::Table;
-use super::{Key, Section, keys, root};
+use super::{Exists, Key, Section, keys, root};
 use crate::error::Result;
 use crate::units::Dimension;
 
@@ -46,6 +46,13 @@ pub fn dimension(key: &str) -> Option<Dimension> {
     let (table, name) = key.rsplit_once('.')?;
     let mut keys = sections(table).flat_map(|section| section.keys);
     keys.find(|key| key.name == name).and_then(|key: &Key| key.kind.dimension())
+}
+
+/// Returns the declaration of a dotted key of a case. Of several, for topographies of different forms, the one that says what exists.
+pub(in crate::study) fn declaration(key: &str) -> Option<&'static Key> {
+    let (table, name) = key.rsplit_once('.')?;
+    let named = || sections(table).flat_map(|section| section.keys).filter(|key| key.name == name);
+    named().find(|key| matches!(key.exists, Exists::Within { .. })).or_else(|| named().next())
 }
 
 /// Whether a key stands above all tables of a case.

@@ -2,9 +2,10 @@
 
 use super::Bounds::{AboveZero, AboveZeroOrInfinite, Any, Between};
 use super::Fallback::Absent;
+use super::exists;
 use super::typed::{
-    LENGTH, Nested, Optional, SEED, TEXT, Typed, Value, choice, defaulted, number, optional, other, pair,
-    quantity, required, section, tables,
+    LENGTH, Nested, Optional, SEED, TEXT, Typed, Value, choice, count, defaulted, number, optional, other,
+    pair, quantity, required, section, tables,
 };
 use super::values::topography as read;
 use crate::surface::{Axis, Band, Decay, Fill, Filter, Groove, Interpolation, Level};
@@ -12,8 +13,8 @@ use crate::units::Dimension;
 
 const TABLES: &[&str] = &["lower.topography", "upper.topography"];
 
-const ANGLE: Value<f64> = quantity(Dimension::Angle, Any);
-const PITCH: Value<[f64; 2]> = pair(&LENGTH);
+const ANGLE: Value<f64> = quantity(Dimension::Angle, Any).exists(exists::ANGLE);
+const PITCH: Value<[f64; 2]> = pair(&LENGTH.exists(exists::WAVE));
 const CELLS: Value<[usize; 2]> = other(None, "`[nx, ny]`, each ≥ 1", |_, entry| read::shape(entry));
 
 /// Every topography.
@@ -23,7 +24,7 @@ pub(in crate::study) mod every {
     section! { TABLES, "";
         PITCH: Optional<[f64; 2]> = optional(
             "pitch",
-            super::PITCH,
+            super::PITCH.exists(exists::PITCH),
             "`generate` and `form`: pitch of the other body; `file`: pitch of the file",
             "\"0.5 um\"",
             "size of a cell; for a file without a pitch, its pitch; for a file with a pitch, the pitch after resampling, without `resample`",
@@ -105,7 +106,7 @@ pub(in crate::study) mod file {
             TEXT,
             "\"disc.x3p\"",
             "path relative to the case file: x3p, sdf, gwy, sur, mnt, opd, opdx, MetroPro dat, plu, al3d, frt, tmd, nms, vk4 to \
-             vk7, NanoScope spm, ibw, nid, WSxM stp, mi, bcr, tiff, NetCDF, HDF5 (results too), npy, csv or text, also \
+             vk7, NanoScope spm, ibw, nid, WSxM stp, mi, bcr, gsf, asc, tiff, NetCDF, HDF5 (results too), mat, npy, npz, csv or text, also \
              gzipped; see [formats](formats.md)",
         );
         CHANNEL: Optional<String> = optional(
@@ -117,12 +118,22 @@ pub(in crate::study) mod file {
         );
         UNIT: Optional<f64> = optional(
             "unit",
-            other(Some(Dimension::Length), "unit, or length > 0", |_, entry| entry.unit(Dimension::Length)),
+            other(Some(Dimension::Length), "unit, or length > 0", |_, entry| entry.unit(Dimension::Length)).exists(exists::UNIT),
             "metres; required for integers in tiff",
             "\"nm\"",
-            "unit of the numbers in a file without units: heights of npy, text, csv, tiff, HDF5, NetCDF and ibw, and x and y of a \
-             table of points; an error for a file with its own unit",
+            "unit of the numbers in a file without units: heights of npy, npz, mat, text, csv, tiff, HDF5, NetCDF and ibw, and all \
+             lengths of asc and of tables of points; an error for a file with its own unit",
         );
+        LINES: Optional<Axis> = optional(
+            "lines",
+            choice::<Axis>(),
+            "`\"x\"` for text, `\"y\"` for npy, npz, mat and HDF5, which are indexed `[ix, iy]`",
+            "\"y\"",
+            "direction of a line of a matrix; a text that looks like points is a matrix if this is given; an error for a format that \
+             determines it, see [formats](formats.md)",
+        );
+        SKIP: Optional<usize> =
+            optional("skip", count(0), "0", "6", "number of lines above the numbers of a text");
         DESPIKE: Optional<f64> = optional(
             "despike",
             number(AboveZero),
@@ -164,7 +175,7 @@ pub(in crate::study) mod generate {
     }
 }
 
-const SQ: Typed<f64> = required("sq", LENGTH, "\"0.2 um\"", "rms height, exact");
+const SQ: Typed<f64> = required("sq", LENGTH.exists(exists::ROUGHNESS), "\"0.2 um\"", "rms height, exact");
 const SSK: Typed<f64> = defaulted(
     "ssk",
     number(Any),
@@ -237,10 +248,10 @@ pub(in crate::study) mod self_affine {
 
     section! { TABLES, "generate = \"self-affine\"";
         SQ: Optional<f64> =
-            optional("sq", LENGTH, "exactly one of `sq` and `sdq`", "\"0.2 um\"", "rms height, exact");
+            optional("sq", LENGTH.exists(exists::ROUGHNESS), "exactly one of `sq` and `sdq`", "\"0.2 um\"", "rms height, exact");
         SDQ: Optional<f64> = optional(
             "sdq",
-            number(AboveZero),
+            number(AboveZero).exists(exists::SLOPE),
             "exactly one of `sq` and `sdq`",
             "0.1",
             "rms slope, exact (as the sum of waves)",
@@ -278,7 +289,7 @@ pub(in crate::study) mod form {
     }
 }
 
-const RADIUS: Typed<f64> = required("radius", LENGTH, "\"1 mm\"", "radius R");
+const RADIUS: Typed<f64> = required("radius", LENGTH.exists(exists::RADIUS), "\"1 mm\"", "radius R");
 
 /// `form = "sphere"`.
 pub(in crate::study) mod sphere {
@@ -296,7 +307,7 @@ pub(in crate::study) mod ellipsoid {
     section! { TABLES, "form = \"ellipsoid\"";
         RADIUS: Typed<[f64; 2]> = required(
             "radius",
-            other(Some(Dimension::Length), "`[Rx, Ry]`, two lengths > 0", |_, entry| read::radii(entry)),
+            other(Some(Dimension::Length), "`[Rx, Ry]`, two lengths > 0", |_, entry| read::radii(entry)).exists(exists::RADIUS),
             "[\"1 mm\", \"2 mm\"]",
             "principal radii of curvature; an ellipsoid with semi-axes a, b and c, c normal to the plane, has a²/c and b²/c",
         );
@@ -320,7 +331,7 @@ pub(in crate::study) mod cone {
     section! { TABLES, "form = \"cone\"";
         ANGLE: Typed<f64> = required(
             "angle",
-            quantity(Dimension::Angle, AboveZero),
+            quantity(Dimension::Angle, AboveZero).exists(exists::ANGLE),
             "\"5 deg\"",
             "slope angle α from the plane, below 90°; a number without a unit is in radians",
         );
@@ -338,7 +349,8 @@ pub(in crate::study) mod sinusoid {
     use super::*;
 
     const WAVE: Value<f64> =
-        quantity(Dimension::Length, AboveZeroOrInfinite("no variation in that direction"));
+        quantity(Dimension::Length, AboveZeroOrInfinite("no variation in that direction"))
+            .exists(exists::WAVE);
 
     section! { TABLES, "form = \"sinusoid\"";
         AMPLITUDE: Typed<f64> = required("amplitude", LENGTH, "\"0.1 um\"", "amplitude A");

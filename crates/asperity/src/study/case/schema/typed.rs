@@ -4,6 +4,7 @@ use std::ops::Deref;
 
 use super::super::cursor::{Entry, Table};
 use super::super::document::Document;
+use super::exists::{self, Exists};
 use super::{Bounds, Fallback, Key, Kind};
 use crate::choice::Choice;
 use crate::error::Result;
@@ -14,6 +15,14 @@ use crate::units::Dimension;
 pub(in crate::study::case) struct Value<T> {
     kind: Kind,
     read: fn(&Key, &Entry<'_>) -> Result<T>,
+    exists: Exists,
+}
+
+impl<T> Value<T> {
+    /// Declares what exists of the quantity.
+    pub(super) const fn exists(self, exists: Exists) -> Self {
+        Self { kind: self.kind, read: self.read, exists }
+    }
 }
 
 /// A key that has a value in every table, if only the default.
@@ -41,7 +50,7 @@ pub(super) const fn required<T>(
     text: &'static str,
 ) -> Typed<T> {
     Typed {
-        key: Key { name, kind: value.kind, default: Fallback::Required, example, text },
+        key: Key { name, kind: value.kind, default: Fallback::Required, example, text, exists: value.exists },
         read: value.read,
     }
 }
@@ -55,7 +64,10 @@ pub(super) const fn defaulted<T>(
     text: &'static str,
 ) -> Typed<T> {
     let default = Fallback::Value(default);
-    Typed { key: Key { name, kind: value.kind, default, example, text }, read: value.read }
+    Typed {
+        key: Key { name, kind: value.kind, default, example, text, exists: value.exists },
+        read: value.read,
+    }
 }
 
 /// An optional key; `absent` describes the behaviour without it.
@@ -67,17 +79,20 @@ pub(super) const fn optional<T>(
     text: &'static str,
 ) -> Optional<T> {
     let default = Fallback::Absent(absent);
-    Optional { key: Key { name, kind: value.kind, default, example, text }, read: value.read }
+    Optional {
+        key: Key { name, kind: value.kind, default, example, text, exists: value.exists },
+        read: value.read,
+    }
 }
 
 /// A table within the table.
 pub(super) const fn table(name: &'static str, default: Fallback, text: &'static str) -> Nested {
-    Nested { key: Key { name, kind: Kind::Table, default, example: "", text } }
+    Nested { key: Key { name, kind: Kind::Table, default, example: "", text, exists: Exists::Undeclared } }
 }
 
 /// An array of tables within the table.
 pub(super) const fn tables(name: &'static str, default: Fallback, text: &'static str) -> Nested {
-    Nested { key: Key { name, kind: Kind::Tables, default, example: "", text } }
+    Nested { key: Key { name, kind: Kind::Tables, default, example: "", text, exists: Exists::Undeclared } }
 }
 
 /// Declares the keys of a section as constants, and the section that holds them all.
@@ -228,7 +243,11 @@ fn read_text<T>(key: &Key, read: fn(&Key, &Entry<'_>) -> Result<T>, text: &str) 
 
 /// A quantity.
 pub(super) const fn quantity(dimension: Dimension, bounds: Bounds) -> Value<f64> {
-    Value { kind: Kind::Quantity(dimension, bounds), read: |key, entry| real(&key.kind, key, entry) }
+    Value {
+        kind: Kind::Quantity(dimension, bounds),
+        read: |key, entry| real(&key.kind, key, entry),
+        exists: Exists::Undeclared,
+    }
 }
 
 /// A number without a unit.
@@ -238,7 +257,11 @@ pub(super) const fn number(bounds: Bounds) -> Value<f64> {
 
 /// A number without a unit, with its own name in messages.
 pub(super) const fn number_named(noun: &'static str, bounds: Bounds) -> Value<f64> {
-    Value { kind: Kind::Number(noun, bounds), read: |key, entry| real(&key.kind, key, entry) }
+    Value {
+        kind: Kind::Number(noun, bounds),
+        read: |key, entry| real(&key.kind, key, entry),
+        exists: Exists::Undeclared,
+    }
 }
 
 /// A count.
@@ -256,24 +279,28 @@ pub(super) const fn count_to(least: u64, most: u64) -> Value<usize> {
             false => Err(entry.unexpected(&format!("a whole number from {least} to {most}"), None)),
         }
     };
-    Value { kind: Kind::Count { least, most }, read }
+    Value { kind: Kind::Count { least, most }, read, exists: Exists::Undeclared }
 }
 
 /// The seed of random numbers.
-pub(super) const SEED: Value<u64> =
-    Value { kind: Kind::Count { least: 0, most: u64::MAX }, read: |_, entry| entry.whole(0) };
+pub(super) const SEED: Value<u64> = Value {
+    kind: Kind::Count { least: 0, most: u64::MAX },
+    read: |_, entry| entry.whole(0),
+    exists: Exists::Undeclared,
+};
 
 /// One of the words of an option.
 pub(super) const fn choice<T: Choice>() -> Value<T> {
-    Value { kind: Kind::Choice(T::NAMES), read: |_, entry| entry.choice() }
+    Value { kind: Kind::Choice(T::NAMES), read: |_, entry| entry.choice(), exists: Exists::Undeclared }
 }
 
 /// True or false.
-pub(super) const FLAG: Value<bool> = Value { kind: Kind::Flag, read: |_, entry| entry.flag() };
+pub(super) const FLAG: Value<bool> =
+    Value { kind: Kind::Flag, read: |_, entry| entry.flag(), exists: Exists::Undeclared };
 
 /// A text.
 pub(super) const TEXT: Value<String> =
-    Value { kind: Kind::Text, read: |_, entry| entry.text().map(str::to_owned) };
+    Value { kind: Kind::Text, read: |_, entry| entry.text().map(str::to_owned), exists: Exists::Undeclared };
 
 /// One quantity or number for both axes, or two.
 pub(super) const fn pair(item: &'static Value<f64>) -> Value<[f64; 2]> {
@@ -281,7 +308,7 @@ pub(super) const fn pair(item: &'static Value<f64>) -> Value<[f64; 2]> {
         let Kind::Pair(item) = key.kind else { unreachable!("a pair is declared as one") };
         entry.pair(&format!("{}, or two", expected(item, key)), |part| real(item, key, part))
     };
-    Value { kind: Kind::Pair(&item.kind), read }
+    Value { kind: Kind::Pair(&item.kind), read, exists: item.exists }
 }
 
 /// A component along x, or two along x and y.
@@ -291,7 +318,7 @@ pub(super) const fn vector(item: &'static Value<f64>) -> Value<[f64; 2]> {
         let noun = item.dimension().map_or("a number", Dimension::noun);
         entry.vector(&format!("{noun} along x, or two along x and y"), |part| real(item, key, part))
     };
-    Value { kind: Kind::Vector(&item.kind), read }
+    Value { kind: Kind::Vector(&item.kind), read, exists: item.exists }
 }
 
 /// Values of a special form, which the documentation describes as `value`.
@@ -300,7 +327,7 @@ pub(super) const fn other<T>(
     value: &'static str,
     read: fn(&Key, &Entry<'_>) -> Result<T>,
 ) -> Value<T> {
-    Value { kind: Kind::Other { dimension, value }, read }
+    Value { kind: Kind::Other { dimension, value }, read, exists: Exists::Undeclared }
 }
 
 /// Reads a quantity or a number of a `kind`.
@@ -371,9 +398,9 @@ impl Bounds {
 // Values shared by several keys.
 
 /// A length above 0.
-pub(super) const LENGTH: Value<f64> = quantity(Dimension::Length, Bounds::AboveZero);
+pub(super) const LENGTH: Value<f64> = quantity(Dimension::Length, Bounds::AboveZero).exists(exists::LENGTH);
 /// A length of at least 0.
-pub(super) const DEPTH: Value<f64> = quantity(Dimension::Length, Bounds::FromZero);
+pub(super) const DEPTH: Value<f64> = quantity(Dimension::Length, Bounds::FromZero).exists(exists::LENGTH);
 /// A pressure or modulus above 0.
 pub(super) const PRESSURE: Value<f64> = quantity(Dimension::Pressure, Bounds::AboveZero);
 /// A fraction of a whole.

@@ -19,13 +19,16 @@ fn columns_of_a_csv_are_channels_with_units() {
 #[test]
 fn a_csv_that_is_no_grid_is_an_error() {
     let with = |old: &str, new: &str| defect(SAMPLE.replacen(old, new, 1).as_bytes());
-    let message = "csv: x and y is `X [um], Y (um)`, expected a regular grid of at least 2 × 2 points, most of them \
-                   there, each once";
+    let message = "csv: 4 lines of 4 numbers look like points x, y and height on no grid, expected a regular grid of at \
+                   least 2 × 2 points, most of them there, each once";
     assert_eq!(with("2,0,2,20", "3,0,2,20"), message);
     assert_eq!(with("2,0,2,20", "2,0,two,20"), "csv: line 3: `two` is not a height");
     assert_eq!(with("[nm]", "[V]"), "csv: a unit is `V`, expected one of length");
     assert_eq!(with(",other", ""), "csv: line 2 has 4 values, the lines before it have 3");
-    assert_eq!(with("X [um]", "a"), "text: line 1: `a,Y` is not a height");
+    assert_eq!(
+        with("X [um]", "a"),
+        "text: line 1: `a,Y (um),height [nm],other` is no height; the matrix begins at line 2"
+    );
 }
 
 #[test]
@@ -40,7 +43,7 @@ fn a_unit_serves_where_the_numbers_have_none_and_only_there() {
     assert_eq!(own, "table.csv: csv: its heights have a unit of their own, expected none to be given");
     // The unit of a matrix applies to its heights alone, that of a table of points to all columns.
     let matrix = read("1 2 3\n4 5 6\n", Some(1e-6)).unwrap();
-    assert_eq!((matrix.pitch, matrix.heights[[1, 2]], matrix.format), (None, 6e-6, "text"));
+    assert_eq!((matrix.pitch, matrix.heights[[2, 1]], matrix.format), (None, 6e-6, "text"));
     let points = read("0 0 1\n2 0 2\n0 3 3\n2 3 4\n", Some(1e-3)).unwrap();
     assert_eq!((points.pitch, points.heights[[0, 1]], points.format), (Some([2e-3, 3e-3]), 3e-3, "xyz"));
 }

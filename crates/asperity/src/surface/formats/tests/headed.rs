@@ -38,14 +38,6 @@ fn text_with_a_header_has_its_units_and_lengths() {
 }
 
 #[test]
-fn a_text_of_a_holographic_microscope_is_read() {
-    let Some(path) = measured("matrix-4.txt.gz") else { return };
-    let scan = read(&path, None, None).unwrap();
-    assert_eq!((scan.format, scan.heights.dim(), scan.pitch), ("koala", (75, 305), Some([3.69862e-7; 2])));
-    assert_relative_eq!(scan.heights[[1, 0]], -4.596037 * 2.91818e-8, max_relative = 1e-15);
-}
-
-#[test]
 fn a_text_that_does_not_keep_to_its_header_is_an_error() {
     let with = |text: &str, old: &str, new: &str| defect(text.replacen(old, new, 1).as_bytes());
     assert_eq!(

@@ -4,36 +4,6 @@
 use super::files::{al3d, floats, frt, metropro, opd, plu, tmd, words};
 use super::*;
 
-#[test]
-fn an_al3d_is_read_as_others_read_it() {
-    assert_as_expected("al3d-1.al3d", "al3d", 1.0);
-}
-
-#[test]
-fn an_frt_is_read_as_others_read_it() {
-    assert_as_expected("frt-2.frt", "frt", 1.0);
-}
-
-#[test]
-fn a_metropro_dat_is_read_as_others_read_it() {
-    assert_as_expected("metropro-1.dat", "metropro", 1.0);
-}
-
-#[test]
-fn an_opd_is_read_as_others_read_it() {
-    assert_as_expected("opd-1.opd", "opd", 1e-3);
-}
-
-#[test]
-fn a_plu_is_read_as_others_read_it() {
-    assert_as_expected("plu-1.plu", "plu", 1e-6);
-}
-
-#[test]
-fn a_tmd_is_read_as_others_read_it() {
-    assert_as_expected("tmd-1.tmd", "tmd", 1e-3);
-}
-
 /// Reads 3 × 2 heights that are `unit` times 1, 2, 3, and 4, none, 6 in the next line.
 #[track_caller]
 fn assert_six(bytes: &[u8], format: &str, pitch: [f64; 2], unit: f64) {

@@ -4,41 +4,6 @@
 use super::files::{floats, words};
 use super::*;
 
-#[test]
-fn nanoscope_files_are_read_as_others_read_them() {
-    for name in ["di-2.di", "di-3.di", "di-4.di"] {
-        assert_as_expected(name, "nanoscope", 1e-9);
-    }
-    let Some(path) = measured("di-2.di") else { return };
-    let scan = read(&path, Some("Height 2"), None).unwrap();
-    assert_eq!(scan.channels, ["Height", "Height 2", "Deflection"]);
-    assert_relative_eq!(scan.heights[[0, 0]], 38.854_639_766_813_97e-9, max_relative = 1e-12);
-}
-
-#[test]
-fn an_igor_wave_is_read_as_others_read_it() {
-    assert_as_expected("10x10-one_channel_without_name.ibw", "ibw", 1.0);
-}
-
-#[test]
-fn a_nid_is_read_as_others_read_it() {
-    assert_as_expected("nid-1.nid", "nid", 1.0);
-    let Some(path) = measured("nid-1.nid") else { return };
-    let scan = read(&path, Some("Scan backward (Z-AxisSensor)"), None).unwrap();
-    assert_eq!(scan.channels.len(), 4);
-    assert_relative_eq!(scan.heights[[0, 0]], -2.871_063_219_156_861e-6, max_relative = 1e-12);
-}
-
-#[test]
-fn an_stp_of_wsxm_is_read_as_others_read_it() {
-    assert_as_expected("stp-1.stp", "wsxm", 1e-9);
-}
-
-#[test]
-fn an_mi_is_read_as_others_read_it() {
-    assert_as_expected("mi-1.mi", "mi", 1e-6);
-}
-
 pub(super) fn samples() -> Vec<Vec<u8>> {
     vec![
         nanoscope(0x0512_0000, 2, &SHORTS.concat()),

@@ -19,10 +19,16 @@ pub(in crate::study::case) fn hardness(entry: &Entry<'_>) -> Result<Hardness> {
         map.known(&["given"], |_| None)?;
         return Ok(Hardness::Given(HardnessInput { name: given::GIVEN.of(&map)? }));
     }
-    map.known(&["file", "channel", "unit"], |_| None)?;
+    map.known(&["file", "channel", "unit", "lines", "skip"], |_| None)?;
     let path = match keys::FILE.of(&map)?.as_str() {
         "" => return Err(keys::FILE.demand(&map)?.unexpected("the name of a file", None)),
         path => PathBuf::from(path),
     };
-    Ok(Hardness::Map(HardnessMap { path, channel: keys::CHANNEL.of(&map)?, unit: keys::UNIT.of(&map)? }))
+    Ok(Hardness::Map(HardnessMap {
+        path,
+        channel: keys::CHANNEL.of(&map)?,
+        unit: keys::UNIT.of(&map)?,
+        lines: keys::LINES.of(&map)?,
+        skip: keys::SKIP.of(&map)?,
+    }))
 }

@@ -55,7 +55,7 @@ fn values<'a, const N: usize>(
     let table = entry.clone().table()?;
     known_in(&table)?;
     let [from, to] = [table.required("from", example)?, table.required("to", example)?];
-    let (first, last, count) = (read(&from)?, read(&to)?, keys::POINTS.of(&table)?);
+    let (first, last, count) = (read(&from)?, read(&to)?, keys::points(&table)?);
     let by_ratio = keys::SPACING.of(&table)?.unwrap_or(spacing) == Spacing::Log;
     // A component that is 0 at both ends stays so.
     let has_ratio = |k: usize| first[k] * last[k] > 0.0 || (N > 1 && first[k] == 0.0 && last[k] == 0.0);

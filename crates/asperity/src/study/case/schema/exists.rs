@@ -1,0 +1,83 @@
+//! What exists of each physical quantity. A value outside most likely has another unit than its author meant.
+//!
+//! The ranges have a factor of two or more beyond the extremes of data books: Kaye & Laby, Tables of Physical and Chemical
+//! Constants; CRC Handbook of Chemistry and Physics; Ashby, Materials Selection in Mechanical Design. Further sources are named
+//! beside the range.
+
+/// What exists of a quantity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Exists {
+    /// Not declared: only for values that are not physical quantities.
+    Undeclared,
+    /// Any value that the bounds of the key allow, for this reason.
+    Any(&'static str),
+    /// Magnitudes from `least` to `most`, SI.
+    Within {
+        /// The smallest magnitude.
+        least: f64,
+        /// The largest magnitude.
+        most: f64,
+        /// The things at both ends: "soft gels to diamond".
+        of: &'static str,
+        /// What may have been meant by the same number: a unit, or a key as `dimensionless = {}`.
+        slips: &'static [&'static str],
+    },
+}
+
+use Exists::{Any, Within};
+
+const fn within(least: f64, most: f64, of: &'static str, slips: &'static [&'static str]) -> Exists {
+    Within { least, most, of, slips }
+}
+
+pub(super) const YOUNG: Exists = within(1e4, 1.3e12, "soft gels to diamond", &["GPa", "MPa"]);
+pub(super) const HARDNESS: Exists = within(1e6, 1.5e11, "wax to diamond", &["GPa", "MPa"]);
+pub(super) const YIELD: Exists = within(1e5, 2e10, "soft solder to whiskers", &["MPa", "GPa"]);
+pub(super) const HARDENING: Exists = within(1e5, 1e12, "polymers to cold-worked steel", &["MPa", "GPa"]);
+pub(super) const CONDUCTIVITY: Exists = within(0.08, 4e3, "polymers to diamond", &["W/(mm K)", "kW/(m K)"]);
+pub(super) const RESISTIVITY: Exists = within(5e-9, 1e19, "cooled copper to polymers", &["uohm cm"]);
+pub(super) const HEAT_CAPACITY: Exists = within(90.0, 6e3, "heavy metals to water", &["J/(g K)"]);
+pub(super) const DENSITY: Exists = within(100.0, 2.5e4, "foam to osmium", &["g/cm3"]);
+pub(super) const LAYER: Exists = within(2e-10, 1e-1, "a layer of atoms to claddings", &["um", "nm"]);
+/// Archard's k = K/H. Holm, Electric Contacts; Rabinowicz, Friction and Wear of Materials: K from 10⁻⁹ (lubricated) to 10⁻² (metals
+/// that seize).
+pub(super) const WEAR: Exists = within(
+    1e-22,
+    1e-10,
+    "well lubricated bearings to dry metals that seize",
+    &["dimensionless = {}", "mm3/(N m)"],
+);
+pub(super) const WEAR_OF_ENERGY: Exists = within(1e-22, 1e-10, "lubricated metals to abrasion", &["mm3/J"]);
+/// Rabinowicz, as above.
+pub(super) const WEAR_NUMBER: Exists =
+    within(1e-11, 0.3, "well lubricated bearings to abrasion", &["coefficient = \"{} mm3/(N m)\""]);
+pub(super) const FILM: Exists = within(1e-10, 1e-3, "a layer of atoms to thick coatings", &["nm", "um"]);
+/// Israelachvili, Intermolecular and Surface Forces: 10 mJ/m² in liquids to some J/m² of clean metals.
+pub(super) const ADHESION: Exists = within(1e-5, 10.0, "solids in liquids to clean metals", &["mJ/m2"]);
+pub(super) const ATTRACTION: Exists = within(1e-11, 1e-4, "atoms to capillary bridges", &["nm"]);
+/// Bowden & Tabor, The Friction and Lubrication of Solids: above 3 clean metals in vacuum seize, and nothing slides.
+pub(super) const FRICTION: Exists = within(1e-5, 3.0, "graphite without friction to rubber", &[]);
+pub(super) const SHEAR_STRENGTH: Exists = within(1e2, 2e10, "liquid films to hard metals", &["MPa"]);
+pub(super) const SPEED: Exists =
+    within(1e-13, 2e4, "creep of geological faults to projectiles", &["mm/s", "um/s"]);
+pub(super) const TEMPERATURE: Exists = within(1.0, 4000.0, "liquid helium to melting tungsten", &["°C"]);
+pub(super) const VISCOSITY: Exists = within(1e-6, 30.0, "gases to cold gear oils", &["mPa s", "uPa s"]);
+pub(super) const FLUID_PRESSURE: Exists =
+    within(1e-3, 4e9, "vacuum pumps to elastohydrodynamic contacts", &["bar", "MPa"]);
+pub(super) const GAS: Exists = within(1e-3, 1.0, "heavy vapours to hydrogen", &["mW/(m K)"]);
+pub(super) const JUMP: Exists = within(1e-10, 1.0, "compressed to rarefied gases", &["um", "nm"]);
+pub(super) const PITCH: Exists = within(1e-11, 1e-3, "atoms to cells that see no roughness", &["um", "nm"]);
+pub(super) const ROUGHNESS: Exists = within(1e-12, 1e-2, "atomic planes to gravel roads", &["nm", "um"]);
+pub(super) const SLOPE: Exists = within(1e-6, 10.0, "polished silicon to brushes", &[]);
+pub(super) const RADIUS: Exists =
+    within(1e-10, 1e4, "tips of probes to the wheels of the largest machines", &["mm", "um"]);
+pub(super) const WAVE: Exists = within(1e-11, 1e2, "atoms to waviness of roads", &["um", "mm"]);
+pub(super) const GROWTH: Exists = within(1e-16, 1e-3, "slow tribofilms to plating", &["nm/s"]);
+pub(super) const STRESS: Exists = within(1e3, 1e12, "traffic on rubber to diamond anvils", &["GPa", "MPa"]);
+pub(super) const REMOVAL: Exists = within(1e-22, 1e-3, "lubricated films to brushes", &[]);
+
+pub(super) const LOAD: Exists = Any("a load has any size; the pressures of the result are judged");
+pub(super) const LENGTH: Exists =
+    Any("a length beside the size of the surface, which is judged by its pitch");
+pub(super) const ANGLE: Exists = Any("an angle may turn several times");
+pub(super) const UNIT: Exists = Any("a unit, not a quantity");
