@@ -33,6 +33,12 @@ pub(super) fn check_losses(pair: &Pair, depths: &[[Field; 2]]) -> Result<()> {
     check(pair, |body| depths.iter().map(|depth| depth[body].mean().unwrap_or(0.0)).fold(0.0, f64::max))
 }
 
+/// Whether a body loses more than the width of a cell on average by losses of these depths, by law.
+pub(super) fn is_deep(pair: &Pair, depths: &[[Field; 2]]) -> bool {
+    let width = pair.pitch()[0].min(pair.pitch()[1]);
+    depths.iter().flatten().any(|depth| depth.mean().is_some_and(|mean| mean > width))
+}
+
 /// Returns [`Error::WornAway`] if the depth that a body loses exceeds the longer side of its grid.
 fn check(pair: &Pair, depth: impl Fn(usize) -> Metre) -> Result<()> {
     for (body, grid) in [pair.lower_grid(), pair.upper_grid()].iter().enumerate() {

@@ -209,6 +209,7 @@ mod tests {
             ("grooves", "21dc62a2"),
             ("line", "8fb19859"),
             ("looked_into", "af5e8b80"),
+            ("matrix_of_text", "e065768a"),
             ("measured", "eb457a9e"),
             ("ploughed", "a7abdeb1"),
             ("prepared", "fc13f0ca"),

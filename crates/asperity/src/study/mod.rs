@@ -44,8 +44,7 @@ pub use estimate::{Demand, Estimate, demand, estimate};
 pub use fields::{NamedField, RestFields};
 pub use given::SurfaceInput;
 pub use identity::resolved;
-pub use limits::{BrokenLimit, Limit};
-pub use observed::{ConductanceRecord, ElectricalRecord, GapFlowRecord, ThermalRecord};
+pub use observed::{BrokenLimit, ConductanceRecord, ElectricalRecord, GapFlowRecord, Limit, ThermalRecord};
 pub use passes::Passes;
 pub use prepare::{
     Bodies, MountedSurface, Origin, PreparedTopography, bodies, bodies_until, exact_pitch, grids, topography,

@@ -508,7 +508,13 @@ impl Dimension {
                 ("m3/J", 0, 1.0),
             ],
             Self::RemovalRate => &[("1/Pa/m", 0, 1.0)],
-            Self::Conductivity => &[("W/m/K", 0, 1.0), ("W/mK", 0, 1.0), ("W/(mK)", 0, 1.0)],
+            Self::Conductivity => &[
+                ("W/m/K", 0, 1.0),
+                ("W/mK", 0, 1.0),
+                ("W/(mK)", 0, 1.0),
+                ("W/(mm K)", 3, 1.0),
+                ("W/(cm K)", 2, 1.0),
+            ],
             Self::ThermalInsulance => &[("m2 K/W", 0, 1.0), ("m^2 K/W", 0, 1.0), ("m2K/W", 0, 1.0)],
             Self::ElectricalConductivity => &[("MS/m", 6, 1.0), ("S/cm", 2, 1.0)],
             Self::Resistivity => {

@@ -1,7 +1,7 @@
 //! Changes of the bodies by the laws after a pass.
 
 use super::Simulation;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::body::Body;
 use crate::motion::extrapolation::{
@@ -53,6 +53,10 @@ impl Changes {
     }
 }
 
+/// Message for a pass whose wear is beyond what can be solved with it.
+const DEEP_WEAR: &str = "a single pass wears more than the width of a cell off a whole body, far beyond the model: check the wear coefficient, \
+     a volume over load and distance, or give a shorter pass";
+
 /// Wear in a pass by the laws that repeat.
 pub(super) struct PassWear {
     compliance_of_grid: GridCompliance,
@@ -90,6 +94,9 @@ impl Simulation {
         let compliance = law::compliance(laws, &outcome.pair, &sums, friction, distance);
         let explicit = law::tried(laws, &outcome.pair, &sums, 1);
         worn_away::check_losses(&outcome.pair, &explicit)?;
+        if worn_away::is_deep(&outcome.pair, &explicit) {
+            return Err(Error::Unsupported(DEEP_WEAR));
+        }
         outcome.contacts.truncate(self.distinct);
         outcome.contacts = self.solver(watch).solve_implicitly(outcome, compliance, &self.params)?;
         self.come_back(&mut outcome.contacts);

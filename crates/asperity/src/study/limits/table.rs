@@ -2,10 +2,10 @@
 
 use super::bounds::{Bounds, LARGE_DISPLACEMENT};
 use super::findings::{Finding, Findings};
-use super::{BrokenLimit, Limit};
 use crate::choice::Choice;
 use crate::study::case::{Case, Side};
 use crate::study::estimate::STEEP;
+use crate::study::observed::{BrokenLimit, Limit};
 use crate::surface::Topography;
 use crate::units::{self, Dimension, Metre};
 

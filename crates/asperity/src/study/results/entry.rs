@@ -15,7 +15,7 @@ use crate::io::lock::{self, Lock};
 use crate::motion::{StepRecord, SweepRecord};
 use crate::study::case::Keep;
 use crate::study::identity;
-use crate::study::limits::LIMITS_TABLE;
+use crate::study::observed::LIMITS_TABLE;
 use crate::study::observed::OBSERVERS;
 use crate::study::tables;
 use serde_json::Value;

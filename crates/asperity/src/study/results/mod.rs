@@ -60,7 +60,7 @@ use crate::motion::{
 };
 use crate::plasticity::{PlasticState, TensorField, VolumeField};
 use crate::stress::Component;
-use crate::study::limits::{BrokenLimit, LIMITS_TABLE};
+use crate::study::observed::{BrokenLimit, LIMITS_TABLE};
 use crate::study::observed::{ConductanceRecord, GapFlowRecord};
 use crate::study::summary::{Outcome, Summary};
 use crate::surface::Topography;

@@ -6,7 +6,7 @@
 //! largest y. There is no unit.
 
 use super::binary::shape;
-use super::text::{Separator, value};
+use super::numbers::{Separator, value};
 use super::words::excerpt;
 use super::{Decoded, Fault, LengthUnit, Scan, from_last_y_to_first, only_channel, usable_pitch, x_fastest};
 use crate::error::Defect;

@@ -6,9 +6,8 @@
 //! Separators and other rules for text are described in [`text`](super::text). A line of names below other words is found by
 //! [`preamble`](super::preamble).
 
+use super::numbers::{Part, Separator, fields, matrix, value};
 use super::points::{Raster, profile, raster};
-use super::preamble::fields;
-use super::text::{Part, Separator, matrix, value};
 use super::words::{excerpt, unit_of_length};
 use super::{Decoded, Fault, LengthUnit, Scan, choose, distinct, usable_pitch};
 use crate::error::Defect;

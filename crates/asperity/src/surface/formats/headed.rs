@@ -11,7 +11,7 @@
 
 use super::binary::shape;
 use super::header::Header;
-use super::text::{Part, matrix};
+use super::numbers::{Part, matrix};
 use super::words::{excerpt, unit_of_length};
 use super::{Decoded, Fault, LengthUnit, ONLY_CHANNEL, Scan, choose, finite, usable_pitch};
 use crate::error::Defect;

@@ -6,6 +6,7 @@
 
 mod binary;
 mod header;
+mod numbers;
 mod labels;
 mod points;
 mod preamble;
@@ -370,7 +371,7 @@ fn decode_text(text: &str, options: &ReadOptions) -> Decoded {
     {
         return decoded;
     }
-    let numbers = text::Part::after(text, options.skip);
+    let numbers = numbers::Part::after(text, options.skip);
     csv::decode(numbers, channel).unwrap_or_else(|| text::decode(numbers, options))
 }
 

@@ -6,7 +6,7 @@
 //! words have no effect.
 
 use super::csv;
-use super::text::{Part, Separator, value};
+use super::numbers::{Part, Separator, fields, value};
 use super::words::{excerpt, unit_of_length};
 use crate::error::Defect;
 use crate::units::Metre;
@@ -413,11 +413,4 @@ impl<'a> Entry<'a> {
             Some(unit) => Some((number, Some(unit.ok()?))),
         }
     }
-}
-
-/// Splits a line of names at semicolons, else at tabs, else at commas, else at white space.
-pub(super) fn fields(line: &str) -> impl Iterator<Item = &str> {
-    let separators = [Separator::Semicolon, Separator::Tab, Separator::Comma];
-    let separator = separators.into_iter().find(|separator| line.contains(separator.character()));
-    separator.unwrap_or(Separator::Space).split(line)
 }
