@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -54,3 +56,22 @@ def test_flow_that_does_not_settle_says_in_which_increment() -> None:
     assert raised.value.increment == 1 and isinstance(cause, asp.errors.FlowNotConverged)
     assert cause.mismatch > cause.tolerance == 1e-14 and cause.products > 0
     assert raised.value.hint is not None and "increments" in raised.value.hint
+
+
+def test_limits_of_the_model_are_warned_of_at_once_and_end_the_run() -> None:
+    steel = asp.Material(young="210 GPa", poisson=0.3)
+    flat = asp.form.flat((16, 8), pitch="8 um")
+    rough = asp.generate.low_pass((16, 8), pitch="8 um", sq="50 nm", cutoff="64 um", seed=1)
+    moves = {"strategy": "shift", "speed_lower": "3 m/s", "speed_upper": "5 m/s", "stride": 4, "passes": 4}
+    counted = []
+    with warnings.catch_warnings(record=True) as warned, pytest.raises(asp.errors.AtPass, match="pass 3: the lower body") as raised:
+        warnings.simplefilter("always")
+        options = {"mean_pressure": "400 MPa", "boundary": "periodic", "progress": False}
+        for p in asp.Simulation(rough, flat, steel, steel, **moves, **options):
+            counted.append(sum("deep in one pass" in str(warning.message) for warning in warned))
+            p.remove(50e-6 * p.number, 0.0)
+    cause = raised.value.cause
+    assert counted == [0, 1, 1]
+    assert isinstance(cause, asp.errors.WornAway) and cause.body == "lower"
+    assert cause.depth == pytest.approx(150e-6) and cause.length == pytest.approx(128e-6)
+    assert raised.value.hint is not None and "coefficient" in raised.value.hint
