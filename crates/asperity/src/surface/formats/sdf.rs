@@ -99,7 +99,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
 
 type Outcome<T> = std::result::Result<T, Defect>;
 
-/// What determines the marker of missing heights and the order of profiles.
+/// Version of the format: it determines the marker of missing heights and the order of profiles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Version {
     Iso,

@@ -1,10 +1,10 @@
-//! What exists of each physical quantity. A value outside most likely has another unit than its author meant.
+//! Magnitudes of each physical quantity that exist. A value outside most likely has another unit than its author meant.
 //!
 //! The ranges have a factor of two or more beyond the extremes of data books: Kaye & Laby, Tables of Physical and Chemical
 //! Constants; CRC Handbook of Chemistry and Physics; Ashby, Materials Selection in Mechanical Design. Further sources are named
 //! beside the range.
 
-/// What exists of a quantity.
+/// Magnitudes of a quantity that exist.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Exists {
     /// Not declared: only for values that are not physical quantities.
@@ -19,7 +19,7 @@ pub enum Exists {
         most: f64,
         /// The things at both ends: "soft gels to diamond".
         of: &'static str,
-        /// What may have been meant by the same number: a unit, or a key as `dimensionless = {}`.
+        /// Other meanings of the same number: a unit, or a key as `dimensionless = {}`.
         slips: &'static [&'static str],
     },
 }

@@ -50,7 +50,7 @@ pub struct Key {
     pub example: &'static str,
     /// The meaning, in Markdown.
     pub text: &'static str,
-    /// What exists of the quantity; a value outside is accepted with a warning.
+    /// Magnitudes of the quantity that exist; a value outside is accepted with a warning.
     pub exists: Exists,
 }
 

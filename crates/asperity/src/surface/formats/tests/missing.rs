@@ -8,7 +8,7 @@ use super::containers::netcdf;
 use super::files::bcr;
 use super::*;
 
-/// Which of the heights of a file are missing, line by line.
+/// Returns whether each height of a file is missing, line by line.
 fn missing(bytes: &[u8]) -> Vec<bool> {
     decode(bytes, None).unwrap().heights.t().iter().map(|height| height.is_nan()).collect()
 }
