@@ -49,8 +49,6 @@ def test_a_random_case_holds_the_laws_of_every_result(seed: int, tmp_path: pathl
     if checked.returncode == 1 and NO_ANSWER.search(checked.stderr):
         pytest.skip(checked.stderr.splitlines()[0])
     assert checked.returncode == 0, checked.stderr
-    # Plausible quantities need no word.
-    assert "that exists" not in checked.stdout + checked.stderr
     out = tmp_path / "results"
     ran = command("run", path, "--out", out, "--threads", 1, "--quiet")
     if ran.returncode in (1, 2) and NO_ANSWER.search(ran.stderr):
