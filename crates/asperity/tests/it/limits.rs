@@ -86,6 +86,17 @@ fn a_pass_that_wears_more_than_the_body_is_long_ends_the_run() {
     }
 }
 
+/// Twenty micrometres in a pass on cells of 8 µm: the pressures at its end have no solution worth searching for.
+#[test]
+fn a_pass_that_wears_more_than_a_cell_is_wide_ends_the_run_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let error = run(&flank("coefficient = 1e-9", 0.1, 3), folder.path(), Existing::Keep, &()).unwrap_err();
+    assert!(
+        error.to_string().starts_with("pass 1: a single pass wears more than the width of a cell"),
+        "{error}"
+    );
+}
+
 /// A law of the caller takes 50 µm in each pass off a body of 128 µm.
 #[test]
 fn finished_passes_are_kept_when_a_body_has_worn_away() {

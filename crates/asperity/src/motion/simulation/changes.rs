@@ -95,7 +95,8 @@ impl Simulation {
         let explicit = law::tried(laws, &outcome.pair, &sums, 1);
         worn_away::check_losses(&outcome.pair, &explicit)?;
         if worn_away::is_deep(&outcome.pair, &explicit) {
-            return Err(Error::Unsupported(DEEP_WEAR));
+            let source = Box::new(Error::Unsupported(DEEP_WEAR));
+            return Err(Error::AtPass { pass: self.passes_done + 1, source });
         }
         outcome.contacts.truncate(self.distinct);
         outcome.contacts = self.solver(watch).solve_implicitly(outcome, compliance, &self.params)?;
