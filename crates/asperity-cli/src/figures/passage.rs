@@ -192,16 +192,19 @@ fn of_conductance(rows: &[&ConductanceRecord], name: &'static str) -> Option<Cur
         order.curve(rows.iter().map(|row| (row.mean_pressure, value(row).unwrap_or(f64::NAN))))
     };
     let has_gas = rows.iter().any(|row| row.gas_share > 0.0);
-    let is_correlated = rows.iter().any(|row| row.joint()[1].is_some() && row.film_share == 0.0);
     let mut series = vec![Series::new("computed", curve(&|row| row.joint()[0]), Mark::LineAndPoints)];
     if has_gas {
         let spots = |row: &ConductanceRecord| row.joint()[0].map(|joint| joint * row.spot_share);
         series.push(Series::new("through the spots", curve(&spots), Mark::LineAndPoints));
     }
-    if is_correlated {
-        let correlation = |row: &ConductanceRecord| row.joint()[1].filter(|_| row.film_share == 0.0);
-        series.push(Series::new("correlation of clean spots", curve(&correlation), Mark::Dashed));
-    }
+    let correlation = |row: &ConductanceRecord| row.joint()[1].filter(|_| row.film_share == 0.0);
+    let mark = match rows.iter().filter(|row| correlation(row).is_some()).count() {
+        0 => None,
+        // A single number has no line.
+        1 => Some(Mark::LineAndPoints),
+        _ => Some(Mark::Dashed),
+    };
+    series.extend(mark.map(|mark| Series::new("correlation of clean spots", curve(&correlation), mark)));
     let vertical = Axis { log: order.log, ..Axis::of("joint conductance", joint_column(rows[0])) };
     let title = if order.by_pressure {
         "joint conductance over mean pressure"
