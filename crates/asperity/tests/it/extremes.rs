@@ -343,7 +343,11 @@ fn has_numbers_only(value: &serde_json::Value) -> bool {
 
 /// Whether a case may fail with this error: it concerns the case, not a defect of the program.
 fn is_an_answer(error: &Error) -> bool {
-    if let Error::AtPosition { source, .. } | Error::AtIncrement { source, .. } = error {
+    if let Error::AtPosition { source, .. }
+    | Error::AtIncrement { source, .. }
+    | Error::AtPass { source, .. }
+    | Error::AtUpdate { source, .. } = error
+    {
         return is_an_answer(source);
     }
     matches!(
@@ -357,6 +361,7 @@ fn is_an_answer(error: &Error) -> bool {
             | Error::PeriodicFullContact { .. }
             | Error::OutOfRange { .. }
             | Error::Unsupported(_)
+            | Error::WornAway { .. }
             | Error::Memory { .. }
     )
 }

@@ -1,7 +1,6 @@
 //! Keys of a hardness map.
 
 use super::exists;
-use super::topography::file;
 use super::typed::{Optional, TEXT, Typed, optional, other, required, section};
 use crate::surface::Axis;
 use crate::units::Dimension;
@@ -27,8 +26,8 @@ pub(in crate::study) mod map {
             "\"GPa\"",
             "unit of the numbers in the file",
         );
-        LINES: Optional<Axis> = file::LINES;
-        SKIP: Optional<usize> = file::SKIP;
+        LINES: Optional<Axis> = super::super::typed::LINES;
+        SKIP: Optional<usize> = super::super::typed::SKIP;
     }
 }
 

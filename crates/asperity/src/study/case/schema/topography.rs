@@ -4,8 +4,8 @@ use super::Bounds::{AboveZero, AboveZeroOrInfinite, Any, Between};
 use super::Fallback::Absent;
 use super::exists;
 use super::typed::{
-    LENGTH, Nested, Optional, SEED, TEXT, Typed, Value, choice, count, defaulted, number, optional, other,
-    pair, quantity, required, section, tables,
+    LENGTH, Nested, Optional, SEED, TEXT, Typed, Value, choice, defaulted, number, optional, other, pair,
+    quantity, required, section, tables,
 };
 use super::values::topography as read;
 use crate::surface::{Axis, Band, Decay, Fill, Filter, Groove, Interpolation, Level};
@@ -124,16 +124,8 @@ pub(in crate::study) mod file {
             "unit of the numbers in a file without units: heights of npy, npz, mat, text, csv, tiff, HDF5, NetCDF and ibw, and all \
              lengths of asc and of tables of points; an error for a file with its own unit",
         );
-        LINES: Optional<Axis> = optional(
-            "lines",
-            choice::<Axis>(),
-            "`\"x\"` for text, `\"y\"` for npy, npz, mat and HDF5, which are indexed `[ix, iy]`",
-            "\"y\"",
-            "direction of a line of a matrix; a text that looks like points is a matrix if this is given; an error for a format that \
-             determines it, see [formats](formats.md)",
-        );
-        SKIP: Optional<usize> =
-            optional("skip", count(0), "0", "6", "number of lines above the numbers of a text");
+        LINES: Optional<Axis> = super::super::typed::LINES;
+        SKIP: Optional<usize> = super::super::typed::SKIP;
         DESPIKE: Optional<f64> = optional(
             "despike",
             number(AboveZero),

@@ -8,6 +8,7 @@ use super::exists::{self, Exists};
 use super::{Bounds, Fallback, Key, Kind};
 use crate::choice::Choice;
 use crate::error::Result;
+use crate::surface::Axis;
 use crate::units::Dimension;
 
 /// A kind of values, with its reader.
@@ -405,3 +406,18 @@ pub(super) const DEPTH: Value<f64> = quantity(Dimension::Length, Bounds::FromZer
 pub(super) const PRESSURE: Value<f64> = quantity(Dimension::Pressure, Bounds::AboveZero);
 /// A fraction of a whole.
 pub(super) const FRACTION: Value<f64> = number(Bounds::Between { least: 0.0, most: 1.0, open: [true, true] });
+
+// Keys shared by several tables.
+
+/// Direction of a line of a matrix in a file.
+pub(super) const LINES: Optional<Axis> = optional(
+    "lines",
+    choice::<Axis>(),
+    "`\"x\"` for text, `\"y\"` for npy, npz, mat and HDF5, which are indexed `[ix, iy]`",
+    "\"y\"",
+    "direction of a line of a matrix; a text that looks like points is a matrix if this is given; an error for a format that \
+     determines it, see [formats](formats.md)",
+);
+/// Number of lines above the numbers of a text file.
+pub(super) const SKIP: Optional<usize> =
+    optional("skip", count(0), "0", "6", "number of lines above the numbers of a text");
