@@ -316,7 +316,7 @@ def test_bodies_that_wear_and_grow_films(pair: Pair, tmp_path: pathlib.Path) -> 
     assert run.passes["max_flash_temperature"].min() > 373.15
     assert run.fields()["film_lower"].values.mean() == pytest.approx(run.passes["mean_film_lower"][-1])
     with pytest.raises(errors.CaseError, match="missing key 'speed'"):
-        asp.simulate(asp.Body(pair[0].surface, pair[0].material, wear={"coefficient": "1e-7 mm3/(N m)"}), upper, load=0.02)
+        asp.simulate(lower, pair[1], load=0.02, temperature={"bulk": "100 °C"})
 
 
 def test_laws_see_shear_temperature_and_time(pair: Pair) -> None:
