@@ -366,9 +366,14 @@ fn verify_main(archive: &mut Archive<'_>, root: Node<'_, '_>, main: &[u8]) -> Ou
     if archive.index_for_name(plain_name(name)).is_none() {
         return Ok(());
     }
-    let line = entry(archive, plain_name(name), "the checksum of main.xml", 1 << 16)?;
-    let line = String::from_utf8_lossy(&line);
-    verify("main.xml", line.split_whitespace().next().unwrap_or_default(), main)
+    let lines = entry(archive, plain_name(name), "the checksum of main.xml", 1 << 16)?;
+    let lines = String::from_utf8_lossy(&lines);
+    // Some programs name another file there, whose checksum is in main.xml, too.
+    let is_of_main = |line: &&str| {
+        line.split_whitespace().nth(1).is_none_or(|name| plain_name(name.trim_start_matches('*')) == MAIN)
+    };
+    let line = lines.lines().find(is_of_main).unwrap_or_default();
+    verify(MAIN, line.split_whitespace().next().unwrap_or_default(), main)
 }
 
 /// Returns the verified entry named by `link`, at most one byte longer than `most`.
