@@ -90,34 +90,16 @@
 //!
 //! Each formula names its own source.
 
-// A module may use those above it, never those below: `tests/it/module_order.rs` holds it.
-pub mod units;
-pub mod choice;
-pub mod error;
-pub mod grid;
-#[cfg(feature = "formats")]
-pub mod io;
-pub mod ranks;
-mod math;
-pub mod flow;
-pub mod stress;
-pub mod material;
-pub mod adhesion;
-pub mod reference;
-pub mod surface;
-pub mod kernel;
-pub mod operator;
-pub mod solver;
-pub mod conductance;
-pub mod subsurface;
-pub mod temperature;
-pub mod plasticity;
-pub mod motion;
-pub mod verification;
+pub use asperity_base::{choice, error, grid, ndarray, ranks, units};
+pub use asperity_contact::{
+    adhesion, conductance, flow, kernel, material, motion, operator, plasticity, reference, solver, stress,
+    subsurface, temperature, verification,
+};
 #[cfg(feature = "study")]
-pub mod study;
-
-pub use ndarray;
+pub use asperity_study as study;
+#[cfg(feature = "study")]
+pub use asperity_study::io;
+pub use asperity_surface as surface;
 
 pub use choice::Choice;
 pub use error::{Error, Result};

@@ -1,46 +1,6 @@
-//! Tests across the modules of the library, as one program with a module for each subject.
+//! Tests of the whole: the order of crates and modules, and the messages of all of them.
 
-mod adhesion;
-mod bad_inputs;
-mod bounds;
-mod case_file;
 mod circles;
-mod closed_forms;
-mod common_grid;
-mod conductance;
-mod convergence;
-mod documents;
-mod extremes;
-mod elasto_plastic;
-mod flow;
-mod friction;
-mod good_inputs;
-mod hardness;
-mod in_place;
-mod kinematics;
-mod laws;
-mod limits;
-mod line;
-mod loading;
 mod messages;
 mod module_order;
-mod motion;
-mod moving_surfaces;
-mod passage;
-mod random_motions;
-mod random_rolling;
-mod real_surface;
-mod response;
-mod rolling;
-mod running_in;
-mod sliding;
-mod smooth_forms;
-mod solver;
-mod steady_rolling;
-mod subsurface;
-mod sweep;
-mod topography_corpus;
-mod warnings;
-mod watch;
-mod written;
 mod support;

@@ -4,6 +4,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::support::crates;
+
 /// Words known only to a front end.
 const ARGUMENTS: [&str; 11] = [
     "--channel",
@@ -18,6 +20,9 @@ const ARGUMENTS: [&str; 11] = [
     "--overwrite",
     "--threads",
 ];
+/// Crates that know no command.
+const LIBRARIES: [&str; 5] =
+    ["asperity", "asperity-base", "asperity-surface", "asperity-contact", "asperity-study"];
 const TABLES: [&str; 7] =
     ["[contact]", "[friction]", "[motion]", "[subsurface]", "[output]", "[[history]]", ".topography]"];
 const KEYS: [&str; 22] = [
@@ -47,17 +52,18 @@ const KEYS: [&str; 22] = [
 
 #[test]
 fn no_message_of_the_library_speaks_of_keys_or_arguments() {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut found = Vec::new();
     let mut literals_seen = 0;
-    for file in files(&source) {
-        let name = file.strip_prefix(&source).unwrap().to_string_lossy().into_owned();
+    let libraries = crates().into_iter().filter(|(name, _)| LIBRARIES.contains(&name.as_str()));
+    for (name, file) in
+        libraries.flat_map(|(name, source)| files(&source).into_iter().map(move |file| (name.clone(), file)))
+    {
         let text = fs::read_to_string(&file).unwrap();
         for literal in literals(before_tests(&text)) {
             literals_seen += 1;
-            let of_a_case = !name.starts_with("study") && speaks_of_a_case(&literal);
+            let of_a_case = name != "asperity-study" && speaks_of_a_case(&literal);
             if of_a_case || ARGUMENTS.iter().any(|argument| literal.contains(argument)) {
-                found.push(format!("src/{name}: {literal}"));
+                found.push(format!("{}: {literal}", file.display()));
             }
         }
     }
@@ -70,11 +76,7 @@ fn no_message_of_the_library_speaks_of_keys_or_arguments() {
 fn no_message_has_two_blanks_in_a_row() {
     let mut found = Vec::new();
     let mut lines_seen = 0;
-    for program in ["asperity", "asperity-cli", "asperity-python", "asperity-mpi"] {
-        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(program).join("src");
-        if !source.is_dir() {
-            continue;
-        }
+    for (_, source) in crates() {
         for file in files(&source) {
             // Headers of files have columns.
             if file.components().any(|part| part.as_os_str() == "formats") {

@@ -1,0 +1,361 @@
+//! Two bodies in relative motion: positions, passes, the geometry of the pair and its plastic change.
+
+mod adhesive;
+mod approach;
+mod body;
+mod contact;
+mod course;
+mod film;
+mod plastic_volume;
+mod elasto_plastic;
+mod heat;
+mod implicit;
+mod extrapolation;
+mod law;
+mod loading;
+mod observed;
+mod pair;
+mod pass;
+mod path;
+mod plastic;
+mod record;
+mod regime;
+mod report;
+mod rim;
+mod simulation;
+mod sliding;
+mod spot;
+mod state;
+mod sweep;
+mod together;
+mod volumes;
+mod warm_start;
+mod watch;
+mod wear;
+mod worn_away;
+
+pub use adhesive::AdhesionHistory;
+pub use asperity_base::record::{Column, Presence};
+pub use body::{Body, State};
+pub use contact::{Contact, StaticContact, press, press_slab};
+pub use course::{Output, Step};
+pub use elasto_plastic::{ElastoPlasticContact, FlowPath, FlowResult, press_elasto_plastic};
+pub use extrapolation::{Acceleration, LastExtrapolation};
+pub use film::{ACTIVATION_ENERGIES, ACTIVATION_VOLUMES, GROWTH_FACTORS, GROWTH_TEMPERATURES, REMOVAL_RATES};
+pub use film::{FILM, Film, FilmLaw, FilmStress, Films};
+pub use heat::FLASH;
+pub use law::{ContactCells, Law, Sums};
+pub use loading::{Stage, load_in_stages, roll};
+pub use observed::ObservedContact;
+pub use pair::Pair;
+pub use pair::{initial_gap, opposing_values};
+use path::shift_positions_after;
+pub use path::{OffsetY, Path, Position, Stroke, overlap_positions, shift_positions};
+pub use plastic::PlasticFlow;
+pub use plastic_volume::PlasticVolume;
+pub use record::lost_volumes::{ENDINGS, is_volume_of_law};
+pub use record::{
+    AdhesionPassRecord, AdhesionRecord, FlowRecord, FlowStepRecord, HeatRecord, IncrementRecord, LostVolume,
+    PassFlowRecord, PassRecord, Regime, ResidualRecord, RunningRecord, ShearRecord, StaticRecord, StepRecord,
+    SweepRecord, UpdateRecord,
+};
+pub use report::PassReport;
+pub use rim::Interior;
+pub use simulation::{Simulation, SolvedPass};
+pub use sliding::{Slide, WearInPlace, WornContact};
+pub use spot::largest_spot;
+pub use state::{Flattening, LoadedContact, LoadingState, Origin, SlidingState};
+pub use sweep::{Point, sweep};
+pub use together::memory_together;
+pub use warm_start::{Guess, LoadedCells, WarmStart};
+pub use watch::{Progress, Watch};
+pub use wear::{WEAR, Wear, WearCoefficient, WearDriver};
+
+use crate::error::{Error, Result};
+use crate::solver::{Control, Friction, Sliding};
+use crate::units::{Kelvin, Metre, MetrePerSecond, Newton, Second};
+use asperity_base::choice::choice;
+
+/// Where a prescribed load holds in a motion. A prescribed approach holds at every position of every pass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LoadControl {
+    /// As the mean over a pass, at one common approach of all its positions.
+    Pass,
+    /// At every position.
+    Step,
+}
+
+/// How the bodies pass over each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Strategy {
+    /// The upper body enters on the left, passes over and leaves on the right. Only the overlap is solved.
+    Overlap,
+    /// Both surfaces are shifted circularly, and the full problem is solved at each step.
+    Shift {
+        /// Speed of the lower surface along x. Only the ratio of the two speeds matters.
+        speed_lower: MetrePerSecond,
+        /// Speed of the upper surface along x.
+        speed_upper: MetrePerSecond,
+    },
+}
+
+impl LoadControl {
+    /// Returns the plastic limit of the load from the limits `max_load` of all positions: their mean under pass control,
+    /// their smallest under step control.
+    pub fn plastic_limit(self, max_load: &[Newton]) -> Newton {
+        match self {
+            Self::Pass => max_load.iter().sum::<f64>() / max_load.len() as f64,
+            Self::Step => max_load.iter().copied().fold(f64::INFINITY, f64::min),
+        }
+    }
+}
+
+/// Returns an error if a prescribed load is not below the [`LoadControl::plastic_limit`].
+pub fn check_limit(control: Control, limit: Newton) -> Result<()> {
+    match control {
+        Control::Load(load) if load >= limit => Err(Error::BeyondPlasticLimit { load, limit }),
+        _ => Ok(()),
+    }
+}
+
+impl Strategy {
+    /// Sign of the velocity of the upper body relative to the lower one; 0 if both roll alike.
+    pub fn direction(&self) -> f64 {
+        match *self {
+            Self::Overlap => 1.0,
+            Self::Shift { speed_lower, speed_upper } if speed_lower == speed_upper => 0.0,
+            Self::Shift { speed_lower, speed_upper } => (speed_upper - speed_lower).signum(),
+        }
+    }
+
+    /// Returns every `stride`-th position of a pass of two bodies with `lower` and `upper` columns.
+    pub fn positions(&self, lower: usize, upper: usize, stride: usize) -> Vec<Position> {
+        match *self {
+            Self::Overlap => overlap_positions(lower, upper, stride),
+            Self::Shift { speed_lower, speed_upper } => {
+                shift_positions(lower, stride, speed_lower, speed_upper)
+            }
+        }
+    }
+}
+
+/// When plastic deformation changes the geometry.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlasticUpdate {
+    /// After the pass: each cell is lowered by its share of the largest plastic interference during the pass.
+    Pass,
+    /// At every position: each position is solved on the surfaces left by the one before.
+    Step,
+}
+
+choice!(PlasticUpdate: "pass" => Pass, "step" => Step);
+
+/// Parameters of a motion: number of passes, steps, control, friction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// Overlap or circular shift.
+    pub strategy: Strategy,
+    /// Number of passes, ≥ 1.
+    pub passes: usize,
+    /// Cells per step, ≥ 1.
+    pub stride: usize,
+    /// Control of the normal direction: load or approach.
+    pub control: Control,
+    /// Where a prescribed load holds.
+    pub load_control: LoadControl,
+    /// When plastic deformation is applied.
+    pub plastic_update: PlasticUpdate,
+    /// Relative tolerance on the pass-mean load, > 0.
+    pub load_tolerance: f64,
+    /// Friction of the sliding bodies, if any.
+    pub friction: Option<Friction>,
+    /// Speed of the upper body over the lower one in an overlap, > 0, if known. A shift has its own speeds.
+    pub speed: Option<MetrePerSecond>,
+    /// Temperatures of the lower and of the upper body, > 0, if known.
+    pub bulk: Option<[Kelvin; 2]>,
+    /// Whether a pass is one forward stroke, or a forward and a return stroke.
+    pub path: Path,
+    /// Offset of the passes along y. An offset other than 0 needs a boundary periodic along y.
+    pub offset_y: OffsetY,
+    /// Where bodies that attract each other come from at each position.
+    pub adhesion_history: AdhesionHistory,
+}
+
+impl Motion {
+    /// Creates a motion of one pass in steps of one cell, without friction. A load holds as the mean over the pass to 10⁻⁴,
+    /// and plastic deformation is applied after the pass.
+    pub const fn new(strategy: Strategy, control: Control) -> Self {
+        Self {
+            strategy,
+            passes: 1,
+            stride: 1,
+            control,
+            load_control: LoadControl::Pass,
+            plastic_update: PlasticUpdate::Pass,
+            load_tolerance: 1e-4,
+            friction: None,
+            speed: None,
+            bulk: None,
+            path: Path::OneWay,
+            offset_y: OffsetY::NONE,
+            adhesion_history: AdhesionHistory::None,
+        }
+    }
+
+    /// Sets the strategy.
+    #[must_use]
+    pub const fn with_strategy(self, strategy: Strategy) -> Self {
+        Self { strategy, ..self }
+    }
+
+    /// Sets the number of passes, ≥ 1.
+    #[must_use]
+    pub const fn with_passes(self, passes: usize) -> Self {
+        Self { passes, ..self }
+    }
+
+    /// Sets the number of cells per step, ≥ 1.
+    #[must_use]
+    pub const fn with_stride(self, stride: usize) -> Self {
+        Self { stride, ..self }
+    }
+
+    /// Sets the load or approach.
+    #[must_use]
+    pub const fn with_control(self, control: Control) -> Self {
+        Self { control, ..self }
+    }
+
+    /// Sets where a prescribed load holds.
+    #[must_use]
+    pub const fn with_load_control(self, load_control: LoadControl) -> Self {
+        Self { load_control, ..self }
+    }
+
+    /// Sets when plastic deformation is applied.
+    #[must_use]
+    pub const fn with_plastic_update(self, plastic_update: PlasticUpdate) -> Self {
+        Self { plastic_update, ..self }
+    }
+
+    /// Sets the relative tolerance on the pass-mean load, > 0.
+    #[must_use]
+    pub const fn with_load_tolerance(self, load_tolerance: f64) -> Self {
+        Self { load_tolerance, ..self }
+    }
+
+    /// Sets or removes the friction.
+    #[must_use]
+    pub fn with_friction(self, friction: impl Into<Option<Friction>>) -> Self {
+        Self { friction: friction.into(), ..self }
+    }
+
+    /// Sets the speed of the upper body in an overlap, > 0.
+    #[must_use]
+    pub fn with_speed(self, speed: impl Into<Option<MetrePerSecond>>) -> Self {
+        Self { speed: speed.into(), ..self }
+    }
+
+    /// Sets the temperatures of the bodies, > 0.
+    #[must_use]
+    pub fn with_bulk(self, bulk: impl Into<Option<[Kelvin; 2]>>) -> Self {
+        Self { bulk: bulk.into(), ..self }
+    }
+
+    /// Sets the path of a pass: one forward stroke, or a forward and a return stroke.
+    #[must_use]
+    pub const fn with_path(self, path: Path) -> Self {
+        Self { path, ..self }
+    }
+
+    /// Sets the offset of the passes along y.
+    #[must_use]
+    pub const fn with_offset_y(self, offset_y: OffsetY) -> Self {
+        Self { offset_y, ..self }
+    }
+
+    /// Sets where bodies that attract each other come from at each position.
+    #[must_use]
+    pub const fn with_adhesion_history(self, adhesion_history: AdhesionHistory) -> Self {
+        Self { adhesion_history, ..self }
+    }
+
+    /// Returns the positions of a `pass`, from 1, for a lower and an upper body of `columns` columns, `width` cells across.
+    ///
+    /// One-way passes by a shift continue from one another: the slower surface starts where the pass before left it.
+    pub fn positions(&self, columns: [usize; 2], width: usize, pass: usize) -> Vec<Position> {
+        let forth = match (self.strategy, self.path) {
+            (Strategy::Shift { speed_lower, speed_upper }, Path::OneWay) => {
+                shift_positions_after(pass - 1, columns[0], self.stride, [speed_lower, speed_upper])
+            }
+            (strategy, _) => strategy.positions(columns[0], columns[1], self.stride),
+        };
+        let across = self.offset_y.of_pass(pass, width);
+        let mut positions: Vec<_> =
+            forth.into_iter().map(|position| Position { across, ..position }).collect();
+        if self.path == Path::Reciprocating {
+            let back: Vec<_> = positions.iter().rev().map(|position| position.back()).collect();
+            positions.extend(back);
+        }
+        positions
+    }
+
+    /// Whether all passes have the same positions. They do if they share one offset along y, and if the surfaces of a shift
+    /// return to their start: by whole rounds, or by a return stroke.
+    pub fn repeats(&self) -> bool {
+        let returns = match (self.strategy, self.path) {
+            (Strategy::Overlap, _) | (_, Path::Reciprocating) => true,
+            (Strategy::Shift { speed_lower, speed_upper }, Path::OneWay) => {
+                let slowest = speed_lower.abs().min(speed_upper.abs());
+                slowest == 0.0 || slowest == speed_lower.abs().max(speed_upper.abs())
+            }
+        };
+        returns && self.offset_y == OffsetY::NONE
+    }
+
+    /// Returns how many of the `positions` of a pass must be solved, the first ones. If the bodies do not change, the
+    /// return stroke repeats the contacts of the forward stroke, unless friction displaces the surfaces normally.
+    pub fn distinct(&self, positions: usize, yields: bool, couples: bool) -> usize {
+        let follows = self.adhesion_history == AdhesionHistory::Path;
+        let stays = (self.plastic_update == PlasticUpdate::Pass || !yields) && !follows;
+        let pushed =
+            self.sliding(Stroke::Forth).is_some_and(|sliding| sliding.shear_displaces_normally(couples));
+        if self.path == Path::Reciprocating && stays && !pushed { positions / 2 } else { positions }
+    }
+
+    /// Time from one position to the next for a pitch along x; NaN if the speed is not known.
+    pub fn step_time(&self, pitch: Metre) -> Second {
+        let step = self.stride as f64 * pitch;
+        match self.strategy {
+            Strategy::Overlap => self.speed.map_or(f64::NAN, |speed| step / speed),
+            Strategy::Shift { speed_lower, speed_upper } => step / speed_lower.abs().max(speed_upper.abs()),
+        }
+    }
+
+    /// Returns the data of a position that laws need besides the contact, for a pitch along x.
+    fn position_data(&self, pitch: Metre) -> law::PositionData {
+        law::PositionData {
+            sliding: self.sliding(Stroke::Forth),
+            distance: self.sliding_distance(pitch),
+            time: self.step_time(pitch),
+            bulk: self.bulk.unwrap_or([f64::NAN; 2]),
+        }
+    }
+
+    /// Direction of sliding and friction on a stroke, if there is friction: the upper body slides towards its motion.
+    pub fn sliding(&self, stroke: Stroke) -> Option<Sliding> {
+        let direction = [stroke.sign() * self.strategy.direction(), 0.0];
+        self.friction.map(|friction| Sliding { friction, direction })
+    }
+
+    /// Sliding distance from one position to the next, for a pitch along x.
+    pub fn sliding_distance(&self, pitch: Metre) -> Metre {
+        let step = self.stride as f64 * pitch;
+        match self.strategy {
+            Strategy::Overlap => step,
+            Strategy::Shift { speed_lower, speed_upper } => {
+                step * (speed_upper - speed_lower).abs() / speed_lower.abs().max(speed_upper.abs())
+            }
+        }
+    }
+}

@@ -1,0 +1,304 @@
+//! A pair of contacting bodies.
+
+use crate::adhesion::Adhesion;
+use crate::error::{Error, Result};
+use crate::grid::{CellValues, Field, Grid, Placement, check_finite, flat_mut};
+use crate::kernel::{SharedResponse, response};
+use crate::material::{Compliances, Material, plastic_share};
+use crate::math::{Bands, parallel};
+use crate::motion::body::{Body, State};
+use crate::motion::path::Position;
+use crate::operator::{Boundary, Operators};
+use crate::solver::{Bounds, Friction};
+use crate::surface::Topography;
+use crate::units::{Dimension, Metre, Pascal, SquareMetre, format_distinct};
+
+/// Two contacting bodies, with the elastic response of their materials.
+#[derive(Debug, Clone)]
+pub struct Pair {
+    /// The lower body.
+    pub lower: Body,
+    /// The upper body, with the heights of its underside.
+    pub upper: Body,
+    pitch: [Metre; 2],
+    compliances: Compliances,
+    response: SharedResponse,
+    /// Prescribed share of the lower body in the plastic deformation; `None` if the softer of two cells takes all of it.
+    share: Option<f64>,
+    adhesion: Option<Adhesion>,
+}
+
+impl Pair {
+    /// Creates a pair of bodies with these materials; `upper` is the height of the underside.
+    ///
+    /// # Errors
+    /// [`Error::GridMismatch`] if pitches or transverse widths differ, [`Error::UndefinedSamples`] if heights are missing,
+    /// [`Error::OutOfRange`] if both materials are rigid and neither is coated.
+    pub fn new(lower: Topography, upper: Topography, materials: [&Material; 2]) -> Result<Self> {
+        let (a, b) = (*lower.grid(), *upper.grid());
+        if (0..2).any(|axis| (a.pitch[axis] - b.pitch[axis]).abs() > 1e-9 * a.pitch[axis]) {
+            let axis = usize::from((a.pitch[0] - b.pitch[0]).abs() <= 1e-9 * a.pitch[0]);
+            let [left, right] = format_distinct([a.pitch[axis], b.pitch[axis]], Dimension::Length);
+            let what = ["pitch of the two bodies along x", "pitch of the two bodies along y"][axis];
+            return Err(Error::GridMismatch { what, left, right });
+        }
+        if a.shape[1] != b.shape[1] {
+            let text = |g: Grid| format!("{} cells across", g.shape[1]);
+            return Err(Error::GridMismatch {
+                what: "transverse width of the two bodies",
+                left: text(a),
+                right: text(b),
+            });
+        }
+        for body in [&lower, &upper] {
+            let undefined = body.undefined();
+            if undefined > 0 {
+                return Err(Error::UndefinedSamples { undefined, samples: body.grid().cells() });
+            }
+        }
+        let compliances = Compliances::new(materials[0], materials[1])?;
+        Ok(Self {
+            pitch: a.pitch,
+            lower: Body::new(lower.into_heights(), materials[0].hardness),
+            upper: Body::new(upper.into_heights(), materials[1].hardness),
+            compliances,
+            response: response(materials[0], materials[1])?,
+            share: None,
+            adhesion: None,
+        })
+    }
+
+    /// Sets the hardness of the lower and of the upper body, each a number or a map of its cells.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a hardness that is not above 0.
+    ///
+    /// # Panics
+    /// If the shape of a map differs from that of its body.
+    pub fn with_hardness(mut self, [lower, upper]: [CellValues; 2]) -> Result<Self> {
+        (self.lower.hardness, self.upper.hardness) = (lower, upper);
+        self.lower.validate()?;
+        self.upper.validate()?;
+        Ok(self)
+    }
+
+    /// Sets the share of the lower body in the plastic deformation, 0 … 1.
+    pub fn with_plastic_share(self, share: f64) -> Self {
+        Self { share: Some(share), ..self }
+    }
+
+    /// Sets or removes the attraction between the bodies. Static contacts without friction take it into account.
+    #[must_use]
+    pub fn with_adhesion(self, adhesion: impl Into<Option<Adhesion>>) -> Self {
+        Self { adhesion: adhesion.into(), ..self }
+    }
+
+    /// Replaces the elastic response of the materials by another `response`.
+    ///
+    /// Hardness and plastic share stay those of the materials. So do [`Pair::modulus`] and [`Pair::compliances`], which
+    /// then no longer affect any contact.
+    pub fn with_response(self, response: impl Into<SharedResponse>) -> Self {
+        Self { response: response.into(), ..self }
+    }
+
+    /// The attraction between the bodies, if any.
+    pub fn adhesion(&self) -> Option<&Adhesion> {
+        self.adhesion.as_ref()
+    }
+
+    /// Size of a cell.
+    pub fn pitch(&self) -> [Metre; 2] {
+        self.pitch
+    }
+
+    /// Composite modulus E* of the bodies, without their coatings.
+    pub fn modulus(&self) -> Pascal {
+        self.compliances.modulus()
+    }
+
+    /// Elastic compliances of the pair, without the coatings.
+    pub fn compliances(&self) -> &Compliances {
+        &self.compliances
+    }
+
+    /// The elastic response of the bodies to a traction.
+    pub fn response(&self) -> &SharedResponse {
+        &self.response
+    }
+
+    /// Whether pressure displaces the bodies tangentially, and shear displaces them normally; false if the response to
+    /// shear is unknown.
+    pub(super) fn couples(&self) -> bool {
+        self.response.coupled().is_some_and(|coupled| coupled.couples())
+    }
+
+    /// Returns [`Error::Unsupported`] if the response to shear is unknown.
+    pub(super) fn check_shear(&self) -> Result<()> {
+        self.response
+            .coupled()
+            .map(|_| ())
+            .ok_or(Error::Unsupported("these bodies support friction only in gross sliding without coupling"))
+    }
+
+    /// Returns [`Error::Unsupported`] if the bodies attract each other.
+    pub(super) fn check_no_adhesion(&self) -> Result<()> {
+        match self.adhesion {
+            Some(_) => Err(Error::Unsupported(
+                "adhesion is not solved together with coupled friction, rolling, wear in place, plastic flow or ranks",
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// Creates the operators of contacts on grids up to `largest`; [`Error::Unsupported`] if the response does not support
+    /// the boundary.
+    pub(super) fn operators(&self, largest: Grid, boundary: Boundary) -> Result<Operators> {
+        self.check_line(&largest, boundary)?;
+        Ok(Operators::new(largest, self.response.clone(), boundary))
+    }
+
+    /// Returns [`Error::Unsupported`] if the boundary is periodic along one axis of a grid and the response to a line of
+    /// cells is unknown.
+    pub(super) fn check_line(&self, largest: &Grid, boundary: Boundary) -> Result<()> {
+        let line = boundary.line(largest, boundary.datum(largest));
+        if line.is_some_and(|line| self.response.line_influence(&line, self.pitch).is_none()) {
+            return Err(Error::Unsupported(
+                "these bodies do not support a boundary that is periodic along one axis only",
+            ));
+        }
+        Ok(())
+    }
+
+    /// Returns the shares of the lower and of the upper body in the plastic deformation of cells with this `hardness`: all
+    /// for the softer, half each if both are equally hard.
+    pub fn plastic_shares(&self, hardness: [Pascal; 2]) -> [f64; 2] {
+        let lower = self.share.unwrap_or_else(|| plastic_share(hardness[0], hardness[1]));
+        [lower, 1.0 - lower]
+    }
+
+    /// Whether any cell of the pair can deform plastically.
+    pub fn yields(&self) -> bool {
+        self.lower.hardness.min().min(self.upper.hardness.min()).is_finite()
+    }
+
+    /// Largest pressure that any two opposing cells can carry; infinite if both are elastic.
+    pub fn max_hardness(&self) -> Pascal {
+        self.lower.hardness.max().min(self.upper.hardness.max())
+    }
+
+    /// Smallest pressure that any two opposing cells can carry.
+    pub fn min_hardness(&self) -> Pascal {
+        self.lower.hardness.min().min(self.upper.hardness.min())
+    }
+
+    /// Returns the pressure bounds on the cells of the overlap: the hardness of the softer cell, reduced by the shear of
+    /// bodies that slide under `friction`.
+    pub fn bounds(&self, position: &Position, friction: Option<&Friction>) -> Bounds {
+        self.bounds_of([&self.lower.hardness, &self.upper.hardness], position, friction)
+    }
+
+    /// Returns the bounds for bodies on the same grids with this hardness, lower one first.
+    pub(super) fn bounds_of(
+        &self,
+        hardness: [&CellValues; 2],
+        position: &Position,
+        friction: Option<&Friction>,
+    ) -> Bounds {
+        let shapes = [self.lower_grid().shape, self.upper_grid().shape];
+        let bounds = Bounds::up_to(opposing_values(hardness, shapes, position, f64::min));
+        friction.map_or_else(|| bounds.clone(), |friction| friction.sliding_bounds(&bounds))
+    }
+
+    /// Returns the single position of a static contact at full overlap.
+    pub fn at_rest(&self) -> Position {
+        Position::flush(self.lower.columns())
+    }
+
+    /// Area ΔA of a cell.
+    pub fn cell_area(&self) -> SquareMetre {
+        self.pitch[0] * self.pitch[1]
+    }
+
+    /// The lower body's grid.
+    pub fn lower_grid(&self) -> Grid {
+        self.grid(self.lower.columns())
+    }
+
+    /// The upper body's grid.
+    pub fn upper_grid(&self) -> Grid {
+        self.grid(self.upper.columns())
+    }
+
+    /// Creates a grid with `columns` columns of this pair.
+    pub fn grid(&self, columns: usize) -> Grid {
+        Grid { shape: [columns, self.lower.width()], pitch: self.pitch }
+    }
+
+    /// Checks the heights of both bodies, and the state that laws store with them.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`].
+    pub(super) fn check_finite(&self) -> Result<()> {
+        for (name, body) in [("lower", &self.lower), ("upper", &self.upper)] {
+            check_finite(name, body.heights.shape(), &body.heights)?;
+            for (state, State { values, .. }) in &body.state {
+                check_finite(&format!("{state}_{name}"), values.shape(), values)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Undeformed gap h = z₂ − z₁ of the cells of the overlap.
+    pub fn initial_gap(&self, position: &Position) -> Field {
+        initial_gap([&self.lower.heights, &self.upper.heights], position)
+    }
+
+    /// Placement of the contact at `position` on the lower and on the upper body.
+    pub fn placements(&self, position: &Position) -> [Placement; 2] {
+        position.placements([self.lower_grid().shape, self.upper_grid().shape])
+    }
+
+    /// Returns the flat cells of the lower and of the upper body under a flat cell of the contact at `position`. If it lies
+    /// between two columns, this is the first one, whose weight is 1 − [`Position::fraction`].
+    pub fn cells_of_bodies(&self, position: &Position, cell: usize) -> [usize; 2] {
+        self.placements(position).map(|placement| placement.cell(cell))
+    }
+}
+
+/// Combines by `of` the values of two bodies of these shapes at opposing cells.
+pub fn opposing_values(
+    values: [&CellValues; 2],
+    shapes: [[usize; 2]; 2],
+    position: &Position,
+    of: impl Fn(f64, f64) -> f64,
+) -> CellValues {
+    if let [CellValues::Uniform(lower), CellValues::Uniform(upper)] = values {
+        return CellValues::Uniform(of(*lower, *upper));
+    }
+    let shape = [position.columns, shapes[0][1]];
+    let [lower, upper] = position.placements(shapes);
+    let mut facing = Field::zeros(shape);
+    let mut above = vec![0.0; shape[1]];
+    for (j, mut row) in facing.outer_iter_mut().enumerate() {
+        let row = row.as_slice_mut().expect("standard layout");
+        lower.fill(values[0], j, row);
+        upper.fill(values[1], j, &mut above);
+        row.iter_mut().zip(&above).for_each(|(value, above)| *value = of(*value, *above));
+    }
+    CellValues::Field(facing)
+}
+
+/// Undeformed gap h = z₂ − z₁ between opposing cells of the lower and of the upper surface.
+pub fn initial_gap(surfaces: [&Field; 2], position: &Position) -> Field {
+    let [lower, upper] = position.placements(surfaces.map(|surface| [surface.nrows(), surface.ncols()]));
+    let shape = [position.columns, surfaces[0].ncols()];
+    let mut gap = Field::zeros(shape);
+    let bands = Bands::of(shape);
+    parallel::map(bands.rows().zip(bands.cut_mut(flat_mut(&mut gap))), |(rows, gap)| {
+        for (j, row) in rows.zip(gap.chunks_mut(shape[1])) {
+            upper.for_column(surfaces[1], j, row, |h, z2| *h = z2);
+            lower.for_column(surfaces[0], j, row, |h, z1| *h -= z1);
+        }
+    });
+    gap
+}

@@ -1,0 +1,26 @@
+//! The records of a computation: one for each static contact, increment, update, point of a sweep, position and pass.
+//!
+//! A field of a record is a column of its table, or a key of `summary.json`. Only this module declares it: its type is the
+//! unit and its documentation the meaning ([`asperity_base::record`]).
+
+mod adhesion;
+mod flow;
+mod increment;
+pub(crate) mod lost_volumes;
+mod pass;
+mod rest;
+mod running;
+mod step;
+mod sweep;
+mod update;
+
+pub use adhesion::{AdhesionPassRecord, AdhesionRecord};
+pub use flow::{FlowRecord, FlowStepRecord, PassFlowRecord, Regime, ResidualRecord};
+pub use increment::IncrementRecord;
+pub use lost_volumes::LostVolume;
+pub use pass::PassRecord;
+pub use rest::{ShearRecord, StaticRecord};
+pub use running::{HeatRecord, RunningRecord};
+pub use step::StepRecord;
+pub use sweep::SweepRecord;
+pub use update::UpdateRecord;

@@ -1,0 +1,160 @@
+//! Warm start that a pass leaves to the next, besides the bodies.
+//!
+//! Wear changes the pressures at a position by about the same amount in each pass. A pass begins with the extrapolated
+//! pressures: the change of the last pass, scaled by how well that pass repeated the change before it.
+
+use crate::motion::contact::Contact;
+use crate::motion::extrapolation::LastExtrapolation;
+use crate::motion::pair::Pair;
+use crate::motion::path::Position;
+use crate::solver::Stats;
+use crate::units::{Metre, Pascal};
+
+/// State in which the next pass begins. Solutions are exact only within their tolerances and depend on the start. A motion
+/// therefore continues with the same bits only from the same start.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct WarmStart {
+    /// Initial guess of the search for the approach; `None` if no mean load is prescribed, or if the next pass has other
+    /// positions or bodies.
+    pub guess: Option<Guess>,
+    /// The loaded cells at each solved position of the last pass; empty before the first pass, or if the next pass has
+    /// other positions.
+    pub positions: Vec<LoadedCells>,
+    /// The last extrapolation; `None` before the first pass, or if nothing wears.
+    pub extrapolation: Option<LastExtrapolation>,
+    /// Finished passes of the motion.
+    pub represented: usize,
+}
+
+/// Initial guess of the search for the approach of a pass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Guess {
+    /// The approach δ.
+    pub approach: Metre,
+    /// Relative change d ln W/dδ of the mean load with the approach, 1/m. The load of rough bodies grows about
+    /// exponentially with the approach.
+    pub slope: f64,
+}
+
+/// The loaded cells at one position.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadedCells {
+    /// The approach δ.
+    pub approach: Metre,
+    /// Flat cells with p > 0, ascending, and their pressure, Pa.
+    pub pressure: Vec<(u32, Pascal)>,
+    /// Change of the pressure of each of these cells since the computed pass before, in Pa per pass of the motion; 0 for
+    /// cells without pressure before, and for all cells after the first pass.
+    pub change: Vec<Pascal>,
+    /// Fraction of this change that the next pass is expected to repeat, 0 … 1: the fraction of the change before it that
+    /// this pass has repeated.
+    pub persistence: f64,
+}
+
+impl WarmStart {
+    /// Creates the warm start from the contacts of a pass.
+    pub(super) fn new(
+        guess: Option<Guess>,
+        contacts: &[Contact],
+        extrapolation: Option<LastExtrapolation>,
+        represented: usize,
+        before: &Self,
+    ) -> Self {
+        let passes = before.extrapolated_passes();
+        let loaded_cells = |(number, c): (usize, &Contact)| {
+            LoadedCells::new(c.approach, c.pressure.clone(), before.positions.get(number), passes)
+        };
+        Self {
+            guess,
+            positions: contacts.iter().enumerate().map(loaded_cells).collect(),
+            extrapolation,
+            represented,
+        }
+    }
+
+    /// Number of passes over which the last computed one was extrapolated.
+    fn extrapolated_passes(&self) -> f64 {
+        self.extrapolation.as_ref().map_or(1.0, |last| last.passes as f64)
+    }
+
+    /// Returns the initial contacts of the positions, at no cost so far; `None` before the first pass.
+    pub(super) fn contacts(&self, pair: &Pair, positions: &[Position]) -> Option<Vec<Contact>> {
+        let contact = |(loaded_cells, position): (&LoadedCells, &Position)| {
+            let pressure = loaded_cells.predicted(self.extrapolated_passes());
+            Contact::from_pressure(pair, *position, loaded_cells.approach, pressure, Stats::default())
+        };
+        let begun = !self.positions.is_empty();
+        begun.then(|| self.positions.iter().zip(positions).map(contact).collect())
+    }
+}
+
+/// The extrapolated pressure of a cell is at least this fraction of the last one,
+const LEAST: f64 = 0.01;
+/// and at most this multiple of it.
+const MOST: f64 = 2.0;
+
+impl LoadedCells {
+    /// Creates the record of the loaded cells, `passes` passes of the motion after those `before`.
+    fn new(approach: Metre, pressure: Vec<(u32, Pascal)>, before: Option<&Self>, passes: f64) -> Self {
+        let Some(before) = before else {
+            return Self { approach, change: vec![0.0; pressure.len()], pressure, persistence: 0.0 };
+        };
+        let (mut repeated, mut whole) = (0.0, 0.0);
+        let change = pressure.iter().map(|(cell, p)| {
+            let Ok(index) = before.pressure.binary_search_by_key(cell, |(cell, _)| *cell) else { return 0.0 };
+            let (change, earlier) = ((p - before.pressure[index].1) / passes, before.change[index]);
+            repeated += change * earlier;
+            whole += earlier * earlier;
+            change
+        });
+        let change = change.collect();
+        let persistence = if whole > 0.0 { (repeated / whole).clamp(0.0, 1.0) } else { 0.0 };
+        Self { approach, pressure, change, persistence }
+    }
+
+    /// Returns the extrapolated pressures `passes` passes of the motion later.
+    fn predicted(&self, passes: f64) -> Vec<(u32, Pascal)> {
+        let cells = self.pressure.iter().zip(&self.change);
+        let share = self.persistence * passes;
+        cells.map(|((cell, p), change)| (*cell, (p + share * change).clamp(LEAST * p, MOST * p))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Extrapolates after passes with these pressures, each this many passes of the motion after the one before; the last
+    /// number is that of the passes to come.
+    fn predicted(states: &[(&[(u32, f64)], f64)], to_come: f64) -> Vec<(u32, f64)> {
+        let mut last = None;
+        for (pressure, passes) in states {
+            last = Some(LoadedCells::new(0.0, pressure.to_vec(), last.as_ref(), *passes));
+        }
+        last.unwrap().predicted(to_come)
+    }
+
+    #[test]
+    fn pressures_that_change_steadily_are_foreseen() {
+        let states: [(&[_], _); 3] = [
+            (&[(1, 10.0), (4, 20.0)], 1.0),
+            (&[(1, 11.0), (4, 18.0)], 1.0),
+            (&[(1, 13.0), (4, 14.0), (7, 3.0)], 2.0),
+        ];
+        assert_eq!(predicted(&states[..1], 1.0), states[0].0);
+        assert_eq!(predicted(&states[..2], 1.0), states[1].0);
+        assert_eq!(predicted(&states, 3.0), [(1, 16.0), (4, 8.0), (7, 3.0)]);
+        // Never to tension, and never far.
+        assert_eq!(predicted(&states, 30.0), [(1, 26.0), (4, 0.14), (7, 3.0)]);
+    }
+
+    #[test]
+    fn a_change_that_fades_is_foreseen_to_fade_and_one_that_turns_not_at_all() {
+        let after = |pressures: [f64; 3]| {
+            let states = pressures.map(|p| [(2, p)]);
+            predicted(&[(&states[0], 1.0), (&states[1], 1.0), (&states[2], 1.0)], 1.0)
+        };
+        assert_eq!(after([8.0, 12.0, 14.0]), [(2, 15.0)]);
+        assert_eq!(after([8.0, 12.0, 10.0]), [(2, 10.0)]);
+    }
+}

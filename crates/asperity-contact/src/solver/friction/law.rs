@@ -1,0 +1,154 @@
+//! The law of friction: the largest shear of a cell under its pressure.
+
+use crate::error::{Result, check, check_in};
+use crate::solver::Bounds;
+use crate::units::{Dimension, Pascal};
+use asperity_base::choice::choice;
+
+/// Coupling of normal and tangential displacements between dissimilar bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Coupling {
+    /// Full elastic coupling: pressure displaces tangentially, and shear displaces normally.
+    #[default]
+    Full,
+    /// Goodman's approximation: pressure displaces tangentially, but shear does not change the pressure.
+    Goodman,
+    /// No coupling, as between identical bodies: pressure displaces normally, shear tangentially.
+    None,
+}
+
+choice!(Coupling: "full" => Full, "goodman" => Goodman, "none" => None);
+
+impl Coupling {
+    /// Whether shear displaces the surface normally.
+    pub(super) fn shear_displaces_normally(self, couples: bool) -> bool {
+        self == Self::Full && couples
+    }
+
+    /// Whether pressure displaces the surface tangentially.
+    pub(super) fn pressure_displaces_tangentially(self, couples: bool) -> bool {
+        self != Self::None && couples
+    }
+}
+
+/// Friction in each cell: |q| ≤ min(μp, τ), in any direction of the plane.
+///
+/// A cell with a smaller |q| sticks. A cell at the limit may slip, and q on the lower body points in the direction of
+/// the slip of the upper body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction {
+    /// Coefficient of friction μ ≥ 0; infinite if touching bodies always stick.
+    pub coefficient: f64,
+    /// Shear strength τ > 0 of the interface, for example of a boundary film; infinite without a limit.
+    pub shear_strength: Pascal,
+    /// The coupling of normal and tangential displacements.
+    pub coupling: Coupling,
+    /// Weight α ≥ 0 of the shear in the yield condition p² + αq² ≤ H² of a plastic cell. Shear then lowers the
+    /// largest pressure, and the contact grows. With α = 0 the hardness limits only the pressure. Tabor, Proc. R.
+    /// Soc. A 251, 378 (1959), found α near 9 for metals. The criteria of von Mises and Tresca give 27 and 36 if
+    /// H is three times the yield stress.
+    pub junction_growth: f64,
+}
+
+impl Friction {
+    /// Creates Coulomb's law.
+    ///
+    /// # Errors
+    /// [`crate::Error::OutOfRange`] for a negative coefficient.
+    pub fn coulomb(coefficient: f64) -> Result<Self> {
+        let (shear_strength, coupling) = (Pascal::INFINITY, Coupling::Full);
+        Self { coefficient, shear_strength, coupling, junction_growth: 0.0 }.checked()
+    }
+
+    /// Sets the coefficient of friction μ ≥ 0.
+    #[must_use]
+    pub const fn with_coefficient(self, coefficient: f64) -> Self {
+        Self { coefficient, ..self }
+    }
+
+    /// Sets the shear strength τ of the interface, > 0.
+    #[must_use]
+    pub const fn with_shear_strength(self, shear_strength: Pascal) -> Self {
+        Self { shear_strength, ..self }
+    }
+
+    /// Sets the coupling of normal and tangential displacements.
+    #[must_use]
+    pub const fn with_coupling(self, coupling: Coupling) -> Self {
+        Self { coupling, ..self }
+    }
+
+    /// Sets the weight α ≥ 0 of the shear in the yield condition of plastic cells.
+    #[must_use]
+    pub const fn with_junction_growth(self, junction_growth: f64) -> Self {
+        Self { junction_growth, ..self }
+    }
+
+    /// Returns the law, or an error if a number is out of range.
+    pub(crate) fn checked(self) -> Result<Self> {
+        check("friction coefficient", self.coefficient, self.coefficient >= 0.0, "a number of at least 0")?;
+        check_in(
+            Dimension::Pressure,
+            "shear strength",
+            self.shear_strength,
+            self.shear_strength > 0.0,
+            "a stress above 0",
+        )?;
+        let alpha = self.junction_growth;
+        check(
+            "junction growth",
+            alpha,
+            (0.0..f64::INFINITY).contains(&alpha),
+            "a finite weight of at least 0",
+        )?;
+        Ok(self)
+    }
+
+    /// Returns the largest shear of a cell under `pressure`.
+    pub fn shear_limit(&self, pressure: Pascal) -> Pascal {
+        if pressure > 0.0 { (self.coefficient * pressure).min(self.shear_strength) } else { 0.0 }
+    }
+
+    /// Whether the junctions of bodies with this hardness grow: shear lowers the pressure of their plastic cells.
+    pub(super) fn grows_junctions(&self, hardness: Pascal) -> bool {
+        self.junction_growth > 0.0 && self.coefficient > 0.0 && hardness.is_finite()
+    }
+
+    /// Returns this friction with the largest shear of plastic cells without pressure, H/√α.
+    pub(super) fn within(self, hardness: Pascal) -> Self {
+        let shear_strength = self.shear_strength.min(hardness / self.junction_growth.sqrt());
+        Self { shear_strength, ..self }
+    }
+
+    /// Returns the largest pressure of a cell under `shear`, from p² + αq² = H². For a `pressure` that does not
+    /// satisfy this yet, it returns the mean of the solutions at constant shear and at a shear in proportion to
+    /// the pressure. The result is at least the cap of a sliding cell.
+    pub(super) fn cap(&self, hardness: Pascal, pressure: Pascal, shear: Pascal) -> Pascal {
+        let square = self.junction_growth * shear * shear;
+        if pressure <= 0.0 || square == 0.0 {
+            return hardness;
+        }
+        let stays = (hardness * hardness - square).max(0.0).sqrt();
+        let changes = hardness / (1.0 + square / (pressure * pressure)).sqrt();
+        (0.5 * (stays + changes)).max(self.sliding_cap(hardness))
+    }
+
+    /// Returns the `bounds` of sliding bodies under their shear, see [`Friction::sliding_cap`].
+    pub fn sliding_bounds(&self, bounds: &Bounds) -> Bounds {
+        Bounds::up_to(bounds.upper().map(|hardness| self.sliding_cap(hardness))).above(bounds.lower().clone())
+    }
+
+    /// Returns the largest pressure of a sliding cell with this hardness.
+    pub fn sliding_cap(&self, hardness: Pascal) -> Pascal {
+        if !self.grows_junctions(hardness) {
+            return hardness;
+        }
+        let coulomb = hardness / (1.0 + self.junction_growth * self.coefficient.powi(2)).sqrt();
+        let film = self.shear_strength;
+        if self.coefficient * coulomb <= film {
+            coulomb
+        } else {
+            (hardness * hardness - self.junction_growth * film * film).sqrt()
+        }
+    }
+}

@@ -1,0 +1,563 @@
+//! Stress under the surface of a body, plane by plane.
+//!
+//! z points into the body, and stress is positive in tension. A [`Subsurface`] stores the transforms of the tractions on
+//! the surface. [`Subsurface::plane`] returns the stress at one depth, [`Subsurface::maximum`] the largest over many
+//! depths.
+//!
+//! ```
+//! use asperity_contact::reference::HertzSphere;
+//! use asperity_contact::subsurface::{Subsurface, Tractions};
+//! use asperity_contact::{Field, Grid};
+//! use asperity_contact::operator::Boundary;
+//!
+//! let ball = HertzSphere { radius: 1e-3, modulus: 115e9, load: 1.0 };
+//! let grid = Grid::new([65, 65], [1e-6; 2])?;
+//! let pressure = Field::from_shape_fn(grid.shape, |(i, j)| {
+//!     ball.pressure((grid.centre(0, i) - 32.5e-6).hypot(grid.centre(1, j) - 32.5e-6))
+//! });
+//! let steel = Subsurface::new(grid, Boundary::FREE, 0.3, &Tractions::frictionless(pressure));
+//! let most = steel.maximum(&[0.0, 4e-6, 8e-6, 12e-6]).von_mises;
+//! assert_eq!(most.cell, [32, 32]);
+//! assert!((most.value / ball.peak_pressure() - 0.62).abs() < 0.002);
+//! assert!((most.depth / ball.contact_radius() - 0.48).abs() < 0.02);
+//! # Ok::<(), asperity_contact::Error>(())
+//! ```
+
+mod layered;
+mod maximum;
+
+pub use layered::LayeredStress;
+pub use maximum::{Extreme, Maximum};
+
+use asperity_transforms::num_complex::Complex64;
+use ndarray::{Array1, Axis, s};
+
+use crate::grid::{Field, Grid};
+use crate::kernel::subsurface::{stress_lines, strip_stress};
+use crate::kernel::{Traction, harmonic_stress, stress_table};
+use crate::math::{RealFft2, fft::angular_frequency, parallel};
+use crate::operator::Boundary;
+use crate::stress::{Component, Stress};
+use crate::units::Metre;
+
+/// Tractions on the surface of a body, on the cells of one grid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tractions {
+    /// Pressure p ≥ 0, into the body.
+    pub pressure: Field,
+    /// Shear tractions along +x and +y; `None` for zero.
+    pub shear: [Option<Field>; 2],
+}
+
+impl Tractions {
+    /// Creates a pressure without shear: contact without friction.
+    pub fn frictionless(pressure: Field) -> Self {
+        Self { pressure, shear: [None, None] }
+    }
+
+    /// Converts tractions on the lower body to those on the upper one: the same pressure, the reversed shear. The upper
+    /// body's z also points into the body, so that its stresses are those of the mirror image.
+    pub fn on_upper(self) -> Self {
+        Self { shear: self.shear.map(|shear| shear.map(|q| -q)), ..self }
+    }
+
+    /// Iterates over the tractions that are not zero throughout.
+    pub(crate) fn present(&self) -> impl Iterator<Item = (Traction, &Field)> {
+        let [qx, qy] = &self.shear;
+        let all = [
+            (Traction::X, qx.as_ref()),
+            (Traction::Y, qy.as_ref()),
+            (Traction::Pressure, Some(&self.pressure)),
+        ];
+        all.into_iter()
+            .filter_map(|(traction, field)| Some((traction, field?)))
+            .filter(|(_, field)| field.iter().any(|value| *value != 0.0))
+    }
+}
+
+/// A half-space under given tractions.
+///
+/// - [`Boundary::FREE`]: tractions are uniform in each cell, and zero outside the grid. A plane is the convolution of the
+///   tractions with the closed form of [`crate::kernel::cell_stress`] by zero-padded transforms, exact to round-off.
+/// - [`Boundary::PERIODIC`]: the harmonics of the values at the cells, each with the closed form of
+///   [`crate::kernel::harmonic_stress`]. Under the mean pressure the body cannot expand laterally: σzz = −p̄,
+///   σxx = σyy = −ν p̄/(1 − ν), at all depths.
+/// - Periodic along one axis, free along the other: each cell repeats endlessly along that axis. The cells of 17 periods are
+///   summed, those beyond as the rest of an endless strip in plane strain. The part that is uniform along the axis is exact
+///   to 1e-10 of the traction, the other part to 2e-4 of it.
+pub struct Subsurface {
+    grid: Grid,
+    poisson: f64,
+    boundary: Boundary,
+    fft: RealFft2,
+    /// Transforms of the tractions that are not zero.
+    tractions: Vec<(Traction, Spectrum)>,
+    /// Stress without tractions, if any.
+    residual: Option<LayeredStress>,
+}
+
+type Spectrum = ndarray::Array2<Complex64>;
+
+impl Subsurface {
+    /// Creates a body with Poisson's ratio `poisson` under `tractions` on `grid`.
+    ///
+    /// # Panics
+    /// If the grid of a traction differs.
+    pub fn new(grid: Grid, boundary: Boundary, poisson: f64, tractions: &Tractions) -> Self {
+        let fft = RealFft2::new(boundary.padded(grid.shape));
+        let transform = |(traction, field): (Traction, &Field)| {
+            assert_eq!(field.shape(), grid.shape, "shape of the tractions");
+            (traction, fft.forward(field))
+        };
+        let tractions = tractions.present().map(transform).collect();
+        Self { grid, poisson, boundary, fft, tractions, residual: None }
+    }
+
+    /// Sets or removes a residual stress, which exists without tractions.
+    pub fn with_residual(self, residual: impl Into<Option<LayeredStress>>) -> Self {
+        Self { residual: residual.into(), ..self }
+    }
+
+    /// Residual stress, if any.
+    pub fn residual(&self) -> Option<&LayeredStress> {
+        self.residual.as_ref()
+    }
+
+    /// The grid of every plane.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// Returns the stress at `depth` ≥ 0; at 0 its limit from inside the body.
+    pub fn plane(&self, depth: Metre) -> Plane {
+        let mut stress = Component::ALL.map(|component| self.component(component, depth));
+        if let Some(residual) = &self.residual {
+            stress.iter_mut().zip(residual.at(depth)).for_each(|(stress, residual)| *stress += &residual);
+        }
+        Plane { depth, stress }
+    }
+
+    /// Applies `look` to the plane at each of the `depths` in parallel, with one plane per thread. Returns the results in
+    /// order.
+    pub fn planes<T: Send>(&self, depths: &[Metre], look: impl Fn(Plane) -> T + Sync) -> Vec<T> {
+        parallel::tasks(depths, |&depth| look(self.plane(depth)))
+    }
+
+    fn component(&self, component: Component, depth: Metre) -> Field {
+        let mut sum = Spectrum::zeros([self.fft.shape()[0], self.fft.half()]);
+        let (imaginary, real): (Vec<_>, Vec<_>) =
+            self.tractions.iter().partition(|(traction, _)| is_imaginary(*traction, component));
+        for k in 0..real.len().max(imaginary.len()) {
+            let pair = [real.get(k), imaginary.get(k)].map(|term| term.map(|(traction, _)| *traction));
+            let symbol = self.symbol(component, pair, depth);
+            if let Some((_, traction)) = real.get(k) {
+                ndarray::Zip::from(&mut sum).and(&symbol).and(traction).for_each(|s, g, q| *s += q * g.re);
+            }
+            if let Some((_, traction)) = imaginary.get(k) {
+                ndarray::Zip::from(&mut sum)
+                    .and(&symbol)
+                    .and(traction)
+                    .for_each(|s, g, q| *s += Complex64::new(-q.im * g.im, q.re * g.im));
+            }
+        }
+        self.fft.inverse_leading(&sum, self.grid.shape)
+    }
+
+    /// Returns the transform of the influence of two tractions, one with a real transform in the real part, one with an
+    /// imaginary transform in the imaginary part. The influence of the first is even in both directions or odd in both,
+    /// that of the second odd in one.
+    fn symbol(&self, component: Component, pair: [Option<Traction>; 2], depth: Metre) -> Spectrum {
+        let shape @ [nx, ny] = self.fft.shape();
+        if !self.boundary.leaves_mean_free() {
+            let mut influence = Field::zeros(shape);
+            for traction in pair.into_iter().flatten() {
+                let Grid { shape: offsets, pitch } = self.grid;
+                match self.boundary.single_period() {
+                    Some(axis) => {
+                        let line = Repeated { axis, periods: PERIODS, grid: &self.grid };
+                        line.add(&mut influence, depth, self.poisson, component, traction);
+                    }
+                    None => {
+                        let table = stress_table(offsets, depth, pitch, self.poisson, component, traction);
+                        add_folded(&mut influence, &table, traction.odd(component));
+                    }
+                }
+            }
+            return self.fft.forward(&influence);
+        }
+        Spectrum::from_shape_fn([nx, self.fft.half()], |(k, l)| {
+            let q =
+                [angular_frequency(k, nx, self.grid.pitch[0]), angular_frequency(l, ny, self.grid.pitch[1])];
+            // A wave that alternates from cell to cell runs half in each direction, so that its odd part cancels.
+            let alternates = [2 * k == nx, 2 * l == ny];
+            let part = |traction: Option<Traction>| match traction {
+                Some(traction) if !cancels(alternates, traction.odd(component)) => {
+                    harmonic_stress(q, depth, self.poisson, component, traction)
+                }
+                _ => 0.0,
+            };
+            Complex64::new(part(pair[0]), part(pair[1]))
+        })
+    }
+}
+
+/// Periods of a line of cells that are summed one by one, odd.
+const PERIODS: usize = 17;
+
+/// Cells that repeat endlessly along an axis.
+struct Repeated<'g> {
+    axis: usize,
+    periods: usize,
+    grid: &'g Grid,
+}
+
+impl Repeated<'_> {
+    /// Adds the influence of one cell and its images at all offsets, those to negative offsets stored at the end.
+    ///
+    /// Beyond the periods that are summed, the images are a strip without end less the strip that is summed.
+    fn add(
+        &self,
+        influence: &mut Field,
+        depth: Metre,
+        poisson: f64,
+        component: Component,
+        traction: Traction,
+    ) {
+        let Grid { shape, pitch } = *self.grid;
+        let (axis, n) = (self.axis, shape[self.axis]);
+        let odd = traction.odd(component);
+        let [across, along] = [1 - axis, axis].map(|axis| if odd[axis] { -1.0 } else { 1.0 });
+        let reach = self.periods * n / 2;
+        let strip = strip_stress(shape[1 - axis], axis, depth, pitch, poisson, component, traction);
+        // Each offset along the axis then has as many images: of an even number the last ones count half.
+        let last = if (self.periods * n).is_multiple_of(2) { 0.5 } else { 1.0 };
+        let rows = influence.shape()[1 - axis];
+        let add = |i: usize, values: &[f64]| {
+            let mut line = Array1::<f64>::zeros(n);
+            let mut sum = 0.0;
+            for (j, value) in values.iter().enumerate() {
+                let value = if j == reach { last * value } else { *value };
+                line[j % n] += value;
+                sum += value;
+                if j > 0 {
+                    line[(n - j % n) % n] += along * value;
+                    sum += along * value;
+                }
+            }
+            // Components that are odd along a strip vanish.
+            if along > 0.0 {
+                line += (strip[i] - sum) / n as f64;
+            }
+            let mut add = |i: usize, sign: f64| {
+                influence.index_axis_mut(Axis(1 - axis), i).scaled_add(sign, &line);
+            };
+            add(i, 1.0);
+            if i > 0 {
+                add(rows - i, across);
+            }
+        };
+        stress_lines([shape[1 - axis], reach + 1], axis, depth, pitch, poisson, component, traction, add);
+    }
+}
+
+/// Whether the transform of the influence is imaginary: odd in one direction only.
+fn is_imaginary(traction: Traction, component: Component) -> bool {
+    let [odd_x, odd_y] = traction.odd(component);
+    odd_x != odd_y
+}
+
+fn cancels(alternates: [bool; 2], odd: [bool; 2]) -> bool {
+    (0..2).any(|axis| alternates[axis] && odd[axis])
+}
+
+/// Adds a table of offsets from 0, and its mirror images at the negative offsets, which are stored at the end.
+fn add_folded(influence: &mut Field, table: &Field, odd: [bool; 2]) {
+    let [sign_x, sign_y] = odd.map(|odd| if odd { -1.0 } else { 1.0 });
+    let (rows, across) = (influence.nrows(), influence.ncols());
+    let mut add = |i: usize, values: ndarray::ArrayView1<f64>, sign: f64| {
+        let mut row = influence.row_mut(i);
+        row.slice_mut(s![..values.len()]).scaled_add(sign, &values);
+        row.slice_mut(s![across + 1 - values.len()..]).scaled_add(sign * sign_y, &values.slice(s![1..;-1]));
+    };
+    for (i, values) in table.outer_iter().enumerate() {
+        add(i, values, 1.0);
+        if i > 0 {
+            add(rows - i, values, sign_x);
+        }
+    }
+}
+
+/// The stress on a plane parallel to the surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plane {
+    /// Distance from the surface.
+    pub depth: Metre,
+    /// The components, in the order of [`Component::ALL`].
+    pub stress: [Field; 6],
+}
+
+impl Plane {
+    /// Returns the stress at a cell.
+    pub fn at(&self, cell: [usize; 2]) -> Stress {
+        Stress::from_components(self.stress.each_ref().map(|component| component[cell]))
+    }
+
+    /// Computes von Mises' stress of each cell, Pa.
+    pub fn von_mises(&self) -> Field {
+        von_mises(&self.stress)
+    }
+}
+
+/// Computes von Mises' stress, Pa, from the components in the order of [`Component::ALL`].
+pub fn von_mises(stress: &[Field; 6]) -> Field {
+    let at = |cell| Stress::from_components(stress.each_ref().map(|component| component[cell]));
+    Field::from_shape_fn(stress[0].raw_dim(), |(i, j)| at([i, j]).von_mises())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::cell_stress;
+    use crate::operator::Edge;
+    use approx::assert_relative_eq;
+
+    fn patchy(shape: [usize; 2], seed: usize) -> Field {
+        Field::from_shape_fn(shape, |(i, j)| {
+            if (i / 2 + j) % 3 == 1 { 0.0 } else { ((7 * i + 3 * j * j + seed * i * j) % 11) as f64 - 3.0 }
+        })
+    }
+
+    fn all_three(shape: [usize; 2]) -> Tractions {
+        Tractions { pressure: patchy(shape, 0), shear: [Some(patchy(shape, 1)), Some(patchy(shape, 2))] }
+    }
+
+    #[test]
+    fn a_plane_is_the_direct_sum_to_round_off() {
+        for (shape, pitch) in [
+            ([12, 12], [1.0, 1.0]),
+            ([1, 9], [1.0, 0.5]),
+            ([9, 1], [1.0, 2.0]),
+            ([7, 10], [3e-6, 1e-6]),
+            ([1, 1], [1.0, 1.0]),
+        ] {
+            let (grid, tractions) = (Grid::new(shape, pitch).unwrap(), all_three(shape));
+            let body = Subsurface::new(grid, Boundary::FREE, 0.3, &tractions);
+            for depth in [0.0, 0.2 * pitch[0], 4.0 * pitch[1]] {
+                let plane = body.plane(depth);
+                let most = plane.stress.iter().flatten().fold(0.0f64, |m, s| m.max(s.abs()));
+                for cell in ndarray::indices(shape) {
+                    let mut exact = Stress::default();
+                    for (traction, field) in tractions.present() {
+                        for (from, value) in field.indexed_iter() {
+                            let x = (cell.0 as f64 - from.0 as f64) * pitch[0];
+                            let y = (cell.1 as f64 - from.1 as f64) * pitch[1];
+                            exact = exact + *value * cell_stress([x, y], depth, pitch, 0.3, traction);
+                        }
+                    }
+                    let found = plane.at([cell.0, cell.1]);
+                    for (a, b) in found.components().iter().zip(exact.components()) {
+                        assert!((a - b).abs() < 1e-13 * most, "{shape:?} at {depth}, {cell:?}: {a} is {b}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_wave_decays_with_the_depth_and_a_mean_does_not() {
+        let grid = Grid::new([16, 9], [0.5, 1.0]).unwrap();
+        let (k, poisson, depth) = (std::f64::consts::TAU / 8.0, 0.3, 0.7);
+        let wave =
+            |phase: f64| Field::from_shape_fn(grid.shape, |(i, _)| (k * grid.centre(0, i) + phase).sin());
+        let [sine, cosine] = [wave(0.0), wave(std::f64::consts::FRAC_PI_2)];
+        let decay = (-k * depth).exp();
+        let tractions = Tractions { pressure: 5.0 + &sine, shear: [Some(2.0 + &sine), None] };
+        let plane = Subsurface::new(grid, Boundary::PERIODIC, poisson, &tractions).plane(depth);
+        // Plane strain: Johnson (1985), section 13.2, plus the mean; σyy = ν(σxx + σzz) for the wave.
+        let (s, c) = (&sine * decay, &cosine * decay);
+        let kz = k * depth;
+        let exact = [
+            (Component::Zz, -5.0 - (1.0 + kz) * &s + kz * &c),
+            (Component::Xz, -2.0 + kz * &c - (1.0 - kz) * &s),
+            (Component::Xx, -5.0 * 0.3 / 0.7 - (1.0 - kz) * &s + (2.0 - kz) * &c),
+            (Component::Yy, -5.0 * 0.3 / 0.7 - 0.3 * 2.0 * &s + 0.3 * 2.0 * &c),
+            (Component::Xy, grid.zeros()),
+        ];
+        for (component, exact) in exact {
+            for (a, b) in plane.stress[component as usize].iter().zip(&exact) {
+                assert_relative_eq!(*a, *b, epsilon = 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn what_balances_itself_is_the_same_on_a_free_and_on_a_wide_periodic_body() {
+        let grid = Grid::new([64, 64], [1.0, 1.0]).unwrap();
+        // Without force and without moments of the first three orders, the effect of the other periods is of order 1/r⁶.
+        // Steps in place of waves differ by (qΔx)²/24.
+        let bell = Field::from_shape_fn(grid.shape, |(i, j)| {
+            let [x, y] = [grid.centre(0, i) - 30.0, grid.centre(1, j) - 33.0].map(|t| t / 5.0);
+            (1.0 - x * x) * (1.0 - y * y) * (-0.5 * (x * x + y * y)).exp()
+        });
+        let zero = grid.zeros();
+        for traction in Traction::ALL {
+            let only = |one| if traction == one { bell.clone() } else { zero.clone() };
+            let tractions = Tractions {
+                pressure: only(Traction::Pressure),
+                shear: [Some(only(Traction::X)), Some(only(Traction::Y))],
+            };
+            let plane = |boundary| Subsurface::new(grid, boundary, 0.3, &tractions).plane(3.0);
+            let (free, periodic) = (plane(Boundary::FREE), plane(Boundary::PERIODIC));
+            for component in Component::ALL {
+                let (free, periodic) =
+                    (&free.stress[component as usize], &periodic.stress[component as usize]);
+                let most = free.iter().fold(0.0f64, |m, s| m.max(s.abs()));
+                let apart = (free - periodic).iter().fold(0.0f64, |m, s| m.max(s.abs()));
+                assert!(most > 0.03 && apart < 0.01, "{traction:?} {component:?}: {apart} of {most}");
+            }
+        }
+    }
+
+    #[test]
+    fn tractions_of_zero_cost_nothing_and_change_nothing() {
+        let grid = Grid::new([8, 6], [1.0, 1.0]).unwrap();
+        let pressure = patchy(grid.shape, 0);
+        let zeros = Tractions { pressure: pressure.clone(), shear: [Some(grid.zeros()), Some(grid.zeros())] };
+        let (with, without) = [zeros, Tractions::frictionless(pressure)]
+            .map(|tractions| Subsurface::new(grid, Boundary::FREE, 0.3, &tractions))
+            .into();
+        assert_eq!(with.tractions.len(), 1);
+        assert_eq!(with.plane(0.5), without.plane(0.5));
+        let none = Subsurface::new(grid, Boundary::FREE, 0.3, &Tractions::frictionless(grid.zeros()));
+        assert!(none.plane(1.0).von_mises().iter().all(|v| *v == 0.0));
+    }
+
+    #[test]
+    fn the_upper_body_is_drawn_the_other_way() {
+        let grid = Grid::new([9, 8], [1.0, 1.0]).unwrap();
+        let (pressure, shear) = (patchy(grid.shape, 0).mapv(f64::abs), patchy(grid.shape, 1));
+        let tractions = Tractions { pressure: pressure.clone(), shear: [Some(shear.clone()), None] };
+        let plane = |tractions: &Tractions| Subsurface::new(grid, Boundary::FREE, 0.3, tractions).plane(0.8);
+        let (lower, upper) = (plane(&tractions), plane(&tractions.clone().on_upper()));
+        let pressed = plane(&Tractions::frictionless(pressure));
+        for ((lower, upper), pressed) in lower.stress.iter().zip(&upper.stress).zip(&pressed.stress) {
+            assert!((lower + upper - 2.0 * pressed).iter().all(|s| s.abs() < 1e-12));
+        }
+    }
+
+    /// Stress at `(x, z)` under the uniform pressure 1 on |x| < a, endless along y: Johnson, *Contact mechanics*, 2.5.
+    fn under_a_strip(x: f64, z: f64, a: f64, poisson: f64) -> [f64; 6] {
+        let [first, second] = [z.atan2(x - a), z.atan2(x + a)];
+        let [angle, difference] = [2.0 * (first - second), (2.0 * first).sin() - (2.0 * second).sin()];
+        let tau = std::f64::consts::TAU;
+        let [xx, zz] = [-(angle + difference) / tau, -(angle - difference) / tau];
+        let xz = ((2.0 * first).cos() - (2.0 * second).cos()) / tau;
+        [xx, poisson * (xx + zz), zz, 0.0, xz, 0.0]
+    }
+
+    #[test]
+    fn a_pressure_that_is_uniform_along_a_line_stresses_the_body_in_plane_strain() {
+        for (shape, boundary) in [([24, 1], "y"), ([24, 5], "y"), ([24, 6], "y"), ([6, 24], "x")] {
+            let grid = Grid::new(shape, [0.5e-6, 0.7e-6]).unwrap();
+            let axis = usize::from(boundary == "y");
+            let boundary = Boundary([0, 1].map(|a| if a == axis { Edge::Periodic } else { Edge::Free }));
+            let pressure = Field::from_shape_fn(shape, |(i, j)| {
+                f64::from(u8::from((8..16).contains(&[i, j][1 - axis])))
+            });
+            let body = Subsurface::new(grid, boundary, 0.3, &Tractions::frictionless(pressure));
+            let half = 4.0 * grid.pitch[1 - axis];
+            for depth in [0.0, 0.1e-6, 1e-6, 7e-6] {
+                let plane = body.plane(depth);
+                for i in 0..24 {
+                    let x = grid.centre(1 - axis, i) - 3.0 * half;
+                    let mut exact = under_a_strip(x, depth, half, 0.3);
+                    if axis == 0 {
+                        exact.swap(0, 1);
+                        exact.swap(3, 4);
+                    }
+                    let cell = if axis == 1 { [i, shape[1] / 2] } else { [shape[0] / 2, i] };
+                    for (component, (stress, exact)) in
+                        plane.at(cell).components().iter().zip(exact).enumerate()
+                    {
+                        assert!(
+                            (stress - exact).abs() < 2e-9,
+                            "{shape:?} {component} {i} {depth}: {stress} {exact}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_line_of_cells_is_a_long_free_grid_of_them() {
+        const TIMES: usize = 41;
+        let grid = Grid::new([6, 4], [1e-6, 1.5e-6]).unwrap();
+        let long = Grid::new([6, TIMES * 4], grid.pitch).unwrap();
+        let endless = Boundary([Edge::Free, Edge::Periodic]);
+        let tractions = all_three(grid.shape);
+        let repeated = |field: &Field| Field::from_shape_fn(long.shape, |(i, j)| field[[i, j % 4]]);
+        let many = Tractions {
+            pressure: repeated(&tractions.pressure),
+            shear: tractions.shear.each_ref().map(|field| field.as_ref().map(repeated)),
+        };
+        let (line, free) = (
+            Subsurface::new(grid, endless, 0.3, &tractions),
+            Subsurface::new(long, Boundary::FREE, 0.3, &many),
+        );
+        for depth in [0.0, 0.5e-6, 3e-6] {
+            let (one, all) = (line.plane(depth), free.plane(depth));
+            for (one, all) in one.stress.iter().zip(&all.stress) {
+                let middle = all.slice(s![.., TIMES / 2 * 4..(TIMES / 2 + 1) * 4]);
+                // The free grid ends: its far parts lack (width · depth)/(half length)², 24 tractions of 5 at 123 µm.
+                let difference = (one - &middle).iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+                assert!(difference < 0.02, "{depth}: {difference}");
+            }
+        }
+    }
+
+    #[test]
+    fn lines_of_coefficients_are_those_of_the_table() {
+        let (shape, pitch) = ([3, 4], [1e-6, 1.5e-6]);
+        for (traction, component) in Traction::ALL
+            .into_iter()
+            .flat_map(|traction| Component::ALL.map(|component| (traction, component)))
+        {
+            let table = stress_table(shape, 0.4e-6, pitch, 0.3, component, traction);
+            for axis in [0, 1] {
+                let (lines, along) = (shape[1 - axis], shape[axis]);
+                stress_lines([lines, along], axis, 0.4e-6, pitch, 0.3, component, traction, |i, values| {
+                    for (j, value) in values.iter().enumerate() {
+                        let at = if axis == 1 { [i, j] } else { [j, i] };
+                        assert!(
+                            (value - table[at]).abs() < 1e-14,
+                            "{traction:?} {component:?} {axis} {at:?}"
+                        );
+                    }
+                });
+            }
+        }
+    }
+
+    #[test]
+    fn more_periods_change_a_line_by_no_more_than_is_said() {
+        let mut most = 0.0f64;
+        let grid = Grid::new([20, 4], [1e-6, 1.5e-6]).unwrap();
+        for (traction, component) in Traction::ALL
+            .into_iter()
+            .flat_map(|traction| Component::ALL.map(|component| (traction, component)))
+        {
+            for depth in [0.0, 0.5e-6, 4e-6] {
+                let [some, many] = [PERIODS, 8 * PERIODS + 1].map(|periods| {
+                    let mut influence = Field::zeros([40, 4]);
+                    let line = Repeated { axis: 1, periods, grid: &grid };
+                    line.add(&mut influence, depth, 0.3, component, traction);
+                    influence
+                });
+                let difference = (&some - &many).iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+                most = most.max(difference);
+            }
+        }
+        assert!(most < 2e-4, "{most:e}");
+    }
+}

@@ -1,0 +1,55 @@
+//! The limits of the model are compared with results while they come.
+
+use asperity_base::error::Error::{AtPass, AtPosition, AtUpdate, NotConverged};
+use asperity_base::{Error, Grid};
+use asperity_contact::material::Material;
+use asperity_contact::motion::{
+    Motion, Pair, Simulation, Slide, Strategy, Wear, WearCoefficient, WearInPlace,
+};
+use asperity_contact::operator::Boundary;
+use asperity_contact::solver::{Control, Method, Params};
+use asperity_surface::{Amplitude, Form, SelfAffine};
+
+// ---- errors name their place -----------------------------------------------------------------------------
+
+fn pair() -> Pair {
+    let grid = Grid::new([16, 8], [1e-6; 2]).unwrap();
+    let rough = SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude: Amplitude::Sq(50e-9) };
+    let steel = Material::new(210e9, 0.3, f64::INFINITY).unwrap();
+    let lower = rough.generate(&grid, 1).unwrap();
+    Pair::new(lower, Form::Flat.on(&grid).unwrap(), [&steel, &steel]).unwrap()
+}
+
+/// A solver that gives up at once.
+fn hasty() -> Params {
+    Params::default().with_method(Method::PolonskyKeer).with_max_convolutions(2)
+}
+
+fn not_converged(source: &Error) -> bool {
+    matches!(source, NotConverged { .. })
+}
+
+#[test]
+fn a_contact_without_equilibrium_names_its_place() {
+    let shift = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
+    let load = Control::Load(0.05);
+    let motion = Motion::new(shift, load).with_passes(2);
+    let mut simulation = Simulation::new(pair(), Boundary::PERIODIC, motion, hasty()).unwrap();
+    let error = simulation.run(&(), &mut []).unwrap_err();
+    let AtPosition { pass: 1, positions: 16, source, .. } = &error else { panic!("{error:?}") };
+    assert!(not_converged(source), "{error:?}");
+
+    let slide = Slide::graded(1e-3, 3, load);
+    let error = WearInPlace::new(pair(), Boundary::PERIODIC, slide, hasty()).unwrap().run(None, &(), &mut []);
+    let AtUpdate { update: 0, source } = error.as_ref().unwrap_err() else { panic!("{error:?}") };
+    assert!(not_converged(source), "{error:?}");
+
+    // All positions are solved together with their wear: no equilibrium within so few convolutions.
+    let params = Params::default().with_max_convolutions(4);
+    let wear = WearCoefficient::archard(1e-10).unwrap();
+    let simulation = Simulation::new(pair(), Boundary::PERIODIC, motion, params).unwrap();
+    let simulation = simulation.with_law(Wear::new([Some(wear), None], [None, None]).unwrap());
+    let error = simulation.solve(&()).map(|_| ()).unwrap_err();
+    let AtPass { pass: 1, source } = &error else { panic!("{error:?}") };
+    assert!(not_converged(source), "{error:?}");
+}

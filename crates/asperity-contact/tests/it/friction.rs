@@ -1,0 +1,407 @@
+//! The contact with friction compared with an independent method on small grids, and with conditions that every solution
+//! must satisfy.
+
+use asperity_base::{Error, Field, Grid};
+use asperity_contact::material::{Compliances, Material};
+use asperity_contact::operator::{Boundary, CoupledSum, Operators};
+use asperity_contact::solver::{
+    Bounds, Control, Coupling, Friction, FrictionalSolution, Loading, Params, Tangential, solve_frictional,
+    solve_normal,
+};
+
+use crate::support::cell_by_cell::CellByCell;
+
+const PARAMS: Params = Params::new()
+    .with_method(asperity_contact::solver::Method::Auto)
+    .with_tolerance(1e-10)
+    .with_max_convolutions(10_000);
+
+fn pair(poisson: [f64; 2], young: [f64; 2]) -> Compliances {
+    let [lower, upper] = [0, 1].map(|k| Material::elastic(young[k], poisson[k]).unwrap());
+    Compliances::new(&lower, &upper).unwrap()
+}
+
+fn alike() -> Compliances {
+    pair([0.3, 0.3], [2.0, 2.0])
+}
+
+fn dissimilar() -> Compliances {
+    pair([0.2, 0.3], [1.0, 30.0])
+}
+
+/// A bump with some roughness.
+fn gap(shape: [usize; 2]) -> Field {
+    let [cx, cy] = shape.map(|n| 0.5 * (n as f64 - 1.0));
+    Field::from_shape_fn(shape, |(i, j)| {
+        let (x, y) = (i as f64 - cx, j as f64 - cy);
+        0.02 * (x * x + y * y) + 0.1 * ((1.9 * x + 0.4).sin() * (2.3 * y).cos())
+    })
+}
+
+fn assert_same(solution: &FrictionalSolution, cell_by_cell: &[[f64; 3]], what: &str) {
+    let most = cell_by_cell.iter().map(|t| t[2]).fold(0.0, f64::max);
+    let fields = [&solution.shear[0], &solution.shear[1], &solution.normal.pressure];
+    for (axis, field) in fields.into_iter().enumerate() {
+        for (cell, value) in field.iter().enumerate() {
+            let error = (value - cell_by_cell[cell][axis]).abs();
+            assert!(
+                error < 1e-7 * most,
+                "{what}: traction {axis} of cell {cell} off by {error:e} of {most:e}"
+            );
+        }
+    }
+}
+
+/// Solves for a load and a force, and again for the resulting approach and displacement.
+#[test]
+fn forces_and_displacements_are_two_ways_to_say_the_same() {
+    let grid = Grid::new([24, 20], [1.0, 1.0]).unwrap();
+    let gap = gap(grid.shape).mapv(|h| 0.2 * h);
+    for boundary in [Boundary::FREE, Boundary::PERIODIC] {
+        let mut operator = Operators::new(grid, dissimilar(), boundary).coupled_on(grid.shape);
+        let friction = Friction::coulomb(0.3).unwrap();
+        let (mut by_force, mut by_shift): (Option<FrictionalSolution>, Option<FrictionalSolution>) =
+            (None, None);
+        for (load, force) in [(3.0, [0.0, 0.0]), (3.0, [0.6, 0.0]), (4.0, [0.3, -0.9]), (4.0, [-1.15, 0.0])] {
+            let loading = Loading { normal: Control::Load(load), tangential: Tangential::Force(force) };
+            let mut solve = |loading, before: Option<&FrictionalSolution>| {
+                solve_frictional(
+                    operator.as_mut(),
+                    &gap,
+                    &Bounds::ELASTIC,
+                    &friction,
+                    loading,
+                    before,
+                    &PARAMS,
+                )
+                .unwrap()
+            };
+            let one = solve(loading, by_force.as_ref());
+            assert!((one.normal.load() / load - 1.0).abs() < 1e-10);
+            let got = one.force();
+            assert!((0..2).all(|k| (got[k] - force[k]).abs() < 1e-9 * load), "{got:?} for {force:?}");
+            let loading = Loading {
+                normal: Control::Approach(one.normal.approach),
+                tangential: Tangential::Displacement(one.rigid_displacement),
+            };
+            let other = solve(loading, by_shift.as_ref());
+            let most = one.normal.max_pressure();
+            for (a, b) in [
+                (&one.normal.pressure, &other.normal.pressure),
+                (&one.shear[0], &other.shear[0]),
+                (&one.shear[1], &other.shear[1]),
+            ] {
+                let error = a.iter().zip(b).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+                assert!(error < 1e-6 * most, "{boundary:?}, {force:?}: {error:e} of {most:e}");
+            }
+            assert!(one.dissipation(by_force.as_ref()) >= 0.0);
+            (by_force, by_shift) = (Some(one), Some(other));
+        }
+    }
+}
+
+#[test]
+fn identical_bodies_press_as_without_friction() {
+    let grid = Grid::new([40, 40], [1.0, 1.0]).unwrap();
+    let gap = gap(grid.shape).mapv(|h| 0.1 * h);
+    let mut operator = Operators::new(grid, alike(), Boundary::FREE).coupled_on(grid.shape);
+    let alone =
+        solve_normal(operator.normal(), &gap, &Bounds::up_to(0.05), Control::Load(5.0), None, &PARAMS)
+            .unwrap();
+    for tangential in
+        [Tangential::Force([0.9, 0.2]), Tangential::Sliding([0.6, 0.8]), Tangential::Displacement([0.3, 0.0])]
+    {
+        let loading = Loading { normal: Control::Load(5.0), tangential };
+        let friction = Friction::coulomb(0.4).unwrap();
+        let solution = solve_frictional(
+            operator.as_mut(),
+            &gap,
+            &Bounds::up_to(0.05),
+            &friction,
+            loading,
+            None,
+            &PARAMS,
+        )
+        .unwrap();
+        assert_eq!(solution.normal.pressure, alone.pressure);
+        assert_eq!(solution.normal.approach, alone.approach);
+    }
+}
+
+#[test]
+fn what_slides_bears_all_it_can_in_the_direction_of_sliding() {
+    let grid = Grid::new([40, 30], [1.0, 1.0]).unwrap();
+    let gap = gap(grid.shape).mapv(|h| 0.1 * h);
+    let mut operator = Operators::new(grid, dissimilar(), Boundary::FREE).coupled_on(grid.shape);
+    let friction = Friction::coulomb(0.5).unwrap().with_shear_strength(0.02);
+    let loading = Loading { normal: Control::Load(5.0), tangential: Tangential::Sliding([1.0, 0.0]) };
+    let mut solve = |friction: &Friction, loading| {
+        solve_frictional(operator.as_mut(), &gap, &Bounds::ELASTIC, friction, loading, None, &PARAMS).unwrap()
+    };
+    let sliding = solve(&friction, loading);
+    for (p, q) in sliding.normal.pressure.iter().zip(&sliding.shear[0]) {
+        assert_eq!(*q, (0.5 * p).min(0.02));
+    }
+    assert_eq!(sliding.stick.sum(), 0.0);
+    // It is the limit for a large displacement.
+    let pushed = Loading { tangential: Tangential::Displacement([1e4, 0.0]), ..loading };
+    let pushed = solve(&friction, pushed);
+    let error = (&pushed.normal.pressure - &sliding.normal.pressure).mapv(f64::abs);
+    assert!(error.iter().all(|e| *e < 1e-5 * sliding.normal.max_pressure()));
+    // Ahead of the shear the softer lower body sinks, and behind it it rises towards the upper one.
+    let alone = solve(&friction.with_coefficient(0.0), loading);
+    let moment = |p: &Field| p.indexed_iter().map(|((i, _), p)| i as f64 * p).sum::<f64>() / p.sum();
+    assert!(moment(&sliding.normal.pressure) < moment(&alone.normal.pressure) - 0.05);
+}
+
+#[test]
+fn plastic_cells_bear_pressure_and_shear_on_the_ellipse_and_the_contact_grows() {
+    let grid = Grid::new([40, 30], [1.0, 1.0]).unwrap();
+    let gap = gap(grid.shape).mapv(|h| 0.2 * h);
+    let (hardness, load) = (0.04, 6.0);
+    for pair in [alike(), dissimilar()] {
+        let mut operator = Operators::new(grid, pair, Boundary::FREE).coupled_on(grid.shape);
+        let friction =
+            |junction_growth| Friction::coulomb(0.4).unwrap().with_junction_growth(junction_growth);
+        let mut solve = |junction_growth, tangential, before: Option<&FrictionalSolution>| {
+            let loading = Loading { normal: Control::Load(load), tangential };
+            let law = friction(junction_growth);
+            solve_frictional(
+                operator.as_mut(),
+                &gap,
+                &Bounds::up_to(hardness),
+                &law,
+                loading,
+                before,
+                &PARAMS,
+            )
+            .unwrap()
+        };
+        let mut area = Vec::new();
+        let mut before: Option<FrictionalSolution> = None;
+        for share in [0.0, 0.3, 0.6, 0.9, 0.99] {
+            let pushed = solve(9.0, Tangential::Force([share * 0.4 * load, 0.0]), before.as_ref());
+            assert!((pushed.normal.load() / load - 1.0).abs() < 1e-9);
+            let mut plastic = 0;
+            for (cell, p) in pushed.normal.pressure.iter().enumerate() {
+                let q = [0, 1].map(|axis| pushed.shear[axis].as_slice().unwrap()[cell]);
+                let combined = (p * p + 9.0 * (q[0] * q[0] + q[1] * q[1])).sqrt();
+                assert!(combined <= hardness * (1.0 + 1e-7), "{combined}");
+                plastic += usize::from(combined >= hardness * (1.0 - 1e-7));
+            }
+            assert_eq!(plastic, pushed.normal.capped_cells());
+            assert!(plastic > 0);
+            area.push(pushed.normal.contact_cells());
+            before = Some(pushed);
+        }
+        assert!(area.windows(2).all(|pair| pair[1] as f64 > 0.98 * pair[0] as f64), "{area:?}");
+        assert!(area[4] as f64 > 1.05 * area[0] as f64, "{area:?}");
+        // Finally everything slips, with a load of H/√(1 + αμ²).
+        let sliding = solve(9.0, Tangential::Sliding([1.0, 0.0]), None);
+        let cap = hardness / (1.0 + 9.0 * 0.16f64).sqrt();
+        assert!((sliding.normal.max_pressure() / cap - 1.0).abs() < 1e-12);
+        assert!(area[4] <= sliding.normal.contact_cells());
+        assert!(sliding.normal.contact_cells() as f64 - (area[4] as f64) < 0.1 * area[4] as f64);
+    }
+}
+
+#[test]
+fn bodies_apart_bear_nothing_and_touch_later() {
+    let grid = Grid::new([12, 12], [1.0, 1.0]).unwrap();
+    let gap = gap(grid.shape);
+    let mut operator = Operators::new(grid, dissimilar(), Boundary::FREE).coupled_on(grid.shape);
+    let friction = Friction::coulomb(0.3).unwrap();
+    let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
+    let mut to = |approach, tangential, before: Option<&FrictionalSolution>| {
+        let loading = Loading { normal: Control::Approach(approach), tangential };
+        solve_frictional(operator.as_mut(), &gap, &Bounds::ELASTIC, &friction, loading, before, &PARAMS)
+            .unwrap()
+    };
+    for tangential in [Tangential::Force([0.0; 2]), Tangential::Displacement([0.1, 0.0])] {
+        let apart = to(lowest - 0.01, tangential, None);
+        assert_eq!((apart.normal.contact_cells(), apart.force(), apart.normal.residual), (0, [0.0; 2], 0.0));
+        let touching = to(lowest + 0.1, tangential, Some(&apart));
+        assert!(touching.normal.contact_cells() > 0 && touching.stick.sum() > 0.0);
+    }
+}
+
+/// New cells carry more shear than pressure, and shear lifts the cells at the edge that have just come into contact.
+#[test]
+fn much_friction_between_very_dissimilar_bodies_has_an_answer() {
+    let (cells, steps) = (16, 16);
+    let grid = Grid::new([2 * cells + 8; 2], [1.0; 2]).unwrap();
+    let middle = 0.5 * (grid.shape[0] - 1) as f64;
+    let gap =
+        Field::from_shape_fn(grid.shape, |(i, j)| (i as f64 - middle).powi(2) + (j as f64 - middle).powi(2));
+    let pair = pair([0.0, 0.3], [1.0, f64::INFINITY]);
+    let mut operator = Operators::new(grid, pair, Boundary::FREE).coupled_on(grid.shape);
+    let friction = Friction::coulomb(100.0).unwrap();
+    let mut state: Option<FrictionalSolution> = None;
+    for step in 1..=steps {
+        let radius = (cells * step) as f64 / steps as f64;
+        let loading = Loading {
+            normal: Control::Approach(2.0 * radius * radius),
+            tangential: Tangential::Force([0.0; 2]),
+        };
+        let next = solve_frictional(
+            operator.as_mut(),
+            &gap,
+            &Bounds::ELASTIC,
+            &friction,
+            loading,
+            state.as_ref(),
+            &PARAMS.with_tolerance(1e-9),
+        );
+        state = Some(next.unwrap());
+    }
+    let state = state.unwrap();
+    assert_eq!(state.stick.sum(), state.normal.contact_cells() as f64);
+}
+
+#[test]
+fn more_force_than_friction_holds_is_an_error_with_the_limit() {
+    let grid = Grid::new([12, 12], [1.0, 1.0]).unwrap();
+    let gap = gap(grid.shape);
+    let mut operator = Operators::new(grid, alike(), Boundary::FREE).coupled_on(grid.shape);
+    let mut solve = |force: [f64; 2], coefficient| {
+        let loading = Loading { normal: Control::Load(2.0), tangential: Tangential::Force(force) };
+        let friction = Friction::coulomb(0.0).unwrap().with_coefficient(coefficient);
+        solve_frictional(operator.as_mut(), &gap, &Bounds::ELASTIC, &friction, loading, None, &PARAMS)
+    };
+    match solve([0.3, 0.4], 0.25) {
+        Err(Error::BeyondFriction { force, limit }) => {
+            assert!((force - 0.5).abs() < 1e-12 && (limit - 0.5).abs() < 1e-9);
+        }
+        other => panic!("{:?}", other.map(|s| s.rigid_displacement)),
+    }
+    let nearly = solve([0.299, 0.398], 0.25).unwrap();
+    assert!(nearly.stick.sum() < 0.2 * nearly.normal.contact_cells() as f64);
+    assert!(matches!(solve([0.0; 2], -0.1), Err(Error::OutOfRange { quantity: "friction coefficient", .. })));
+    assert!(matches!(
+        solve([f64::NAN, 0.0], 0.1),
+        Err(Error::OutOfRange { quantity: "tangential force", .. })
+    ));
+}
+
+#[test]
+fn an_increment_is_what_a_cell_by_cell_iteration_finds() {
+    let grid = Grid::new([9, 8], [1.0, 0.8]).unwrap();
+    let gap = gap(grid.shape);
+    for (pair, name) in [(alike(), "alike"), (dissimilar(), "dissimilar")] {
+        for coupling in [Coupling::Full, Coupling::Goodman, Coupling::None] {
+            for (coefficient, shear_strength, hardness) in [
+                (0.3, f64::INFINITY, f64::INFINITY),
+                (0.8, 0.02, f64::INFINITY),
+                (0.2, f64::INFINITY, 0.08),
+                (f64::INFINITY, f64::INFINITY, f64::INFINITY),
+            ] {
+                let friction = Friction::coulomb(coefficient)
+                    .unwrap()
+                    .with_shear_strength(shear_strength)
+                    .with_coupling(coupling);
+                let mut operator = CoupledSum::new(grid, pair);
+                let reference = CellByCell::new(&mut operator, coupling);
+                let what = format!("{name}, {friction:?}, H = {hardness}");
+                let mut before: Option<FrictionalSolution> = None;
+                let mut slip_before = vec![[0.0; 2]; grid.cells()];
+                // Down, sideways, further down and back.
+                for (approach, shift) in
+                    [(0.4, [0.0, 0.0]), (0.4, [0.05, 0.02]), (0.6, [0.06, 0.08]), (0.5, [0.0, -0.04])]
+                {
+                    if coefficient.is_infinite() && approach == 0.5 {
+                        continue; // A contact that carries any shear and then opens has no solution.
+                    }
+                    let loading = Loading {
+                        normal: Control::Approach(approach),
+                        tangential: Tangential::Displacement(shift),
+                    };
+                    let solution = solve_frictional(
+                        &mut operator,
+                        &gap,
+                        &Bounds::up_to(hardness),
+                        &friction,
+                        loading,
+                        before.as_ref(),
+                        &PARAMS,
+                    )
+                    .unwrap();
+                    let expected = reference.solve(&gap, hardness, &friction, approach, shift, &slip_before);
+                    assert_same(&solution, &expected, &what);
+                    for (cell, slip) in slip_before.iter_mut().enumerate() {
+                        let u = reference.displacement(&expected, cell);
+                        *slip = [shift[0] - u[0], shift[1] - u[1]];
+                    }
+                    before = Some(solution);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_single_precision_leaves_is_corrected_down_to_any_tolerance() {
+    let grid = Grid::new([48, 40], [1.0; 2]).unwrap();
+    let gap = 0.1 * gap(grid.shape);
+    for pair in [alike(), dissimilar()] {
+        for boundary in [Boundary::FREE, Boundary::PERIODIC] {
+            let mut operator = Operators::new(grid, pair, boundary).coupled_on(grid.shape);
+            let influence = operator.self_influence();
+            let compliance = 0.5 * (influence.xx + influence.yy);
+            let load = 0.01 * pair.modulus() * grid.area();
+            let friction = Friction::coulomb(0.4).unwrap();
+            let tangential = Tangential::Force([0.2 * load, -0.1 * load]);
+            let loading = Loading { normal: Control::Load(load), tangential };
+            let mut solve = |tolerance| {
+                let params = PARAMS.with_tolerance(tolerance);
+                let (operator, bounds) = (operator.as_mut(), Bounds::ELASTIC);
+                solve_frictional(operator, &gap, &bounds, &friction, loading, None, &params).unwrap()
+            };
+            let exact = solve(1e-11);
+            for tolerance in [1e-4, 1e-6, 1e-8, 1e-11] {
+                let solution = solve(tolerance);
+                let [shear, slip] = [&solution.shear, &solution.slip].map(|[x, y]| x.iter().zip(y));
+                let cells = shear.zip(slip).zip(&solution.shear_limit);
+                let phi = cells.map(|(((qx, qy), (sx, sy)), limit)| {
+                    let [x, y] = [qx + sx / compliance, qy + sy / compliance];
+                    let inside = (limit / x.hypot(y)).min(1.0);
+                    if *limit > 0.0 { compliance * (qx - inside * x).hypot(qy - inside * y) } else { 0.0 }
+                });
+                let share = (solution.shear_limit.sum() / solution.normal.pressure.sum()).min(1.0);
+                let residual = phi.fold(0.0, f64::max) / (share * solution.normal.displacement.std(0.0));
+                assert!(residual < tolerance, "{boundary:?}: {residual:e} of {tolerance:e}");
+                let apart = |one: &Field, other: &Field| {
+                    one.iter().zip(other).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()))
+                };
+                for axis in 0..2 {
+                    let apart = apart(&solution.shear[axis], &exact.shear[axis]) / exact.max_shear();
+                    assert!(apart < 1e3 * tolerance, "{boundary:?}, {tolerance:e}: {apart:e}");
+                }
+            }
+        }
+    }
+}
+
+/// A smooth contact on a fine grid, up to its edges.
+#[test]
+fn a_large_contact_takes_no_more_steps_than_a_small_one() {
+    let mut cost = Vec::new();
+    for n in [64, 192] {
+        let pitch = 1.0 / n as f64;
+        let grid = Grid::new([n, n], [pitch; 2]).unwrap();
+        let gap = Field::from_shape_fn(grid.shape, |(i, j)| {
+            let [x, y] = [grid.centre(0, i) - 0.5, grid.centre(1, j) - 0.5];
+            0.5 * (x * x + y * y)
+        });
+        let pair = dissimilar();
+        let mut operator = Operators::new(grid, pair, Boundary::FREE).coupled_on(grid.shape);
+        let loading =
+            Loading { normal: Control::Load(0.6 * pair.modulus()), tangential: Tangential::Force([0.0; 2]) };
+        let (friction, params) = (Friction::coulomb(0.3).unwrap(), Params::default());
+        let solution =
+            solve_frictional(operator.as_mut(), &gap, &Bounds::ELASTIC, &friction, loading, None, &params)
+                .unwrap();
+        assert!(solution.normal.contact_cells() > 9 * n * n / 10);
+        cost.push(solution.normal.stats.convolutions);
+    }
+    assert!(cost.iter().all(|convolutions| *convolutions < 180.0), "{cost:?}");
+}

@@ -1,0 +1,237 @@
+//! Contacts that are periodic along one axis only.
+
+use asperity_base::{Field, Grid};
+use asperity_contact::material::{Compliances, Material};
+use asperity_contact::motion::{self, LoadControl, Motion, Pair, PlasticUpdate, Simulation, Strategy};
+use asperity_contact::operator::{Boundary, Edge, Operator, Operators};
+use asperity_contact::solver::{Bounds, Control, Method, Params, Solution, residual, solve_normal};
+use asperity_surface::{Amplitude, SelfAffine};
+
+const ALONG_Y: Boundary = Boundary([Edge::Free, Edge::Periodic]);
+const ALONG_X: Boundary = Boundary([Edge::Periodic, Edge::Free]);
+const INF: f64 = f64::INFINITY;
+
+fn pair(poisson: [f64; 2], young: [f64; 2]) -> Compliances {
+    let [lower, upper] = [0, 1].map(|k| Material::elastic(young[k], poisson[k]).unwrap());
+    Compliances::new(&lower, &upper).unwrap()
+}
+
+/// E* = 1.
+fn alike() -> Compliances {
+    pair([0.0; 2], [2.0; 2])
+}
+
+/// A self-affine gap of rms slope 0.1, above 0.
+fn rough(grid: &Grid, seed: u64) -> Field {
+    let form = SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude: Amplitude::Sdq(0.1) };
+    let heights = -form.generate(grid, seed).unwrap().into_heights();
+    &heights - heights.iter().copied().fold(INF, f64::min)
+}
+
+fn solve(
+    operator: &mut dyn Operator,
+    gap: &Field,
+    hardness: f64,
+    control: Control,
+    method: Method,
+) -> Solution {
+    let params = Params::new().with_method(method).with_tolerance(1e-9).with_max_convolutions(5000);
+    solve_normal(operator, gap, &Bounds::up_to(hardness), control, None, &params)
+        .unwrap_or_else(|error| panic!("{error}: {method:?}, {hardness}, {control:?}, {:?}", operator.grid()))
+}
+
+/// Largest difference over largest value.
+fn difference(a: &Field, b: &Field) -> f64 {
+    let largest = b.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    a.iter().zip(b).fold(0.0f64, |m, (a, b)| m.max((a - b).abs())) / largest
+}
+
+#[test]
+fn any_contact_is_in_equilibrium_by_the_dense_sum_whatever_the_method() {
+    arbtest::arbtest(|u| {
+        let shape = [u.int_in_range(1..=24)?, u.int_in_range(1..=24)?];
+        let pitch = [1.0, *u.choose(&[0.3, 1.0, 2.5])?];
+        let grid = Grid::new(shape, pitch).unwrap();
+        let boundary = *u.choose(&[ALONG_X, ALONG_Y])?;
+        let [width, height] = grid.extent();
+        let has_waves = width.max(height) > 4.0 * pitch[1].max(1.0);
+        let gap = if has_waves { rough(&grid, u.int_in_range(0..=999)?) } else { grid.zeros() };
+        let hardness = *u.choose(&[INF, 0.1])?;
+        let control = if *u.choose(&[true, false])? {
+            Control::Load(*u.choose(&[1e-3, 0.01, 0.08])? * grid.area())
+        } else {
+            // Up to beyond the mean gap: no mean displacement is free here.
+            Control::Approach(*u.choose(&[0.3, 1.0, 3.0])? * gap.mean().unwrap().max(0.1))
+        };
+        let mut operator = Operators::new(grid, alike(), boundary).on(shape);
+        let [exact, others @ ..] = [Method::Direct, Method::PolonskyKeer, Method::ActiveSet]
+            .map(|method| solve(operator.as_mut(), &gap, hardness, control, method));
+        for other in &others {
+            assert!(
+                difference(&other.pressure, &exact.pressure) < 1e-6,
+                "{grid:?}, {boundary:?}, {control:?}"
+            );
+            assert!((other.approach - exact.approach).abs() < 1e-7 * (1.0 + exact.approach.abs()));
+        }
+        let displacement = Field::from_shape_fn(shape, |(i, j)| {
+            let from = exact.pressure.indexed_iter();
+            from.map(|((k, l), p)| p * operator.influence(i.abs_diff(k), j.abs_diff(l))).sum()
+        });
+        let own = operator.influence(0, 0);
+        let found = residual(
+            &exact.pressure,
+            &displacement,
+            &gap,
+            &Bounds::up_to(hardness),
+            own,
+            Some(exact.approach),
+        );
+        assert!(found.eta < 1e-8, "{grid:?}, {boundary:?}, {control:?}: {found:?}");
+        Ok(())
+    })
+    .budget_ms(4000);
+}
+
+#[test]
+fn turned_by_a_quarter_it_is_the_same_contact() {
+    let grid = Grid::new([64, 80], [1.0, 0.7]).unwrap();
+    let turned = Grid::new([80, 64], [0.7, 1.0]).unwrap();
+    let gap = rough(&grid, 3);
+    let turned_gap = gap.t().as_standard_layout().into_owned();
+    let load = Control::Load(0.01 * grid.area());
+    let mut operator = Operators::new(grid, alike(), ALONG_Y).on(grid.shape);
+    let mut other = Operators::new(turned, alike(), ALONG_X).on(turned.shape);
+    let one = solve(operator.as_mut(), &gap, INF, load, Method::ActiveSet);
+    let two = solve(other.as_mut(), &turned_gap, INF, load, Method::ActiveSet);
+    assert!(difference(&two.pressure.t().to_owned(), &one.pressure) < 1e-6);
+    assert!((two.approach / one.approach - 1.0).abs() < 1e-8);
+}
+
+#[test]
+fn where_it_begins_along_its_line_makes_no_difference() {
+    let grid = Grid::new([70, 65], [1.0, 1.0]).unwrap();
+    let gap = rough(&grid, 4);
+    let shifted = Field::from_shape_fn(grid.shape, |(i, j)| gap[[i, (j + 17) % 65]]);
+    let load = Control::Load(0.01 * grid.area());
+    let mut operator = Operators::new(grid, alike(), ALONG_Y).on(grid.shape);
+    let one = solve(operator.as_mut(), &gap, INF, load, Method::ActiveSet);
+    let two = solve(operator.as_mut(), &shifted, INF, load, Method::ActiveSet);
+    let back = Field::from_shape_fn(grid.shape, |(i, j)| two.pressure[[i, (j + 65 - 17) % 65]]);
+    assert!(difference(&back, &one.pressure) < 1e-6);
+    // From coarse grids, as cheap as the other boundaries.
+    assert!(one.stats.convolutions < 45.0, "{:?}", one.stats);
+}
+
+#[test]
+fn far_from_its_images_a_contact_is_the_free_one() {
+    // The contribution of the images is uniform and, to next order, a curvature of third order in size over period.
+    let load = 4.0;
+    let gap = |grid: &Grid| {
+        let [x0, y0] = grid.extent().map(|e| 0.5 * e);
+        Field::from_shape_fn(grid.shape, |(i, j)| {
+            let (x, y) = (grid.centre(0, i) - x0, grid.centre(1, j) - y0);
+            (x * x + y * y) / 20.0
+        })
+    };
+    let free = |grid: Grid| {
+        let mut operator = Operators::new(grid, alike(), Boundary::FREE).on(grid.shape);
+        solve(operator.as_mut(), &gap(&grid), INF, Control::Load(load), Method::ActiveSet).max_pressure()
+    };
+    let errors: Vec<f64> = [1, 2, 4]
+        .into_iter()
+        .map(|periods| {
+            let grid = Grid::new([48, 48 * periods], [0.25, 0.25]).unwrap();
+            let mut operator = Operators::new(grid, alike(), ALONG_Y).on(grid.shape);
+            let line = solve(operator.as_mut(), &gap(&grid), INF, Control::Load(load), Method::ActiveSet);
+            (line.max_pressure() / free(grid) - 1.0).abs()
+        })
+        .collect();
+    for pair in errors.windows(2) {
+        let order = (pair[0] / pair[1]).log2();
+        assert!(order > 2.5, "{errors:?}: order {order:.2}");
+    }
+    assert!(errors[2] < 1e-3, "{errors:?}");
+}
+
+#[test]
+fn a_traction_in_all_directions_displaces_as_the_sum_over_the_line_says() {
+    arbtest::arbtest(|u| {
+        let shape = [u.int_in_range(1..=14)?, u.int_in_range(1..=14)?];
+        let grid = Grid::new(shape, [1.0, *u.choose(&[0.4, 1.0, 2.0])?]).unwrap();
+        let (axis, boundary) = *u.choose(&[(0, ALONG_X), (1, ALONG_Y)])?;
+        let pair = pair([0.2, 0.4], [1.0, 5.0]);
+        let seed: usize = u.int_in_range(1..=9)?;
+        let traction: [Field; 3] = std::array::from_fn(|n| {
+            Field::from_shape_fn(shape, |(i, j)| ((seed * i + 3 * j * j + n * i * j) % 11) as f64 - 4.0)
+        });
+        let mut operator = Operators::new(grid, pair, boundary).coupled_on(shape);
+        let mut fast: [Field; 3] = std::array::from_fn(|_| grid.zeros());
+        operator.apply(traction.each_ref().map(Some), fast.each_mut().map(Some));
+        let extent = grid.extent();
+        let line = asperity_contact::kernel::Line { axis, period: extent[axis], datum: extent[1 - axis] };
+        let mut slow: [Field; 3] = std::array::from_fn(|_| grid.zeros());
+        for (i, j) in ndarray::indices(shape) {
+            for (k, l) in ndarray::indices(shape) {
+                let offset = |a: usize, b: usize, axis: usize| (a as f64 - b as f64) * grid.pitch[axis];
+                let matrix = line.coupled_displacement(offset(i, k, 0), offset(j, l, 1), grid.pitch, &pair);
+                for (slow, row) in slow.iter_mut().zip(matrix.matrix()) {
+                    slow[[i, j]] += (0..3).map(|n| row[n] * traction[n][[k, l]]).sum::<f64>();
+                }
+            }
+        }
+        let largest = slow.iter().flatten().fold(0.0f64, |m, u| m.max(u.abs()));
+        for (fast, slow) in fast.iter().flatten().zip(slow.iter().flatten()) {
+            assert!((fast - slow).abs() < 1e-12 * largest, "{grid:?}, {boundary:?}: {fast:e} and {slow:e}");
+        }
+        let work: f64 = traction.iter().zip(&fast).map(|(t, u)| (t * u).sum()).sum();
+        assert!(work > 0.0);
+        Ok(())
+    })
+    .budget_ms(3000);
+}
+
+#[test]
+fn a_body_that_passes_over_another_has_no_rims_at_its_sides() {
+    // Uniform along y: so is the contact at every position, and its last rows equal those in the middle.
+    let steel = Material::new(210e9, 0.3, INF).unwrap();
+    let heights = |amplitude: f64| {
+        Field::from_shape_fn([40, 24], |(i, _)| {
+            amplitude * ((0.7 * i as f64).sin() + (0.31 * i as f64).cos())
+        })
+    };
+    let topography = |heights: Field| {
+        asperity_surface::Topography::new(Grid::new([40, 24], [1e-6; 2]).unwrap(), heights).unwrap()
+    };
+    let pair = Pair::new(topography(heights(2e-8)), topography(-heights(1e-8)), [&steel, &steel]).unwrap();
+    let motion = Motion::new(Strategy::Overlap, Control::Load(0.02))
+        .with_passes(1)
+        .with_stride(6)
+        .with_load_control(LoadControl::Pass)
+        .with_plastic_update(PlasticUpdate::Pass)
+        .with_load_tolerance(1e-6)
+        .with_friction(None);
+    struct Kept(Vec<motion::Contact>);
+    impl motion::Output for Kept {
+        fn step(&mut self, step: &motion::Step<'_>) -> asperity_base::Result<()> {
+            let motion::Step::Pass(report) = step else { return Ok(()) };
+            self.0 = report.contacts.to_vec();
+            Ok(())
+        }
+    }
+    let params = Params::default().with_tolerance(1e-8);
+    let mut kept = Kept(Vec::new());
+    let mut simulation = Simulation::new(pair.clone(), ALONG_Y, motion, params).unwrap();
+    simulation.run(&(), &mut [&mut kept]).unwrap();
+    assert!(kept.0.len() > 10);
+    let load = kept.0.iter().map(|c| c.load).sum::<f64>() / kept.0.len() as f64;
+    assert!((load / 0.02 - 1.0).abs() < 1e-6, "{load}");
+    for contact in kept.0.iter().filter(|c| c.load > 0.0) {
+        let field = contact.pressure_field(24);
+        let most = contact.max_pressure();
+        for row in field.outer_iter() {
+            assert!(row.iter().all(|p| (p - row[0]).abs() < 1e-6 * most), "{row}");
+        }
+    }
+    let refused = Simulation::new(pair, ALONG_X, motion, params).err().unwrap();
+    assert!(refused.to_string().contains("free along x"), "{refused}");
+}

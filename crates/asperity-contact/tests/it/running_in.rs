@@ -1,0 +1,563 @@
+//! Wear, films and extrapolation over passes.
+
+use std::f64::consts::PI;
+
+use asperity_base::{Field, Grid, Result};
+use asperity_contact::material::Material;
+use asperity_contact::motion::{
+    Acceleration, ContactCells, FILM, Film, FilmLaw, FilmStress, Films, Law, LoadControl, Motion, Output,
+    Pair, PassRecord, Simulation, Step, Strategy, Wear, WearCoefficient,
+};
+use asperity_contact::operator::Boundary;
+use asperity_contact::solver::{Control, Params};
+use asperity_surface::{Amplitude, Form, SelfAffine, Topography};
+
+const PITCH: f64 = 1e-6;
+const SLIDE: Strategy = Strategy::Shift { speed_lower: 0.0, speed_upper: 0.5 };
+
+/// The passes, and the bodies after the last of them.
+#[derive(Default)]
+struct Kept {
+    passes: Vec<PassRecord>,
+    pair: Option<Pair>,
+    /// Σ W Δs of each computed pass.
+    work: Vec<f64>,
+}
+
+impl Output for Kept {
+    fn step(&mut self, step: &Step<'_>) -> Result<()> {
+        let Step::Pass(report) = step else { return Ok(()) };
+        self.passes.push(report.record.clone());
+        self.pair = Some(report.pair.clone());
+        self.work.push(report.contacts.iter().map(|contact| contact.load).sum());
+        Ok(())
+    }
+}
+
+impl Kept {
+    fn of(mut simulation: Simulation) -> Self {
+        let mut kept = Self::default();
+        simulation.run(&(), &mut [&mut kept]).unwrap();
+        kept
+    }
+
+    fn heights(&self) -> [&Field; 2] {
+        let pair = self.pair.as_ref().unwrap();
+        [&pair.lower.heights, &pair.upper.heights]
+    }
+
+    fn represented(&self) -> usize {
+        self.passes.iter().map(PassRecord::represents).sum()
+    }
+
+    fn error(&self) -> f64 {
+        self.passes.iter().map(|pass| pass.running.unwrap().error_estimate).sum()
+    }
+}
+
+fn steel(hardness: f64) -> Material {
+    Material::new(210e9, 0.3, hardness).unwrap()
+}
+
+fn archard(k: f64) -> Wear {
+    let coefficient = Some(WearCoefficient::archard(k).unwrap());
+    Wear::new([coefficient, coefficient], [None, None]).unwrap()
+}
+
+fn rms(field: &Field) -> f64 {
+    (field.mapv(|z| z * z).mean().unwrap()).sqrt()
+}
+
+const LENGTH: usize = 16;
+const AMPLITUDE: f64 = 20e-9;
+
+/// Grooves along the sliding direction, pressed flat: the gap between the bodies has the waves of one of them.
+fn grooves(passes: usize, jump: usize, exponent: f64) -> f64 {
+    let grid = Grid::new([4, LENGTH], [PITCH; 2]).unwrap();
+    let length = LENGTH as f64 * PITCH;
+    let waves =
+        Form::Sinusoid { amplitude: AMPLITUDE, wavelength: [f64::INFINITY, length] }.on(&grid).unwrap();
+    let flat = Form::Flat.on(&grid).unwrap();
+    let material = steel(f64::INFINITY);
+    let pair = Pair::new(waves, flat, [&material, &material]).unwrap();
+    let modulus = pair.modulus();
+    let mean = 1.5 * PI * modulus * AMPLITUDE / length;
+    let control = Control::Load(mean * grid.area());
+    // One position per pass, which slides over the length of the grid.
+    let motion =
+        Motion::new(SLIDE, control).with_passes(passes).with_stride(4).with_load_control(LoadControl::Step);
+    let distance = passes as f64 * 4.0 * PITCH;
+    let k = exponent * length / (2.0 * PI * modulus * distance);
+    let params = Params::default().with_tolerance(1e-10);
+    let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, params).unwrap();
+    let acceleration =
+        Acceleration::default().with_tolerance(1e6).with_max_wear(f64::INFINITY).with_max_jump(jump);
+    let kept = Kept::of(simulation.with_law(archard(k)).with_acceleration(acceleration).unwrap());
+    assert_eq!(kept.represented(), passes);
+    let [lower, upper] = kept.heights();
+    let gap = upper - lower;
+    let wave = |j: usize| (2.0 * PI * (j as f64 + 0.5) / LENGTH as f64).cos();
+    let cos: f64 = gap.row(0).iter().enumerate().map(|(j, z)| z * wave(j)).sum();
+    let sin: f64 = gap
+        .row(0)
+        .iter()
+        .enumerate()
+        .map(|(j, z)| z * (2.0 * PI * (j as f64 + 0.5) / LENGTH as f64).sin())
+        .sum();
+    2.0 / LENGTH as f64 * cos.hypot(sin) / AMPLITUDE
+}
+
+#[test]
+fn grooves_along_the_sliding_wear_as_their_closed_form() {
+    let exact = (-1.0f64).exp();
+    let error = |passes, jump| (grooves(passes, jump, 1.0) / exact - 1.0).abs();
+    // Every pass computed: order 1.
+    let [coarse, fine] = [error(80, 1), error(160, 1)];
+    assert!((coarse / fine - 2.0).abs() < 0.1, "{coarse:e}, {fine:e}");
+    // Extrapolation: order 2.
+    let [coarse, fine] = [error(1280, 32), error(1280, 16)];
+    assert!((3.4..4.8).contains(&(coarse / fine)), "{coarse:e}, {fine:e}");
+    assert!(fine < 1e-4, "{fine:e}");
+}
+
+fn rough(hardness: f64, n: usize) -> Pair {
+    let grid = Grid::new([n, n], [PITCH; 2]).unwrap();
+    let form =
+        SelfAffine { hurst: 0.8, rolloff: None, shortest: Some(8e-6), amplitude: Amplitude::Sq(30e-9) };
+    let material = steel(hardness);
+    let surface = |seed| -> Topography { form.generate(&grid, seed).unwrap() };
+    Pair::new(surface(1), surface(2).underside(), [&material, &material]).unwrap()
+}
+
+fn run_in(hardness: f64, passes: usize, acceleration: Acceleration) -> Kept {
+    let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(passes).with_stride(4);
+    let simulation =
+        Simulation::new(rough(hardness, 16), Boundary::PERIODIC, motion, Params::default()).unwrap();
+    Kept::of(simulation.with_law(archard(4e-15)).with_acceleration(acceleration).unwrap())
+}
+
+#[test]
+fn jumps_lead_where_all_passes_do_and_within_their_bound() {
+    for (hardness, passes) in [(f64::INFINITY, 300), (1.5e9, 200)] {
+        let all = run_in(hardness, passes, Acceleration::NONE);
+        let few = run_in(hardness, passes, Acceleration::default().with_max_wear(20e-9));
+        assert_eq!((all.passes.len(), all.represented(), few.represented()), (passes, passes, passes));
+        assert!(few.passes.len() <= 40, "{} passes computed", few.passes.len());
+        assert_eq!(all.error(), 0.0);
+        let before = rough(hardness, 16);
+        let before = [&before.lower.heights, &before.upper.heights];
+        for (body, before) in before.into_iter().enumerate() {
+            let (change, error) = (all.heights()[body] - before, few.heights()[body] - all.heights()[body]);
+            assert!(rms(&error) < 5e-3 * rms(&change), "{:e} of {:e}", rms(&error), rms(&change));
+            let largest = error.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
+            assert!(largest <= few.error(), "{largest:e} beyond the bound {:e}", few.error());
+        }
+        let plastic = |kept: &Kept| kept.passes.iter().map(|pass| pass.lost("plastic")[0]).sum::<f64>();
+        if hardness.is_finite() {
+            assert!((plastic(&few) / plastic(&all) - 1.0).abs() < 0.01);
+        }
+    }
+}
+
+#[test]
+fn steadily_worn_passes_begin_where_the_last_ones_lead() {
+    let motion = Motion::new(SLIDE, Control::Load(0.8)).with_passes(8).with_stride(16);
+    let simulation =
+        Simulation::new(rough(f64::INFINITY, 64), Boundary::PERIODIC, motion, Params::default()).unwrap();
+    let kept = Kept::of(simulation.with_law(archard(1e-15)));
+    let convolutions: Vec<f64> = kept.passes.iter().map(|pass| pass.convolutions / 4.0).collect();
+    // Two changes are known after the third pass.
+    assert!(
+        convolutions[3..].iter().all(|each| *each <= 12.0 && *each < convolutions[1]),
+        "{convolutions:?}"
+    );
+}
+
+#[test]
+fn the_volume_is_archards_and_the_ledger_balances() {
+    let kept = run_in(1.5e9, 60, Acceleration::default().with_max_wear(20e-9));
+    let before = rough(1.5e9, 16);
+    let before = [&before.lower.heights, &before.upper.heights];
+    for (body, before) in before.into_iter().enumerate() {
+        let mut lost = 0.0;
+        for (pass, work) in kept.passes.iter().zip(&kept.work) {
+            let worn = pass.lost("wear")[body];
+            let expected = 4e-15 * work * 4.0 * PITCH * pass.represents() as f64;
+            // Between extrapolations the load is met within its tolerance, and so is the volume of the extrapolated passes.
+            let within = if pass.represents() == 1 { 1e-12 } else { 3e-4 };
+            assert!((worn / expected - 1.0).abs() < within, "{worn:e}, {expected:e}");
+            lost += worn + pass.lost("plastic")[body];
+        }
+        let sign = [-1.0, 1.0][body];
+        let fell = sign * (kept.heights()[body] - before).sum() * PITCH * PITCH;
+        assert!((fell / lost - 1.0).abs() < 1e-9, "{fell:e}, {lost:e}");
+    }
+}
+
+fn zddp(removal: f64) -> Film {
+    let law = FilmLaw::Arrhenius {
+        rate: 2e-6,
+        at_temperature: 373.15,
+        at_stress: 1e9,
+        activation_energy: 0.8 * 1.602_176_634e-19,
+        activation_volume: 3.8e-30,
+        stress: FilmStress::Pressure,
+        removal,
+    };
+    Film::new(law, 10e-9, None).unwrap()
+}
+
+/// Flat bodies: pressure and film are uniform.
+fn flat_film(passes: usize, jump: usize, removal: f64, law: Option<FilmLaw>) -> f64 {
+    let grid = Grid::new([8, 8], [PITCH; 2]).unwrap();
+    let material = steel(f64::INFINITY);
+    let flat = || Form::Flat.on(&grid).unwrap();
+    let pair = Pair::new(flat(), flat(), [&material, &material]).unwrap();
+    let control = Control::Load(1e9 * grid.area());
+    let motion =
+        Motion::new(SLIDE, control).with_passes(passes).with_stride(4).with_load_control(LoadControl::Step);
+    let motion = motion.with_bulk([373.15; 2]);
+    let film = law.map_or_else(|| zddp(removal), |law| Film::new(law, 10e-9, None).unwrap());
+    let films = Films::new([Some(film), None], &pair).unwrap();
+    let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
+    let acceleration = Acceleration::default().with_tolerance(1e9).with_max_jump(jump);
+    let kept = Kept::of(simulation.with_law(films).with_acceleration(acceleration).unwrap());
+    let film = &kept.pair.as_ref().unwrap().lower.state[FILM].values;
+    let mean = film.mean().unwrap();
+    assert!(film.iter().all(|f| *f >= 0.0 && (f - mean).abs() <= 1e-9 * mean));
+    // The surface rises by the growth of the film.
+    let rise = kept.heights()[0].mean().unwrap();
+    assert!((rise - mean).abs() <= 1e-9 * mean, "{rise:e}, {mean:e}");
+    mean
+}
+
+#[test]
+fn a_film_is_exact_over_any_jump_and_tends_to_its_steady_value() {
+    let time = |passes: usize| passes as f64 * 8.0 * PITCH / 0.5;
+    let (growth, removal, most) = (2e-6, 1e-7, 10e-9);
+    let rate = growth / most + removal * 1e9 * 0.5;
+    let steady = growth / rate;
+    for passes in [100, 3000] {
+        let exact = steady * (1.0 - (-rate * time(passes)).exp());
+        for jump in [1, 64, 10_000] {
+            let found = flat_film(passes, jump, removal, None);
+            assert!((found / exact - 1.0).abs() < 1e-6, "{passes} passes by {jump}: {found:e}, {exact:e}");
+        }
+    }
+    let law = FilmLaw::MechanoChemical { x: 1e-11, c3: 4e-9, c4: 50.0 };
+    let thick = flat_film(100_000, 10_000, 0.0, Some(law));
+    assert!((thick / 6e-9 - 1.0).abs() < 1e-6, "{thick:e}: f_max − C₃");
+}
+
+/// A film that is removed faster than it grows is used up. Its cell stays bare, with a thickness of 0, until growth is
+/// faster again. Compared with steps of a thousandth of a pass.
+#[test]
+fn a_film_is_never_below_0_over_any_jump() {
+    let (x, most, c3) = (1e-13, 10e-9, 4e-9);
+    let growth = 1.380_649e-23 * 373.15 / 6.626_070_15e-34 * x;
+    for c4 in [50.0, 3.0] {
+        let law = || Some(FilmLaw::MechanoChemical { x, c3, c4 });
+        for passes in [1, 2000, 30_000, 60_000, 200_000] {
+            let time = passes as f64 * 8.0 * PITCH / 0.5;
+            let steps = 400_000;
+            let dt = time / f64::from(steps);
+            let (mut grown, mut lost) = (0.0, 0.0_f64);
+            for _ in 0..steps {
+                grown += growth * dt * (most - grown);
+                lost = (lost + c4 * dt * (c3 - lost)).min(grown);
+            }
+            let expected = grown - lost;
+            for jump in [64, 100_000] {
+                if passes > 100 * jump {
+                    continue;
+                }
+                let found = flat_film(passes, jump, 0.0, law());
+                let off = (found - expected).abs();
+                assert!(off < 1e-4 * most, "{c4}: {passes} passes by {jump}: {found:e}, {expected:e}");
+            }
+        }
+    }
+}
+
+/// Removes a nanometre from every cell of the lower body in a pass, for any extrapolation.
+struct Once;
+
+impl Law for Once {
+    fn name(&self) -> &str {
+        "once"
+    }
+
+    fn repeats(&self) -> bool {
+        false
+    }
+
+    fn add(&self, _: &Pair, _: &ContactCells, _: &mut [Vec<Field>; 2]) {}
+
+    fn advance(&self, _: &mut Pair, sums: &[Vec<Field>; 2], _: f64) -> [Field; 2] {
+        [sums[0][0].mapv(|_| 1e-9), sums[1][0].clone()]
+    }
+}
+
+#[test]
+fn a_law_that_does_not_repeat_acts_once_in_a_jump_wherever_it_is_added() {
+    let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(20).with_stride(4);
+    let simulation = Simulation::new(rough(f64::INFINITY, 16), Boundary::PERIODIC, motion, Params::default());
+    let simulation = simulation.unwrap().with_law(archard(4e-15)).with_law(Once);
+    // Its volume counts like plastic deformation: the wear of an extrapolation must exceed it.
+    let kept = Kept::of(simulation.with_acceleration(Acceleration::default()).unwrap());
+    assert_eq!(kept.represented(), 20);
+    let volume = 256.0 * PITCH * PITCH * 1e-9;
+    assert!(kept.passes.iter().all(|pass| (pass.lost("once")[0] / volume - 1.0).abs() < 1e-9));
+    assert!(kept.passes.iter().all(|pass| pass.represents() == 1));
+}
+
+#[test]
+fn what_is_not_accelerated_keeps_nothing_for_jumps() {
+    struct Warm(Vec<bool>);
+    impl Output for Warm {
+        fn step(&mut self, step: &Step<'_>) -> Result<()> {
+            let Step::Pass(report) = step else { return Ok(()) };
+            self.0.push(report.warm.extrapolation.is_some());
+            Ok(())
+        }
+    }
+    for (acceleration, keeps) in [(Acceleration::NONE, false), (Acceleration::default(), true)] {
+        let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(2).with_stride(4);
+        let simulation =
+            Simulation::new(rough(f64::INFINITY, 16), Boundary::PERIODIC, motion, Params::default()).unwrap();
+        let mut warm = Warm(Vec::new());
+        let mut simulation = simulation.with_law(archard(4e-15)).with_acceleration(acceleration).unwrap();
+        simulation.run(&(), &mut [&mut warm]).unwrap();
+        assert_eq!(warm.0, [keeps; 2]);
+    }
+}
+
+/// A pass with one position over the whole length of surfaces that are pressed flat. The wear is computed by the law, or by
+/// the caller as an explicit step. Returns the amplitude of the checkerboard mode of the pressures over their mean, after
+/// `passes` passes.
+fn checkerboard(wear: f64, passes: usize, by_law: bool) -> f64 {
+    const CELLS: usize = 16;
+    let grid = Grid::new([CELLS, CELLS], [PITCH; 2]).unwrap();
+    let steel = steel(f64::INFINITY);
+    let alternating = |i: usize, j: usize| if (i + j).is_multiple_of(2) { 1.0 } else { -1.0 };
+    // A checkerboard surface whose pressures alternate by a thousandth of the mean, which is E*/1000.
+    let flat = Form::Flat.on(&grid).unwrap();
+    let pair = Pair::new(flat.clone(), flat, [&steel; 2]).unwrap();
+    let (modulus, compliance_of_grid) = (pair.modulus(), chequered_softness(&pair));
+    let mut pair = pair;
+    let depth = 1e-6 * modulus * compliance_of_grid;
+    pair.lower.heights = Field::from_shape_fn(grid.shape, |(i, j)| depth * alternating(i, j));
+    let length = CELLS as f64 * PITCH;
+    let coefficient = wear * 2.0 * compliance_of_grid / (2.0 * length);
+    let motion = Motion::new(SLIDE, Control::Load(1e-3 * modulus * grid.area()))
+        .with_passes(passes)
+        .with_stride(CELLS)
+        .with_load_control(LoadControl::Step);
+    let params = Params::default().with_tolerance(1e-9);
+    let mut simulation = Simulation::new(pair, Boundary::PERIODIC, motion, params).unwrap();
+    if by_law {
+        simulation = simulation.with_law(archard(coefficient));
+    }
+    let mut left = f64::NAN;
+    for _ in 0..passes {
+        let mut pass = simulation.solve(&()).unwrap();
+        let pressure = pass.contacts()[0].pressure_field(CELLS);
+        left = pressure.indexed_iter().map(|((i, j), p)| p * alternating(i, j)).sum::<f64>() / pressure.sum();
+        if !by_law {
+            let depth = pressure * (coefficient * length);
+            pass.remove("wear", &[depth.clone(), depth]);
+        }
+        simulation.finish(pass, &(), &mut []).unwrap();
+    }
+    left.abs()
+}
+
+/// Displacement of a periodic surface under a checkerboard pressure of 1: 2/E*q at the shortest wave on the grid.
+fn chequered_softness(pair: &Pair) -> f64 {
+    2.0 * PITCH / (pair.modulus() * PI * 2.0_f64.sqrt())
+}
+
+/// The explicit step oscillates above the bound (k₁ + k₂) Σ|Δs| = 2λ, until every second cell has no pressure. If a law
+/// wears more, a pass is solved together with its wear, and does not oscillate.
+#[test]
+fn beyond_the_stability_bound_pressures_swing_unless_a_pass_is_solved_with_its_wear() {
+    let first = checkerboard(0.9, 1, false);
+    assert!((first / 1e-3 - 1.0).abs() < 1e-3, "{first:e}");
+    // A pass multiplies a checkerboard pressure by |1 − 2 · 0.9|, and by |1 − 2 · 1.1|.
+    for (wear, by_law) in [(0.9, false), (0.9, true)] {
+        let left = checkerboard(wear, 21, by_law);
+        assert!((left / first / 0.8_f64.powi(20) - 1.0).abs() < 0.01, "{left:e}");
+    }
+    let swung = checkerboard(1.1, 61, false);
+    assert!(swung > 0.5, "{swung}");
+    // An implicit pass multiplies it by 1/(1 + 2 · 1.1).
+    let worn = checkerboard(1.1, 6, true);
+    let expected = 1e-3 / 3.2_f64.powi(6);
+    assert!((worn / expected - 1.0).abs() < 0.01, "{worn:e}, expected {expected:e}");
+}
+
+#[test]
+fn an_interrupted_run_goes_on_with_the_same_jumps() {
+    struct Warm(Option<asperity_contact::motion::WarmStart>, usize);
+    impl Output for Warm {
+        fn step(&mut self, step: &Step<'_>) -> Result<()> {
+            let Step::Pass(report) = step else { return Ok(()) };
+            self.0 = Some(report.warm.clone());
+            self.1 += 1;
+            if self.1 == 6 { Err(asperity_base::Error::Interrupted) } else { Ok(()) }
+        }
+    }
+    let acceleration = Acceleration::default().with_max_wear(20e-9);
+    let begin = |pair: Pair| {
+        let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(100).with_stride(4);
+        let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
+        simulation.with_law(archard(4e-15)).with_acceleration(acceleration).unwrap()
+    };
+    let whole = Kept::of(begin(rough(1.5e9, 16)));
+    let mut kept = Kept::default();
+    let mut warm = Warm(None, 0);
+    assert!(begin(rough(1.5e9, 16)).run(&(), &mut [&mut kept, &mut warm]).is_err());
+    let rest = Kept::of(begin(kept.pair.unwrap()).resumed(6, warm.0.unwrap()));
+    assert_eq!(rest.heights(), whole.heights());
+    let jumps = |kept: &Kept| kept.passes.iter().map(PassRecord::represents).collect::<Vec<_>>();
+    assert_eq!(jumps(&rest), jumps(&whole)[6..]);
+}
+
+/// Some passes of a body in zinc dialkyl dithiophosphate against a body that slides over it at this speed with friction,
+/// heated in every `every`-th pass, or in none for 0.
+fn heated(speed: f64, passes: usize, every: usize) -> Kept {
+    use asperity_contact::solver::{Coupling, Friction};
+    use asperity_contact::temperature::Thermal;
+
+    let friction = Friction::coulomb(0.1).unwrap().with_coupling(Coupling::None);
+    let strategy = Strategy::Shift { speed_lower: 0.0, speed_upper: speed };
+    let motion = Motion::new(strategy, Control::Load(0.05))
+        .with_passes(passes)
+        .with_stride(4)
+        .with_friction(friction)
+        .with_bulk([373.15; 2]);
+    let pair = rough(1.5e9, 16);
+    let films = Films::new([Some(zddp(0.0)), None], &pair).unwrap();
+    let simulation =
+        Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap().with_law(films);
+    let steel = Thermal::new(46.0, 460.0, 7850.0).unwrap();
+    Kept::of(if every > 0 { simulation.with_heat([steel; 2], every).unwrap() } else { simulation })
+}
+
+#[test]
+fn friction_heats_the_cells_and_films_see_it() {
+    let run = |speed: f64, every: usize| heated(speed, 2, every);
+    let [cold, slow, fast] = [run(0.5, 0), run(0.5, 1), run(5.0, 1)];
+    let warmest = |kept: &Kept| kept.passes[1].running.unwrap().max_flash_temperature - 373.15;
+    assert_eq!(warmest(&cold), 0.0);
+    assert!(
+        warmest(&slow) > 0.5 && warmest(&fast) > 3.0 * warmest(&slow),
+        "{} {}",
+        warmest(&slow),
+        warmest(&fast)
+    );
+    // The work is that of friction, for any speed: μ Σ W Δs.
+    for kept in [&slow, &fast] {
+        let work = kept.passes[0].running.unwrap().friction_work;
+        assert!((work / (0.1 * kept.work[0] * 4.0 * PITCH) - 1.0).abs() < 1e-12);
+    }
+    // In the same time a warm film grows more.
+    let grown = |kept: &Kept| kept.passes[1].running.unwrap().mean_film_lower;
+    assert!(grown(&slow) > 1.001 * grown(&cold), "{:e} {:e}", grown(&slow), grown(&cold));
+}
+
+/// Between passes with a computed flash temperature, the cells have the temperature of the last of these.
+#[test]
+fn what_is_heated_in_some_passes_grows_films_in_all() {
+    let [never, each, third] = [0, 1, 3].map(|every| heated(5.0, 7, every));
+    let grown = |kept: &Kept| kept.passes[6].running.unwrap().mean_film_lower;
+    let [cold, all, some] = [&never, &each, &third].map(grown);
+    assert!(
+        all > 1.05 * cold && (some / all - 1.0).abs() < 0.1 * (all / cold - 1.0),
+        "{cold:e} {all:e} {some:e}"
+    );
+    assert!(some != all);
+    let warmest = |kept: &Kept, pass: usize| kept.passes[pass].running.unwrap().max_flash_temperature;
+    assert_eq!(warmest(&third, 0), warmest(&each, 0));
+    let between = (warmest(&third, 1) - 373.15) / (warmest(&each, 1) - 373.15);
+    assert!((0.3..1.0 + 1e-9).contains(&between), "{between}");
+    let body = &third.pair.as_ref().unwrap().lower;
+    assert!(body.state[asperity_contact::motion::FLASH].values.iter().any(|rise| *rise > 0.0));
+    assert!(!each.pair.as_ref().unwrap().lower.state.contains_key(asperity_contact::motion::FLASH));
+}
+
+/// A pass solved together with its wear has the pressures of the bodies after it: those at the same approach on these
+/// bodies.
+#[test]
+fn a_pass_solved_with_its_wear_presses_the_bodies_that_it_leaves() {
+    let params = Params::default().with_tolerance(1e-9);
+    for (strategy, boundary, hardness) in [
+        (SLIDE, Boundary::PERIODIC, f64::INFINITY),
+        (Strategy::Overlap, Boundary::FREE, f64::INFINITY),
+        (Strategy::Shift { speed_lower: 0.2, speed_upper: 0.5 }, Boundary::PERIODIC, f64::INFINITY),
+    ] {
+        let pair = rough(hardness, 16);
+        // Thirty times the bound for a cell in contact all the time.
+        let coefficient = 30.0 * 2.0 * 0.45 * PITCH / pair.modulus() / (2.0 * 16.0 * PITCH);
+        let motion = Motion::new(strategy, Control::Load(0.02))
+            .with_stride(4)
+            .with_speed((strategy == Strategy::Overlap).then_some(0.5));
+        let begin = |pair: Pair, motion: Motion| Simulation::new(pair, boundary, motion, params).unwrap();
+        let worn = begin(pair.clone(), motion).with_law(archard(coefficient)).solve(&()).unwrap();
+        let load =
+            worn.contacts().iter().map(|contact| contact.load).sum::<f64>() / worn.contacts().len() as f64;
+        assert!((load / 0.02 - 1.0).abs() < 1e-8, "{load}");
+        assert!(worn.record().running.unwrap().error_estimate > 0.0);
+        let approach = Control::Approach(worn.contacts()[0].approach);
+        let again = begin(worn.pair().clone(), motion.with_control(approach)).solve(&()).unwrap();
+        let largest =
+            worn.contacts().iter().flat_map(|c| &c.pressure).fold(0.0, |most: f64, (_, p)| most.max(*p));
+        for (found, expected) in worn.contacts().iter().zip(again.contacts()) {
+            let difference = found.pressure_field(16) - expected.pressure_field(16);
+            let off = difference.iter().fold(0.0, |most: f64, p| most.max(p.abs()));
+            assert!(off < 1e-4 * largest, "{strategy:?}: {off:e} of {largest:e}");
+        }
+        // The same volume as with explicit wear, but another distribution: k Σ W Δs.
+        let distance = motion.sliding_distance(PITCH);
+        let volume = coefficient * load * distance * worn.contacts().len() as f64;
+        let [lower, upper] = worn.record().lost("wear");
+        assert!(
+            (lower / volume - 1.0).abs() < 1e-10 && (upper / volume - 1.0).abs() < 1e-10,
+            "{lower:e} {volume:e}"
+        );
+    }
+}
+
+/// Flat periodic bodies that pass over each other: the film has lost k p s, whether each pass is computed or only a few.
+#[test]
+fn a_solid_lubricant_lasts_as_long_as_its_thickness_over_k_p() {
+    let grid = Grid::new([16, 8], [PITCH; 2]).unwrap();
+    let flat = || Form::Flat.on(&grid).unwrap();
+    let (thickness, k, pressure, passes) = (50e-9, 1e-15, 0.1e9, 40);
+    // The lower body slides one length under the same pressure in each pass.
+    let lost = k * pressure * passes as f64 * 16.0 * PITCH;
+    for (thickness, left) in [(thickness, thickness - lost), (0.6 * lost, 0.0)] {
+        for acceleration in [Acceleration::NONE, Acceleration::default()] {
+            let pair = Pair::new(flat(), flat(), [&steel(f64::INFINITY); 2]).unwrap();
+            let film = Film::new(FilmLaw::SolidLubricant { wear: k }, thickness, None).unwrap();
+            let films = Films::new([Some(film), None], &pair).unwrap();
+            let load = Control::Load(pressure * grid.area());
+            let motion = Motion::new(SLIDE, load)
+                .with_passes(passes)
+                .with_stride(4)
+                .with_load_control(LoadControl::Step);
+            let mut simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default())
+                .unwrap()
+                .with_law(films)
+                .with_acceleration(acceleration)
+                .unwrap();
+            simulation.run(&(), &mut []).unwrap();
+            let film = &simulation.pair().lower.state[FILM].values;
+            assert!(
+                film.iter().all(|f| (f - left).abs() < 1e-6 * thickness),
+                "{:e} of {left:e}",
+                film[[0, 0]]
+            );
+        }
+    }
+}

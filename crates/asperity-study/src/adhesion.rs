@@ -1,0 +1,240 @@
+//! Adhesion of a case in numbers, and the warnings about it.
+
+use serde::{Deserialize, Serialize};
+
+use asperity_base::grid::{Field, Grid};
+use asperity_base::math::RealFft2;
+use asperity_base::math::fft::angular_frequency;
+use asperity_base::record::columns;
+use asperity_base::units::{Dimension, Joule, Metre, Newton, Pascal, PerMetre, format};
+use asperity_contact::adhesion::{Adhesion, RESOLVED_CELLS};
+use asperity_contact::motion::{IncrementRecord, PassRecord};
+use asperity_contact::operator::Boundary;
+
+columns! {
+    /// Adhesion of two bodies in numbers: `adhesion` in `summary.json`.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+    #[non_exhaustive]
+    pub struct AdhesionSummary {
+        /// Range of the attraction.
+        pub range: Metre,
+        /// Largest tension σ(0), in contact.
+        pub max_tension: Pascal,
+        /// Length of the process zone at the edge of a contact, E*ϱ²/πw.
+        pub process_zone: Metre,
+        /// Length of the process zone over the pitch, the larger one; pull-off is accurate to 1 % from 1.5.
+        pub process_zone_cells: f64,
+        /// Tabor's parameter (w²/E*²ϱ³κ)^⅓, with κ the rms mean curvature of the gap; unknown for flat surfaces.
+        pub tabor: Option<f64>,
+        /// Parameter of Pastewka and Robbins; rough surfaces stick below 1. Unknown for flat surfaces.
+        pub pastewka_robbins: Option<f64>,
+        /// Elastic energy of full contact over the work of adhesion; unknown unless both axes are periodic.
+        pub full_contact_energy: Option<f64>,
+        /// Pull-off force, the least load of a retreat; unknown if the bodies do not retreat.
+        pub pull_off: Option<Newton>,
+        /// Work of separation: the work of the loads that pull, over the retreat; unknown if the bodies do not retreat.
+        pub work_of_separation: Option<Joule>,
+    }
+}
+
+impl AdhesionSummary {
+    /// Creates the numbers of bodies of this composite modulus with this initial `gap`, before they are pressed.
+    pub(super) fn new(
+        adhesion: &Adhesion,
+        gap: &Field,
+        pitch: [Metre; 2],
+        boundary: Boundary,
+        modulus: Pascal,
+    ) -> Self {
+        let grid = &Grid { shape: [gap.nrows(), gap.ncols()], pitch };
+        let [slope, laplacian] = moments(gap, grid, boundary);
+        let is_rough = slope > 0.0 && laplacian > 0.0;
+        let zone = adhesion.process_zone(modulus);
+        let periodic = boundary.repeats(0) && boundary.repeats(1);
+        Self {
+            range: adhesion.range,
+            max_tension: adhesion.max_tension(),
+            process_zone: zone,
+            process_zone_cells: zone / pitch[0].max(pitch[1]),
+            tabor: is_rough.then(|| adhesion.tabor(modulus, 0.5 * laplacian)),
+            pastewka_robbins: is_rough
+                .then(|| adhesion.pastewka_robbins(modulus, slope, laplacian / std::f64::consts::SQRT_2)),
+            full_contact_energy: periodic.then(|| flattening(gap, grid, modulus) / adhesion.work),
+            pull_off: None,
+            work_of_separation: None,
+        }
+    }
+
+    /// Adds what a retreat shows: the increments over which the approach falls.
+    pub(super) fn after(self, increments: &[IncrementRecord]) -> Self {
+        let retreats = increments.windows(2).filter(|pair| pair[1].approach < pair[0].approach);
+        let (mut least, mut work) = (None, None);
+        for pair in retreats {
+            let [before, after] = [&pair[0], &pair[1]];
+            let pull = |increment: &IncrementRecord| (-increment.load).max(0.0);
+            *work.get_or_insert(0.0) +=
+                0.5 * (pull(before) + pull(after)) * (before.approach - after.approach);
+            *least.get_or_insert(f64::INFINITY) =
+                least.unwrap_or(f64::INFINITY).min(before.load).min(after.load);
+        }
+        Self { pull_off: least, work_of_separation: work, ..self }
+    }
+
+    /// Returns the warnings that the grid and the surfaces give before a contact is solved.
+    pub(super) fn warnings(&self, adhesion: &Adhesion, modulus: Pascal, pitch: Metre) -> Vec<String> {
+        let length = |value| format(value, Dimension::Length);
+        let coarse = (self.process_zone_cells < 0.999 * RESOLVED_CELLS).then(|| {
+            format!(
+                "the grid does not resolve the adhesion: the process zone at the edge of a contact is {}, {:.2} cells, and pull-off \
+                 needs {RESOLVED_CELLS}; take a pitch of {}, or `range = \"grid\"`, which is {}",
+                length(self.process_zone),
+                self.process_zone_cells,
+                length(self.process_zone / RESOLVED_CELLS),
+                length(Adhesion::grid_range(adhesion.work, modulus, pitch))
+            )
+        });
+        coarse.into_iter().collect()
+    }
+}
+
+/// Returns the warning about jumps of a loading.
+pub(super) fn jumps(increments: &[IncrementRecord]) -> Option<String> {
+    let jumped = |increment: &&IncrementRecord| increment.adhesion.is_some_and(|adhesion| adhesion.jumps > 0);
+    let jumps: Vec<_> = increments.iter().filter(jumped).collect();
+    let first = jumps.first()?;
+    Some(format!(
+        "the bodies jump in {} of {} increments, first in increment {}: the energy lost there depends on the increments; give more \
+         `increments`",
+        jumps.len(),
+        increments.len(),
+        first.increment
+    ))
+}
+
+/// Returns the warning about positions that depend on the one before.
+pub(super) fn depends_on_history(passes: &[PassRecord]) -> Option<String> {
+    /// Largest change of the load of a position, relative to the mean, without a warning.
+    const INDEPENDENT: f64 = 0.01;
+    let of_pass = |pass: &PassRecord| pass.adhesion.map_or(0.0, |adhesion| adhesion.history_difference);
+    let largest = passes.iter().map(of_pass).fold(0.0, f64::max);
+    (largest > INDEPENDENT).then(|| {
+        format!(
+            "the load of a position changes by {:.1} % if the bodies come from the position before: contacts jump, and depend on the \
+             path; set `history = \"path\"` in [adhesion] of a shift",
+            100.0 * largest
+        )
+    })
+}
+
+/// Returns the rms slope and the rms Laplacian of a gap, by differences of neighbouring cells. They wrap round periodic axes.
+fn moments(gap: &Field, grid: &Grid, boundary: Boundary) -> [f64; 2] {
+    let [nx, ny] = grid.shape;
+    let mut slopes = [0.0; 2];
+    let (mut squares, mut inner) = (0.0, 0.0);
+    let neighbour = |index: usize, axis: usize, forward: bool| -> Option<usize> {
+        let count = grid.shape[axis];
+        match (forward, boundary.repeats(axis)) {
+            (true, true) => Some((index + 1) % count),
+            (false, true) => Some((index + count - 1) % count),
+            (true, false) => (index + 1 < count).then_some(index + 1),
+            (false, false) => index.checked_sub(1),
+        }
+    };
+    let mut pairs = [0.0; 2];
+    for i in 0..nx {
+        for j in 0..ny {
+            let here = gap[[i, j]];
+            let next =
+                [neighbour(i, 0, true).map(|i| gap[[i, j]]), neighbour(j, 1, true).map(|j| gap[[i, j]])];
+            let last =
+                [neighbour(i, 0, false).map(|i| gap[[i, j]]), neighbour(j, 1, false).map(|j| gap[[i, j]])];
+            for axis in 0..2 {
+                if let Some(next) = next[axis] {
+                    slopes[axis] += ((next - here) / grid.pitch[axis]).powi(2);
+                    pairs[axis] += 1.0;
+                }
+            }
+            // A line of one row has no curvature across it.
+            let second = |axis: usize| match (last[axis], next[axis]) {
+                _ if grid.shape[axis] == 1 => Some(0.0),
+                (Some(last), Some(next)) => Some((last - 2.0 * here + next) / grid.pitch[axis].powi(2)),
+                _ => None,
+            };
+            if let (Some(x), Some(y)) = (second(0), second(1)) {
+                squares += (x + y).powi(2);
+                inner += 1.0;
+            }
+        }
+    }
+    let mean = |sum: f64, count: f64| if count > 0.0 { sum / count } else { 0.0 };
+    let slope: f64 = slopes.iter().zip(pairs).map(|(sum, count)| mean(*sum, count)).sum();
+    [slope.sqrt(), mean(squares, inner).sqrt()]
+}
+
+/// Returns the elastic energy of an area that closes a periodic gap, J/m²: ¼E* Σ |q| |ĥ(q)|².
+fn flattening(gap: &Field, grid: &Grid, modulus: Pascal) -> f64 {
+    let [nx, ny] = grid.shape;
+    let spectrum = RealFft2::new(grid.shape).forward(gap);
+    let mut sum = 0.0;
+    for ((k, l), value) in spectrum.indexed_iter() {
+        let q: PerMetre =
+            angular_frequency(k, nx, grid.pitch[0]).hypot(angular_frequency(l, ny, grid.pitch[1]));
+        // All but the first and, of an even number, the last column stand for two waves.
+        let waves = if l == 0 || 2 * l == ny { 1.0 } else { 2.0 };
+        sum += waves * q * value.norm_sqr();
+    }
+    0.25 * modulus * sum / (grid.cells() as f64).powi(2)
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    #[test]
+    fn a_sphere_has_the_curvature_of_its_radius() {
+        let grid = Grid::new([40, 40], [0.1, 0.1]).unwrap();
+        let at = |i: usize| (i as f64 - 19.5) * 0.1;
+        let gap = Field::from_shape_fn(grid.shape, |(i, j)| 0.5 * (at(i).powi(2) + at(j).powi(2)) / 7.0);
+        let adhesion = Adhesion::new(0.3, 0.2).unwrap();
+        let numbers = AdhesionSummary::new(&adhesion, &gap, grid.pitch, Boundary::FREE, 2.0);
+        assert_relative_eq!(numbers.tabor.unwrap(), adhesion.tabor(2.0, 1.0 / 7.0), max_relative = 1e-9);
+        assert_eq!(numbers.full_contact_energy, None);
+        let flat = AdhesionSummary::new(&adhesion, &grid.zeros(), grid.pitch, Boundary::FREE, 2.0);
+        assert_eq!((flat.tabor, flat.pastewka_robbins), (None, None));
+    }
+
+    /// A wave h cos qx has the slope hq/√2 and takes ¼E* q ½h² an area to flatten.
+    #[test]
+    fn a_wave_takes_the_energy_of_westergaard_to_flatten() {
+        let grid = Grid::new([256, 4], [0.5, 0.5]).unwrap();
+        let q = std::f64::consts::TAU * 3.0 / (256.0 * 0.5);
+        let gap = Field::from_shape_fn(grid.shape, |(i, _)| 0.2 * (q * 0.5 * i as f64).cos());
+        let adhesion = Adhesion::new(0.3, 0.2).unwrap();
+        let numbers = AdhesionSummary::new(&adhesion, &gap, grid.pitch, Boundary::PERIODIC, 2.0);
+        let energy = 0.25 * 2.0 * q * 0.5 * 0.04;
+        assert_relative_eq!(numbers.full_contact_energy.unwrap(), energy / 0.3, max_relative = 1e-12);
+        let [slope, laplacian] = moments(&gap, &grid, Boundary::PERIODIC);
+        assert_relative_eq!(slope, 0.2 * q / 2.0f64.sqrt(), max_relative = 1e-3);
+        assert_relative_eq!(laplacian, 0.2 * q * q / 2.0f64.sqrt(), max_relative = 1e-3);
+    }
+
+    #[test]
+    fn the_retreat_tells_pull_off_and_work() {
+        let grid = Grid::new([4, 4], [0.1, 0.1]).unwrap();
+        let numbers = AdhesionSummary::new(
+            &Adhesion::new(0.3, 0.2).unwrap(),
+            &grid.zeros(),
+            grid.pitch,
+            Boundary::FREE,
+            2.0,
+        );
+        let row = |approach, load| IncrementRecord { approach, load, ..IncrementRecord::default() };
+        let path = [row(0.0, -1.0), row(1.0, 5.0), row(0.0, -2.0), row(-1.0, -3.0), row(-2.0, 0.0)];
+        let numbers = numbers.after(&path);
+        assert_eq!(numbers.pull_off, Some(-3.0));
+        assert_relative_eq!(numbers.work_of_separation.unwrap(), 1.0 + 2.5 + 1.5);
+        assert_eq!(numbers.after(&path[..2]).pull_off, None);
+    }
+}

@@ -1,0 +1,523 @@
+//! Case files: one TOML file describes the bodies, their loading and their motion.
+//!
+//! Everything that the file alone determines is checked, and each mistake is reported at its place. A [`Case`] is in SI and
+//! serialises under the keys of the file, so that a summary contains the computed case.
+
+mod adhesion;
+mod body;
+mod conductance;
+mod contact;
+pub(crate) mod cursor;
+pub(crate) mod document;
+mod friction;
+mod gap_flow;
+mod hardness;
+mod motion;
+mod output;
+mod parse;
+mod plasticity;
+mod prescribed;
+mod read_back;
+pub mod rules;
+mod running;
+pub mod schema;
+mod sliding;
+mod source;
+mod subsurface;
+mod topography;
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::{Serialize, Serializer};
+
+pub use self::adhesion::AdhesionSpec;
+pub use self::conductance::ConductanceSpec;
+use self::document::Document;
+pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
+pub use self::gap_flow::GapFlowSpec;
+pub use self::hardness::{Hardness, HardnessInput, HardnessMap};
+pub use self::plasticity::{FlowSpec, HardeningKey, PlasticitySpec};
+pub use self::prescribed::Prescribed;
+pub use self::running::{FilmSpec, TemperatureSpec, WearKey, WearSpec};
+pub use self::schema::values::adhesion::AdhesionRange;
+pub use self::schema::values::plasticity::Keep;
+pub use self::schema::values::subsurface::Side;
+pub use self::sliding::SlidingSpec;
+pub use self::source::{Layer, Source, TopographySpec};
+pub use self::subsurface::SubsurfaceSpec;
+use crate::io::regular;
+use asperity_base::choice::choice;
+use asperity_base::error::{Error, Result};
+use asperity_base::units::SquareMetre;
+use asperity_contact::material::{Coating, Material};
+use asperity_contact::motion::{
+    Acceleration, AdhesionHistory, LoadControl, Motion, OffsetY, Path as MotionPath, PlasticUpdate, Strategy,
+};
+pub use asperity_contact::operator::{Boundary, Edge};
+use asperity_contact::solver::Control;
+pub use asperity_contact::solver::Method;
+use asperity_contact::temperature::Thermal;
+
+/// A case, resolved to SI.
+#[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
+pub struct Case {
+    /// The title; by default the file name.
+    pub title: String,
+    /// The lower body.
+    pub lower: Body,
+    /// The upper body.
+    #[serde(serialize_with = "with_mount")]
+    pub upper: Body,
+    /// Load, boundary and solver.
+    pub contact: Contact,
+    /// Attraction between the bodies; `None` if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub adhesion: Option<AdhesionSpec>,
+    /// Friction of the bodies; `None` if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<FrictionSpec>,
+    /// Later stages of the loading of a static contact. The first is prescribed by `contact` and, if given, `friction`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub history: Vec<StageSpec>,
+    /// Motion of the bodies; `None` for a static contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motion: Option<MotionSpec>,
+    /// Wear in place of a static contact; `None` if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sliding: Option<SlidingSpec>,
+    /// Extrapolation over passes; by default each pass is computed.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "with_jumps")]
+    pub acceleration: Option<Acceleration>,
+    /// Temperatures of the bodies; unknown if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<TemperatureSpec>,
+    /// The volumes of elasto-plastic bodies; `None` if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plasticity: Option<PlasticitySpec>,
+    /// Requested output of the stress under the surface; `None` if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub subsurface: Option<SubsurfaceSpec>,
+    /// Requested conductance of the contacts; `None` if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub conductance: Option<ConductanceSpec>,
+    /// Requested flow through the gap; `None` if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flow: Option<GapFlowSpec>,
+    /// Output options.
+    pub output: Output,
+    #[serde(skip)]
+    document: Document,
+}
+
+/// One of the two bodies.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Body {
+    /// Elastic constants of the body. Its hardness is in [`Body::hardness`].
+    #[serde(flatten, serialize_with = "with_infinities")]
+    pub material: Material,
+    /// Largest pressure that the cells of the body can carry; infinite by default.
+    pub hardness: Hardness,
+    /// Plastic flow below the surface; elastic if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plasticity: Option<FlowSpec>,
+    /// Thermal constants of the body; unknown if absent.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub thermal: Option<Thermal>,
+    /// Thermal conductivity, W/(m K), of a body that has no other thermal constants, > 0 or infinite; unknown if absent.
+    #[serde(serialize_with = "with_infinity", skip_serializing_if = "Option::is_none")]
+    pub conductivity: Option<f64>,
+    /// Electrical resistivity, Ω m, > 0; unknown if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resistivity: Option<f64>,
+    /// Wear of the body; none if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wear: Option<WearSpec>,
+    /// Tribofilm on the body; none if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub film: Option<FilmSpec>,
+    /// The body's surface.
+    pub topography: TopographySpec,
+    /// How the heights are mounted: always [`Mount::AsIs`] for the lower body. `None` leaves the decision to the file: as
+    /// they are if it describes an underside, see [`Scan::is_underside`](asperity_surface::Scan::is_underside), else turned
+    /// over.
+    #[serde(skip)]
+    pub mount: Option<Mount>,
+}
+
+/// Conversion of the heights of a body to those of the case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mount {
+    /// Measured material side up, then turned over about y: mirrored in x, with the sign of the heights changed.
+    TurnedOver,
+    /// The heights are already those of the case.
+    AsIs,
+}
+
+choice!(Mount: "turned-over" => TurnedOver, "as-is" => AsIs);
+
+/// Load, boundary and solver.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Contact {
+    /// The load or approach; the largest of a sweep.
+    pub prescribed: Prescribed,
+    /// The points of a sweep, all of one kind, each on virgin bodies; empty without a sweep.
+    pub sweep: Vec<Prescribed>,
+    /// Continuation of the surfaces beyond the grid.
+    pub boundary: Boundary,
+    /// Whether the surfaces are brought to a common grid.
+    pub grid: GridMatch,
+    /// The solver.
+    pub method: Method,
+    /// Scale-free complementarity residual at which the solver stops, 0 < η < 1.
+    pub tolerance: f64,
+}
+
+/// Treatment of two surfaces whose grids differ.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum GridMatch {
+    /// Both surfaces must fit as they are prepared.
+    #[default]
+    AsPrepared,
+    /// Both surfaces are resampled to the coarser pitch, and cropped about their centres to a common size.
+    Common,
+}
+
+choice!(GridMatch: "as-prepared" => AsPrepared, "common" => Common);
+
+impl Serialize for Contact {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Keys<'a> {
+            #[serde(flatten)]
+            prescribed: Option<Prescribed>,
+            #[serde(flatten)]
+            sweep: BTreeMap<&'a str, Vec<f64>>,
+            boundary: Boundary,
+            #[serde(skip_serializing_if = "is_as_prepared")]
+            grid: GridMatch,
+            method: Method,
+            tolerance: f64,
+        }
+        let Self { prescribed, ref sweep, boundary, grid, method, tolerance } = *self;
+        let values = || sweep.iter().map(|point| point.value()).collect();
+        let sweep: BTreeMap<_, _> =
+            sweep.first().map(|point| (point.key_of_list(), values())).into_iter().collect();
+        let prescribed = sweep.is_empty().then_some(prescribed);
+        Keys { prescribed, sweep, boundary, grid, method, tolerance }.serialize(serializer)
+    }
+}
+
+/// A motion without its load, which is in [`Contact`]; see [`Case::motion`].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct MotionSpec {
+    /// Overlap or circular shift.
+    #[serde(flatten, serialize_with = "with_speeds")]
+    pub strategy: Strategy,
+    /// Number of passes, ≥ 1.
+    pub passes: usize,
+    /// Cells per step, ≥ 1.
+    pub stride: usize,
+    /// Where [`Contact::prescribed`] holds: as the mean over a pass, or at each position.
+    pub control: ControlKind,
+    /// When plastic deformation is applied.
+    pub plastic_update: PlasticUpdate,
+    /// Relative tolerance on the pass-mean load, 0 < tolerance < 1.
+    pub load_tolerance: f64,
+    /// Speed of the upper body over the lower one in an overlap, if given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed: Option<f64>,
+    /// Forward stroke alone, or forward and return stroke.
+    #[serde(skip_serializing_if = "is_one_way")]
+    pub path: MotionPath,
+    /// Offset of the passes along y.
+    #[serde(flatten, serialize_with = "with_seed")]
+    pub offset_y: OffsetY,
+    /// The upper body in the passes after the first.
+    #[serde(skip_serializing_if = "is_same")]
+    pub counter: CounterBody,
+}
+
+/// The upper body in the passes after the first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CounterBody {
+    /// The same as in the first pass.
+    Same,
+    /// A new one for each pass, from the same generator with another seed.
+    Fresh,
+}
+
+choice!(CounterBody: "same" => Same, "fresh" => Fresh);
+
+impl MotionSpec {
+    /// Whether all passes have the same bodies at the same positions.
+    pub fn repeats(&self) -> bool {
+        self.counter == CounterBody::Same && self.under(Control::Approach(0.0)).repeats()
+    }
+
+    /// Returns the motion under a control.
+    fn under(&self, control: Control) -> Motion {
+        Motion {
+            strategy: self.strategy,
+            passes: self.passes,
+            stride: self.stride,
+            control,
+            load_control: self.control.load_control(),
+            plastic_update: self.plastic_update,
+            load_tolerance: self.load_tolerance,
+            friction: None,
+            speed: self.speed,
+            bulk: None,
+            path: self.path,
+            offset_y: self.offset_y,
+            adhesion_history: AdhesionHistory::None,
+        }
+    }
+}
+
+/// The control of a motion without its value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ControlKind {
+    /// The mean load of a pass.
+    PassLoad,
+    /// The load at every position.
+    StepLoad,
+    /// The approach.
+    Approach,
+}
+
+impl ControlKind {
+    /// Where a load holds; irrelevant for an approach.
+    fn load_control(self) -> LoadControl {
+        match self {
+            Self::StepLoad => LoadControl::Step,
+            Self::PassLoad | Self::Approach => LoadControl::Pass,
+        }
+    }
+}
+
+choice!(ControlKind: "pass-load" => PassLoad, "step-load" => StepLoad, "approach" => Approach);
+
+/// A [`Strategy`] without its speeds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StrategyKind {
+    /// Only the overlap is solved.
+    Overlap,
+    /// The surfaces are shifted circularly.
+    Shift,
+}
+
+choice!(StrategyKind: "overlap" => Overlap, "shift" => Shift);
+
+impl From<&Strategy> for StrategyKind {
+    fn from(strategy: &Strategy) -> Self {
+        match strategy {
+            Strategy::Overlap => Self::Overlap,
+            Strategy::Shift { .. } => Self::Shift,
+        }
+    }
+}
+
+/// Output options.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Output {
+    /// Interval of the positions whose pressure fields are kept; 0 for none.
+    pub pressure_every: usize,
+    /// Fraction of the body length at its free ends that is excluded from its interior, 0 ≤ rim < ½.
+    pub rim: f64,
+    /// Whether all fields are also written for ParaView.
+    pub paraview: bool,
+}
+
+/// Largest accepted case file.
+pub(crate) const MAX_CASE_BYTES: u64 = 4 << 20;
+
+impl Case {
+    /// Whether a body is coated.
+    pub fn is_coated(&self) -> bool {
+        [&self.lower, &self.upper].into_iter().any(|body| body.material.coating.is_some())
+    }
+
+    /// Reads a case file. Paths of files are relative to its folder.
+    ///
+    /// # Errors
+    /// [`Error::File`] if it cannot be read, [`Error::Case`] if it has a mistake.
+    pub fn load(path: &Path) -> Result<Self> {
+        let failed = |source| Error::File { path: path.to_owned(), source };
+        let text = regular::read(path, "a case file", MAX_CASE_BYTES).map_err(failed)?;
+        let text = String::from_utf8(text).map_err(|_| {
+            failed(io::Error::new(io::ErrorKind::InvalidData, "stream did not contain valid UTF-8"))
+        })?;
+        Self::parse(&text, path, path.parent().unwrap_or(Path::new("")))
+    }
+
+    /// Reads a case from its text. `file` is its name in errors; paths of files are relative to `folder`.
+    ///
+    /// # Errors
+    /// [`Error::Case`] if it has a mistake.
+    pub fn parse(text: &str, file: &Path, folder: &Path) -> Result<Self> {
+        parse::case(text, file, folder)
+    }
+
+    /// Creates an error that appears only when the case is used, at the place of a dotted `key` (`upper.topography.file`),
+    /// or of the table that would contain it.
+    pub fn error_at(&self, key: &str, message: impl Into<String>, hint: Option<String>) -> Error {
+        self.document.error_at(key, message, hint)
+    }
+
+    /// Text of the case, with its places.
+    pub(crate) fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// Returns the text of the file at a dotted `key`.
+    pub(crate) fn written(&self, key: &str) -> String {
+        self.document.written(self.document.place(key))
+    }
+
+    /// Returns the motion with its load. A mean pressure acts on `apparent_area`, the area of all cells at full overlap.
+    pub fn motion(&self, apparent_area: SquareMetre) -> Option<Motion> {
+        Some(Motion {
+            friction: self.friction.as_ref().map(|friction| friction.law),
+            bulk: self.temperature.map(|temperature| temperature.bulk),
+            adhesion_history: self.adhesion.map(|adhesion| adhesion.history).unwrap_or_default(),
+            ..self.motion?.under(self.contact.prescribed.control(apparent_area))
+        })
+    }
+
+    /// Iterates over the files named in the case.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        [&self.lower, &self.upper].into_iter().flat_map(|body| {
+            let surface = match &body.topography.source {
+                Source::File { path, .. } => Some(path),
+                _ => None,
+            };
+            let map = match &body.hardness {
+                Hardness::Map(map) => Some(&map.path),
+                Hardness::Uniform(_) | Hardness::Given(_) => None,
+            };
+            surface.into_iter().chain(map)
+        })
+    }
+}
+
+/// Reads the topography of a separate table `[topography]`; also returns its document.
+pub(crate) fn topography_alone(text: &str, folder: &Path) -> Result<(TopographySpec, Document)> {
+    parse::topography_alone(text, folder)
+}
+
+/// A number of the case in its output: JSON has no infinities, so they are written as `inf`, as in the case file.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Number {
+    Finite(f64),
+    Infinite(&'static str),
+}
+
+impl From<f64> for Number {
+    fn from(value: f64) -> Self {
+        if value.is_finite() { Self::Finite(value) } else { Self::Infinite("inf") }
+    }
+}
+
+fn with_infinity<S: Serializer>(value: &Option<f64>, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    value.map(Number::from).serialize(serializer)
+}
+
+fn with_infinities<S: Serializer>(
+    material: &Material,
+    serializer: S,
+) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Keys {
+        young: Number,
+        poisson: f64,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        coating: Option<Coating>,
+    }
+    let Material { young, poisson, coating, .. } = *material;
+    Keys { young: young.into(), poisson, coating }.serialize(serializer)
+}
+
+fn with_jumps<S: Serializer>(
+    acceleration: &Option<Acceleration>,
+    serializer: S,
+) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Keys {
+        tolerance: f64,
+        max_jump: usize,
+        max_wear: f64,
+    }
+    let keys = acceleration.map(|Acceleration { tolerance, max_jump, max_wear, .. }| Keys {
+        tolerance,
+        max_jump,
+        max_wear,
+    });
+    keys.serialize(serializer)
+}
+
+fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Keys<'a> {
+        #[serde(flatten)]
+        body: &'a Body,
+        mount: Option<Mount>,
+    }
+    Keys { body: upper, mount: upper.mount }.serialize(serializer)
+}
+
+// Default values are omitted, so that cases from before these keys keep their digests.
+
+fn is_as_prepared(grid: &GridMatch) -> bool {
+    *grid == GridMatch::AsPrepared
+}
+
+fn is_one_way(path: &MotionPath) -> bool {
+    *path == MotionPath::OneWay
+}
+
+fn is_same(counter: &CounterBody) -> bool {
+    *counter == CounterBody::Same
+}
+
+fn with_seed<S: Serializer>(offset: &OffsetY, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    #[serde(untagged)]
+    enum Keys {
+        None {},
+        Cells { offset_y: usize },
+        Random { offset_y: &'static str, seed: u64 },
+    }
+    let keys = match *offset {
+        OffsetY::NONE => Keys::None {},
+        OffsetY::Cells(offset_y) => Keys::Cells { offset_y },
+        OffsetY::Random { seed } => Keys::Random { offset_y: RANDOM, seed },
+    };
+    keys.serialize(serializer)
+}
+
+/// The word for passes at random offsets along y.
+const RANDOM: &str = "random";
+
+fn with_speeds<S: Serializer>(strategy: &Strategy, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Keys {
+        strategy: StrategyKind,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        speed_lower: Option<f64>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        speed_upper: Option<f64>,
+    }
+    let [speed_lower, speed_upper] = match *strategy {
+        Strategy::Overlap => [None; 2],
+        Strategy::Shift { speed_lower, speed_upper } => [Some(speed_lower), Some(speed_upper)],
+    };
+    Keys { strategy: strategy.into(), speed_lower, speed_upper }.serialize(serializer)
+}

@@ -1,0 +1,97 @@
+//! From text to [`Case`]: each table is read by its own function, then combinations are checked.
+
+use std::path::{Path, PathBuf};
+
+use super::adhesion::adhesion;
+use super::body::body;
+use super::conductance::conductance;
+use super::contact::contact;
+use super::cursor::Table;
+use super::document::Document;
+use super::friction::{friction, stages};
+use super::gap_flow::flow;
+use super::motion::motion;
+use super::output::output;
+use super::plasticity::plasticity;
+use super::rules;
+use super::running::{acceleration, temperature};
+use super::schema::root as keys;
+use super::schema::tables::{belongs, known_in};
+use super::sliding::sliding;
+use super::subsurface::subsurface;
+use super::topography::{one_tells_the_other, topography};
+use super::{Case, TopographySpec};
+use asperity_base::error::Result;
+
+/// Reads a topography in a separate table `[topography]`; also returns its document.
+pub(super) fn topography_alone(text: &str, folder: &Path) -> Result<(TopographySpec, Document)> {
+    let mut document = Document::new(PathBuf::new(), text);
+    let entries = document.parse(text)?;
+    let root = Table::root(&document, entries.get_ref());
+    root.known(&["topography"], |key| belongs(key, ""))?;
+    let spec = topography(&root.required_table("topography")?, folder)?;
+    Ok((spec, document))
+}
+
+pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
+    let mut document = Document::new(file.to_owned(), text);
+    let entries = document.parse(text)?;
+    let root = Table::root(&document, entries.get_ref());
+    let case = read(&root, file, folder)?;
+    rules::check(&root, &case)?;
+    Ok(Case { document, ..case })
+}
+
+/// Reads all tables of a case, still without its document.
+fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
+    known_in(root)?;
+    let stem = || file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let title = keys::TITLE.of(root)?.unwrap_or_else(stem);
+    let has_conductance = keys::CONDUCTANCE.entry(root).is_some();
+    let lower = body(&keys::LOWER.demand(root)?, folder, has_conductance)?;
+    let upper_table = keys::UPPER.demand(root)?;
+    let upper = body(&upper_table, folder, has_conductance)?;
+    one_tells_the_other(&lower.topography, &upper.topography, &upper_table)?;
+    let contact = contact(&keys::CONTACT.demand(root)?)?;
+    let adhesion = keys::ADHESION.of(root)?.map(|table| adhesion(&table)).transpose()?;
+    let mut motion = keys::MOTION.of(root)?.map(|table| motion(&table, contact.prescribed)).transpose()?;
+    let sliding = keys::SLIDING.of(root)?.map(|table| sliding(&table)).transpose()?;
+    let mut friction = keys::FRICTION.of(root)?.map(|table| friction(&table)).transpose()?;
+    let plasticity = keys::PLASTICITY
+        .of(root)?
+        .map(|table| plasticity(&table, root, &mut motion, &mut friction))
+        .transpose()?;
+    // Later stages of elasto-plastic bodies have as many steps as the first one.
+    let steps = match (&plasticity, &friction) {
+        (None, _) => 1,
+        (Some(_), Some(friction)) => friction.increments,
+        (Some(plasticity), None) => plasticity.increments.unwrap_or(1),
+    };
+    let history =
+        keys::HISTORY.entry(root).map(|entry| stages(&entry, friction.as_ref(), steps)).transpose()?;
+    let acceleration = keys::ACCELERATION.of(root)?.map(|table| acceleration(&table)).transpose()?;
+    let heated = lower.thermal.is_some();
+    let temperature = keys::TEMPERATURE.of(root)?.map(|table| temperature(&table, heated)).transpose()?;
+    let subsurface = keys::SUBSURFACE.of(root)?.map(|table| subsurface(&table)).transpose()?;
+    let conductance = keys::CONDUCTANCE.of(root)?.map(|table| conductance(&table)).transpose()?;
+    let flow = keys::FLOW.of(root)?.map(|table| flow(&table)).transpose()?;
+    Ok(Case {
+        title,
+        lower,
+        upper,
+        contact,
+        adhesion,
+        friction,
+        history: history.unwrap_or_default(),
+        motion,
+        sliding,
+        acceleration,
+        temperature,
+        plasticity,
+        subsurface,
+        conductance,
+        flow,
+        output: output(root)?,
+        document: Document::default(),
+    })
+}

@@ -1,0 +1,192 @@
+//! Excluded combinations of a case file, in one table.
+//!
+//! Each row has a message, a hint and the key that the error points to. A case is checked against the rows once all of its
+//! tables are read. `docs/input/combinations.md` lists them, and a test runs their examples.
+
+mod adhesion;
+mod bodies;
+mod examples;
+mod loading;
+mod motion;
+mod output;
+mod passage;
+mod plasticity;
+mod running;
+mod temperature;
+
+use super::cursor::{Entry, Table};
+use super::{Body, Case, FrictionSpec, MotionSpec};
+use asperity_base::error::{Error, Result};
+use asperity_contact::motion::Strategy;
+
+/// A rule: two entries of a case file exclude each other, or one requires the other.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub struct Rule {
+    /// The excluded entry, in Markdown.
+    pub this: &'static str,
+    /// The entry that excludes it, in Markdown.
+    pub with: &'static str,
+    /// The message of the error. `{key}` stands for the key that it points to, `{path}` for its dotted name, `{value}` for its
+    /// value.
+    pub message: &'static str,
+    /// The hint; empty if the message is enough.
+    pub hint: &'static str,
+    /// The dotted key that the error of the example points to.
+    pub at: &'static str,
+    /// Keys that break the rule, as written above the tables of a case file.
+    pub example: &'static [&'static str],
+    /// Returns the entry of the case file that breaks the rule.
+    broken: for<'a> fn(&Tables<'a>) -> Option<Entry<'a>>,
+}
+
+/// The case, with its tables.
+struct Tables<'a> {
+    root: &'a Table<'a>,
+    case: &'a Case,
+}
+
+/// Returns an error if the case breaks a rule.
+pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
+    let tables = Tables { root, case };
+    match rules().find_map(|rule| Some(rule.error(&(rule.broken)(&tables)?))) {
+        Some(error) => Err(error),
+        None => Ok(()),
+    }
+}
+
+/// Returns the rules of a case file, in the order in which a case is checked.
+pub fn rules() -> impl Iterator<Item = &'static Rule> {
+    let tables: [&[Rule]; 9] = [
+        bodies::RULES,
+        motion::RULES,
+        loading::RULES,
+        plasticity::RULES,
+        running::RULES,
+        temperature::RULES,
+        output::RULES,
+        passage::RULES,
+        adhesion::RULES,
+    ];
+    tables.into_iter().flatten()
+}
+
+impl Rule {
+    fn error(&self, entry: &Entry<'_>) -> Error {
+        let message = self.message.replace("{key}", entry.key()).replace("{path}", entry.path());
+        let message = message.replace("{value}", &entry.written());
+        entry.error(message, Some(self.hint.to_owned()).filter(|hint| !hint.is_empty()))
+    }
+}
+
+impl<'a> Tables<'a> {
+    /// Returns the entry of a dotted key, if it is given.
+    fn at(&self, key: &str) -> Option<Entry<'a>> {
+        fn find<'a>(table: &Table<'a>, key: &str) -> Option<Entry<'a>> {
+            match key.split_once('.') {
+                None => table.get(key),
+                Some((first, rest)) => find(&table.table(first).ok()??, rest),
+            }
+        }
+        find(self.root, key)
+    }
+
+    /// Returns the first given key of these keys of a table.
+    fn first(&self, table: &str, keys: &[&str]) -> Option<Entry<'a>> {
+        keys.iter().find_map(|key| self.at(&format!("{table}.{key}")))
+    }
+
+    /// Returns the entry of a key in the first body of this kind that has it.
+    fn of_body(&self, key: &str, is: impl Fn(&Body) -> bool) -> Option<Entry<'a>> {
+        let bodies = [("lower", &self.case.lower), ("upper", &self.case.upper)];
+        bodies
+            .into_iter()
+            .filter(|(_, body)| is(body))
+            .find_map(|(name, _)| self.at(&format!("{name}.{key}")))
+    }
+
+    /// Returns a film that changes with time.
+    fn film_that_grows(&self) -> Option<Entry<'a>> {
+        self.of_body("film", |body| body.film.is_some_and(|film| film.law.takes_time()))
+    }
+
+    /// Returns the key of a sweep in [contact].
+    fn sweep(&self) -> Option<Entry<'a>> {
+        self.first("contact", &super::prescribed::LISTS)
+    }
+
+    /// Returns the stages of the history, or the history if it has none.
+    fn stages(&self) -> Vec<Entry<'a>> {
+        let Some(history) = self.at("history") else { return Vec::new() };
+        match history.items("") {
+            Ok(stages) if !stages.is_empty() => stages,
+            _ => vec![history],
+        }
+    }
+
+    /// Returns the first given key of these keys in a stage of the history.
+    fn of_stage(&self, keys: &[&str]) -> Option<Entry<'a>> {
+        let stages = self.stages().into_iter().filter_map(|stage| stage.table().ok());
+        let mut given = stages.filter_map(|stage| keys.iter().find_map(|key| stage.get(key)));
+        given.next()
+    }
+
+    /// Returns the boundary, if it is periodic along one axis only.
+    fn line(&self) -> Option<Entry<'a>> {
+        let boundary = self.case.contact.boundary;
+        self.at("contact.boundary").filter(|_| boundary.repeats(0) != boundary.repeats(1))
+    }
+
+    fn motion(&self) -> Option<&'a MotionSpec> {
+        self.case.motion.as_ref()
+    }
+
+    fn friction(&self) -> Option<&'a FrictionSpec> {
+        self.case.friction.as_ref()
+    }
+
+    /// Returns the motion of an overlap.
+    fn overlap(&self) -> Option<&'a MotionSpec> {
+        self.motion().filter(|motion| motion.strategy == Strategy::Overlap)
+    }
+
+    /// Returns the motion of a shift.
+    fn shift(&self) -> Option<&'a MotionSpec> {
+        self.motion().filter(|motion| motion.strategy != Strategy::Overlap)
+    }
+
+    /// Whether the bodies slide over each other.
+    fn slides(&self) -> bool {
+        self.case.motion.is_some() || self.case.sliding.is_some()
+    }
+
+    fn rolls(&self) -> bool {
+        self.friction().is_some_and(FrictionSpec::rolls)
+    }
+
+    /// Whether a body deforms plastically below its surface.
+    fn flows(&self) -> bool {
+        [&self.case.lower, &self.case.upper].iter().any(|body| body.plasticity.is_some())
+    }
+
+    fn yields(&self) -> bool {
+        [&self.case.lower, &self.case.upper].iter().any(|body| body.hardness.yields())
+    }
+
+    /// Whether passes are extrapolated.
+    fn jumps(&self) -> bool {
+        self.case.acceleration.is_some_and(|acceleration| acceleration.max_jump > 1)
+    }
+
+    /// Returns the entry that requests a flash temperature.
+    fn flash(&self) -> Option<Entry<'a>> {
+        let wanted = self.case.temperature.is_some_and(|temperature| temperature.every > 0);
+        self.at("temperature.every").or(self.at("temperature")).filter(|_| wanted)
+    }
+
+    /// Returns the key `every` if other passes use the flash temperature of a computed pass.
+    fn seldom(&self) -> Option<Entry<'a>> {
+        let every = self.case.temperature.map_or(0, |temperature| temperature.every);
+        self.at("temperature.every").filter(|_| every > 1)
+    }
+}

@@ -1,0 +1,123 @@
+//! The keys of a body.
+
+use super::Bounds::{AboveZero, AboveZeroOrInfinite, Between};
+use super::Fallback::{Absent, Required};
+use super::exists;
+use super::typed::{
+    LENGTH, Nested, Optional, PRESSURE, Typed, Value, choice, number, optional, other, quantity, required,
+    section, table,
+};
+use asperity_base::units::Dimension;
+
+/// Poisson's ratio.
+const RATIO: Value<f64> = number(Between { least: 0.0, most: 0.5, open: [false, false] });
+
+/// An electrical resistivity.
+const RESISTANCE: Value<f64> = quantity(Dimension::Resistivity, AboveZero).exists(exists::RESISTIVITY);
+
+/// `[lower]` and `[upper]`.
+pub(crate) mod both {
+    use super::*;
+    use crate::case::Hardness;
+    use crate::case::schema::values::hardness as read;
+
+    section! { &["lower", "upper"], "";
+        YOUNG: Typed<f64> = required(
+            "young",
+            quantity(Dimension::Pressure, AboveZeroOrInfinite("a rigid body")).exists(exists::YOUNG),
+            "\"210 GPa\"",
+            "Young's modulus; for a coated body, the modulus below the coating; at most one uncoated body may be rigid",
+        );
+        POISSON: Typed<f64> =
+            required("poisson", RATIO, "0.3", "Poisson's ratio; for a coated body, the ratio below the coating");
+        HARDNESS: Typed<Hardness> = super::super::typed::defaulted(
+            "hardness",
+            other(
+                Some(Dimension::Pressure),
+                "pressure > 0, or `inf`: an elastic body, or a table: a [map](#a-map-of-the-hardness)",
+                |_, entry| read::hardness(entry),
+            )
+            .exists(exists::HARDNESS),
+            "inf",
+            "\"4 GPa\"",
+            "largest pressure of the body, or a map of it",
+        );
+        COATING: Nested =
+            table("coating", Absent("none"), "elastic surface layer, see [below](#lowercoating-and-uppercoating)");
+        TOPOGRAPHY: Nested = table("topography", Required, "its surface");
+        WEAR: Nested = table("wear", Absent("none"), "wear law, see [below](#running-in)");
+        FILM: Nested = table("film", Absent("none"), "growing tribofilm, see [below](#running-in)");
+        PLASTICITY: Nested =
+            table("plasticity", Absent("elastic"), "plastic deformation below the surface, see [below](#plasticity)");
+        CONDUCTIVITY: Optional<f64> = optional(
+            "conductivity",
+            quantity(Dimension::Conductivity, AboveZeroOrInfinite("no resistance, only for [conductance]"))
+                .exists(exists::CONDUCTIVITY),
+            "unknown",
+            "\"46 W/(m K)\"",
+            "thermal conductivity, for the flash temperature and for [conductance]; give it for both bodies",
+        );
+        RESISTIVITY: Optional<f64> = optional(
+            "resistivity",
+            RESISTANCE,
+            "unknown",
+            "\"1.7e-8 ohm m\"",
+            "electrical resistivity, for [conductance] with `kind = \"electrical\"`; give it for both bodies",
+        );
+        HEAT_CAPACITY: Optional<f64> = optional(
+            "heat_capacity",
+            quantity(Dimension::HeatCapacity, AboveZero).exists(exists::HEAT_CAPACITY),
+            "unknown",
+            "\"460 J/(kg K)\"",
+            "heat capacity; required with `conductivity`",
+        );
+        DENSITY: Optional<f64> = optional(
+            "density",
+            quantity(Dimension::Density, AboveZero).exists(exists::DENSITY),
+            "unknown",
+            "\"7850 kg/m3\"",
+            "density; required with `conductivity`",
+        );
+    }
+}
+
+/// `[upper]` alone.
+pub(crate) mod upper {
+    use super::*;
+    use crate::case::Mount;
+
+    section! { &["upper"], "";
+        MOUNT: Optional<Mount> = optional(
+            "mount",
+            choice::<Mount>(),
+            "`\"turned-over\"`; `\"as-is\"` for an underside",
+            "\"as-is\"",
+            "`[upper]` only: orientation of its heights",
+        );
+    }
+}
+
+/// `[lower.coating]` and `[upper.coating]`.
+pub(crate) mod coating {
+    use super::*;
+
+    section! { &["lower.coating", "upper.coating"], "";
+        THICKNESS: Typed<f64> = required("thickness", LENGTH.exists(exists::LAYER), "\"2 um\"", "thickness of the layer");
+        YOUNG: Typed<f64> = required("young", PRESSURE.exists(exists::YOUNG), "\"300 GPa\"", "its Young's modulus");
+        POISSON: Typed<f64> = required("poisson", RATIO, "0.3", "its Poisson's ratio");
+        CONDUCTIVITY: Optional<f64> = optional(
+            "conductivity",
+            quantity(Dimension::Conductivity, AboveZero).exists(exists::CONDUCTIVITY),
+            "unknown",
+            "\"20 W/(m K)\"",
+            "its thermal conductivity, for [conductance]",
+        );
+        RESISTIVITY: Optional<f64> = optional(
+            "resistivity",
+            RESISTANCE,
+            "unknown",
+            "\"1e-6 ohm m\"",
+            "its electrical resistivity, for [conductance]",
+        );
+    }
+}

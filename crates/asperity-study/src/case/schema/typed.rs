@@ -1,0 +1,423 @@
+//! Keys with the types of their values.
+
+use std::ops::Deref;
+
+use super::super::cursor::{Entry, Table};
+use super::super::document::Document;
+use super::exists::{self, Exists};
+use super::{Bounds, Fallback, Key, Kind};
+use asperity_base::choice::Choice;
+use asperity_base::error::Result;
+use asperity_base::units::Dimension;
+use asperity_surface::Axis;
+
+/// A kind of values, with its reader.
+#[derive(Clone, Copy)]
+pub(in crate::case) struct Value<T> {
+    kind: Kind,
+    read: fn(&Key, &Entry<'_>) -> Result<T>,
+    exists: Exists,
+}
+
+impl<T> Value<T> {
+    /// Declares what exists of the quantity.
+    pub(super) const fn exists(self, exists: Exists) -> Self {
+        Self { kind: self.kind, read: self.read, exists }
+    }
+}
+
+/// A key that has a value in every table, if only the default.
+pub(in crate::case) struct Typed<T> {
+    pub(super) key: Key,
+    read: fn(&Key, &Entry<'_>) -> Result<T>,
+}
+
+/// A key that may be missing.
+pub(in crate::case) struct Optional<T> {
+    pub(super) key: Key,
+    read: fn(&Key, &Entry<'_>) -> Result<T>,
+}
+
+/// A key whose value is a table or an array of tables.
+pub(in crate::case) struct Nested {
+    pub(super) key: Key,
+}
+
+/// A required key.
+pub(super) const fn required<T>(
+    name: &'static str,
+    value: Value<T>,
+    example: &'static str,
+    text: &'static str,
+) -> Typed<T> {
+    Typed {
+        key: Key { name, kind: value.kind, default: Fallback::Required, example, text, exists: value.exists },
+        read: value.read,
+    }
+}
+
+/// A key with a default value.
+pub(super) const fn defaulted<T>(
+    name: &'static str,
+    value: Value<T>,
+    default: &'static str,
+    example: &'static str,
+    text: &'static str,
+) -> Typed<T> {
+    let default = Fallback::Value(default);
+    Typed {
+        key: Key { name, kind: value.kind, default, example, text, exists: value.exists },
+        read: value.read,
+    }
+}
+
+/// An optional key; `absent` describes the behaviour without it.
+pub(super) const fn optional<T>(
+    name: &'static str,
+    value: Value<T>,
+    absent: &'static str,
+    example: &'static str,
+    text: &'static str,
+) -> Optional<T> {
+    let default = Fallback::Absent(absent);
+    Optional {
+        key: Key { name, kind: value.kind, default, example, text, exists: value.exists },
+        read: value.read,
+    }
+}
+
+/// A table within the table.
+pub(super) const fn table(name: &'static str, default: Fallback, text: &'static str) -> Nested {
+    Nested { key: Key { name, kind: Kind::Table, default, example: "", text, exists: Exists::Undeclared } }
+}
+
+/// An array of tables within the table.
+pub(super) const fn tables(name: &'static str, default: Fallback, text: &'static str) -> Nested {
+    Nested { key: Key { name, kind: Kind::Tables, default, example: "", text, exists: Exists::Undeclared } }
+}
+
+/// Declares the keys of a section as constants, and the section that holds them all.
+macro_rules! section {
+    ($tables:expr, $kind:literal; $($name:ident: $type:ty = $declaration:expr;)+) => {
+        $(pub(in crate::case) const $name: $type = $declaration;)+
+
+        pub(in crate::case) const SECTION: $crate::case::schema::Section =
+            $crate::case::schema::Section {
+                tables: $tables,
+                kind: $kind,
+                keys: &[$($name.key),+],
+            };
+
+        #[cfg(test)]
+        #[test]
+        fn every_key_reads_its_own_example_and_default() {
+            $($name.check();)+
+        }
+    };
+}
+
+pub(super) use section;
+
+// How keys are read.
+
+impl Key {
+    /// Returns the entry of the key, if it is given.
+    pub(in crate::case) fn entry<'a>(&self, table: &Table<'a>) -> Option<Entry<'a>> {
+        table.get(self.name)
+    }
+
+    /// Returns the entry of a required key.
+    pub(in crate::case) fn demand<'a>(&self, table: &Table<'a>) -> Result<Entry<'a>> {
+        self.entry(table).ok_or_else(|| missing(self, table))
+    }
+}
+
+macro_rules! is_a_key {
+    ($($name:ident$(<$type:ident>)?),+) => {$(
+        impl$(<$type>)? Deref for $name$(<$type>)? {
+            type Target = Key;
+
+            fn deref(&self) -> &Key {
+                &self.key
+            }
+        }
+    )+};
+}
+
+is_a_key!(Typed<T>, Optional<T>, Nested);
+
+impl<T> Typed<T> {
+    /// Returns the value in `table`, or the default.
+    pub(in crate::case) fn of(&self, table: &Table<'_>) -> Result<T> {
+        match (table.get(self.key.name), self.key.default) {
+            (Some(entry), _) => (self.read)(&self.key, &entry),
+            (None, Fallback::Value(default)) => Ok(self.value_of(default)),
+            (None, _) => Err(missing(&self.key, table)),
+        }
+    }
+
+    /// Returns the default.
+    ///
+    /// # Panics
+    /// If the key has none.
+    pub(in crate::case) fn default(&self) -> T {
+        let Fallback::Value(default) = self.key.default else { panic!("'{}' has no default", self.key.name) };
+        self.value_of(default)
+    }
+
+    /// Returns the value of a `text` in a declaration.
+    fn value_of(&self, text: &str) -> T {
+        read_text(&self.key, self.read, text).expect("a value in a declaration is one of the key")
+    }
+}
+
+impl<T> Optional<T> {
+    /// Declares the key for another table, with another default.
+    pub(super) const fn elsewhere(&self, absent: &'static str, text: &'static str) -> Self {
+        let key = Key { default: Fallback::Absent(absent), text, ..self.key };
+        Self { key, read: self.read }
+    }
+
+    /// Returns the value in `table`, if it is given.
+    pub(in crate::case) fn of(&self, table: &Table<'_>) -> Result<Option<T>> {
+        table.get(self.key.name).map(|entry| (self.read)(&self.key, &entry)).transpose()
+    }
+
+    /// Returns the value of a required key in `table`.
+    pub(in crate::case) fn required(&self, table: &Table<'_>) -> Result<T> {
+        (self.read)(&self.key, &self.demand(table)?)
+    }
+}
+
+impl Nested {
+    /// Returns the table, if it is given.
+    pub(in crate::case) fn of<'a>(&self, table: &Table<'a>) -> Result<Option<Table<'a>>> {
+        table.table(self.key.name)
+    }
+
+    /// Returns a required table.
+    pub(in crate::case) fn demand<'a>(&self, table: &Table<'a>) -> Result<Table<'a>> {
+        table.required_table(self.key.name)
+    }
+}
+
+#[cfg(test)]
+impl<T> Typed<T> {
+    pub(super) fn check(&self) {
+        self.value_of(self.key.example);
+        if let Fallback::Value(default) = self.key.default {
+            self.value_of(default);
+        }
+    }
+}
+
+#[cfg(test)]
+impl<T> Optional<T> {
+    pub(super) fn check(&self) {
+        let example = read_text(&self.key, self.read, self.key.example);
+        example.unwrap_or_else(|error| panic!("{}: {error}", self.key.name));
+    }
+}
+
+#[cfg(test)]
+impl Nested {
+    pub(super) fn check(&self) {
+        assert!(self.key.example.is_empty(), "{} is a table, which has no value", self.key.name);
+    }
+}
+
+fn missing(key: &Key, table: &Table<'_>) -> asperity_base::error::Error {
+    let hint = format!("for example `{} = {}`", key.name, key.example);
+    table.error(format!("missing key '{}' in {}", key.name, table.name()), Some(hint))
+}
+
+/// Reads a value of the key from text, as in a case file.
+fn read_text<T>(key: &Key, read: fn(&Key, &Entry<'_>) -> Result<T>, text: &str) -> Result<T> {
+    let text = format!("{} = {text}", key.name);
+    let mut document = Document::default();
+    let entries = document.parse(&text)?;
+    let table = Table::root(&document, entries.get_ref());
+    read(key, &table.get(key.name).expect("it has just been written"))
+}
+
+// The kinds of values.
+
+/// A quantity.
+pub(super) const fn quantity(dimension: Dimension, bounds: Bounds) -> Value<f64> {
+    Value {
+        kind: Kind::Quantity(dimension, bounds),
+        read: |key, entry| real(&key.kind, key, entry),
+        exists: Exists::Undeclared,
+    }
+}
+
+/// A number without a unit.
+pub(super) const fn number(bounds: Bounds) -> Value<f64> {
+    number_named("a number", bounds)
+}
+
+/// A number without a unit, with its own name in messages.
+pub(super) const fn number_named(noun: &'static str, bounds: Bounds) -> Value<f64> {
+    Value {
+        kind: Kind::Number(noun, bounds),
+        read: |key, entry| real(&key.kind, key, entry),
+        exists: Exists::Undeclared,
+    }
+}
+
+/// A count.
+pub(super) const fn count(least: u64) -> Value<usize> {
+    count_to(least, u64::MAX)
+}
+
+/// A count with limits.
+pub(super) const fn count_to(least: u64, most: u64) -> Value<usize> {
+    let read = |key: &Key, entry: &Entry<'_>| {
+        let Kind::Count { least, most } = key.kind else { unreachable!("a count is declared as one") };
+        let count = entry.count(least as usize)?;
+        match count as u64 <= most {
+            true => Ok(count),
+            false => Err(entry.unexpected(&format!("a whole number from {least} to {most}"), None)),
+        }
+    };
+    Value { kind: Kind::Count { least, most }, read, exists: Exists::Undeclared }
+}
+
+/// The seed of random numbers.
+pub(super) const SEED: Value<u64> = Value {
+    kind: Kind::Count { least: 0, most: u64::MAX },
+    read: |_, entry| entry.whole(0),
+    exists: Exists::Undeclared,
+};
+
+/// One of the words of an option.
+pub(super) const fn choice<T: Choice>() -> Value<T> {
+    Value { kind: Kind::Choice(T::NAMES), read: |_, entry| entry.choice(), exists: Exists::Undeclared }
+}
+
+/// True or false.
+pub(super) const FLAG: Value<bool> =
+    Value { kind: Kind::Flag, read: |_, entry| entry.flag(), exists: Exists::Undeclared };
+
+/// A text.
+pub(super) const TEXT: Value<String> =
+    Value { kind: Kind::Text, read: |_, entry| entry.text().map(str::to_owned), exists: Exists::Undeclared };
+
+/// One quantity or number for both axes, or two.
+pub(super) const fn pair(item: &'static Value<f64>) -> Value<[f64; 2]> {
+    let read = |key: &Key, entry: &Entry<'_>| {
+        let Kind::Pair(item) = key.kind else { unreachable!("a pair is declared as one") };
+        entry.pair(&format!("{}, or two", expected(item, key)), |part| real(item, key, part))
+    };
+    Value { kind: Kind::Pair(&item.kind), read, exists: item.exists }
+}
+
+/// A component along x, or two along x and y.
+pub(super) const fn vector(item: &'static Value<f64>) -> Value<[f64; 2]> {
+    let read = |key: &Key, entry: &Entry<'_>| {
+        let Kind::Vector(item) = key.kind else { unreachable!("a vector is declared as one") };
+        let noun = item.dimension().map_or("a number", Dimension::noun);
+        entry.vector(&format!("{noun} along x, or two along x and y"), |part| real(item, key, part))
+    };
+    Value { kind: Kind::Vector(&item.kind), read, exists: item.exists }
+}
+
+/// Values of a special form, which the documentation describes as `value`.
+pub(super) const fn other<T>(
+    dimension: Option<Dimension>,
+    value: &'static str,
+    read: fn(&Key, &Entry<'_>) -> Result<T>,
+) -> Value<T> {
+    Value { kind: Kind::Other { dimension, value }, read, exists: Exists::Undeclared }
+}
+
+/// Reads a quantity or a number of a `kind`.
+pub(in crate::case) fn real(kind: &Kind, key: &Key, entry: &Entry<'_>) -> Result<f64> {
+    match *kind {
+        Kind::Quantity(dimension, bounds) => match bounds {
+            Bounds::AboveZero => entry.positive(dimension),
+            Bounds::AboveZeroOrInfinite(meaning) => entry.positive_or_infinite(dimension, meaning),
+            Bounds::Within(range, zero) => entry.within(dimension, range, zero, key.example),
+            bounds => {
+                let value = entry.quantity(dimension)?;
+                match bounds.hold(value) {
+                    true => Ok(value),
+                    false => Err(entry.unexpected(&expected(kind, key), None)),
+                }
+            }
+        },
+        Kind::Number(_, Bounds::Within(range, zero)) => entry.number_within(range, zero),
+        Kind::Number(_, bounds @ Bounds::FromZeroOrInfinite(_)) => {
+            entry.number_or_infinite(|value| bounds.hold(value), &expected(kind, key))
+        }
+        Kind::Number(_, bounds) => entry.number(|value| bounds.hold(value), &expected(kind, key)),
+        _ => unreachable!("a key that is read as a number is declared as one"),
+    }
+}
+
+/// Returns the expectation in the message about a quantity or a number.
+fn expected(kind: &Kind, key: &Key) -> String {
+    match *kind {
+        Kind::Quantity(dimension, Bounds::FromZero) => format!("{} of at least 0", dimension.noun()),
+        Kind::Quantity(dimension, _) => {
+            format!("{} above 0 such as \"{}\"", dimension.noun(), dimension.example())
+        }
+        Kind::Number(noun, bounds) => match bounds {
+            Bounds::FromZero => format!("{noun} of at least 0 such as {}", key.example),
+            Bounds::AboveZero => format!("{noun} above 0 such as {}", key.example),
+            Bounds::FromZeroOrInfinite(meaning) => {
+                format!("{noun} of at least 0 such as {}, or inf: {meaning}", key.example)
+            }
+            Bounds::Between { least, most, open: [from, to] } => match (from, to) {
+                (false, false) => format!("{noun} from {least} to {most}"),
+                (false, true) => format!("{noun} from {least}, below {most}"),
+                (true, false) => format!("{noun} above {least}, at most {most}"),
+                (true, true) => format!("{noun} above {least}, below {most}"),
+            },
+            Bounds::Any | Bounds::AboveZeroOrInfinite(_) | Bounds::Within(..) => noun.to_owned(),
+        },
+        _ => unreachable!("a key that is read as a number is declared as one"),
+    }
+}
+
+impl Bounds {
+    /// Whether a number lies within the bounds.
+    fn hold(&self, value: f64) -> bool {
+        match *self {
+            Self::Any => true,
+            Self::FromZero | Self::FromZeroOrInfinite(_) => value >= 0.0,
+            Self::AboveZero | Self::AboveZeroOrInfinite(_) => value > 0.0,
+            Self::Between { least, most, open: [from, to] } => {
+                let above = if from { value > least } else { value >= least };
+                above && if to { value < most } else { value <= most }
+            }
+            Self::Within(range, zero) => range.holds(value) || (zero && value == 0.0),
+        }
+    }
+}
+
+// Values shared by several keys.
+
+/// A length above 0.
+pub(super) const LENGTH: Value<f64> = quantity(Dimension::Length, Bounds::AboveZero).exists(exists::LENGTH);
+/// A length of at least 0.
+pub(super) const DEPTH: Value<f64> = quantity(Dimension::Length, Bounds::FromZero).exists(exists::LENGTH);
+/// A pressure or modulus above 0.
+pub(super) const PRESSURE: Value<f64> = quantity(Dimension::Pressure, Bounds::AboveZero);
+/// A fraction of a whole.
+pub(super) const FRACTION: Value<f64> = number(Bounds::Between { least: 0.0, most: 1.0, open: [true, true] });
+
+// Keys shared by several tables.
+
+/// Direction of a line of a matrix in a file.
+pub(super) const LINES: Optional<Axis> = optional(
+    "lines",
+    choice::<Axis>(),
+    "`\"x\"` for text, `\"y\"` for npy, npz, mat and HDF5, which are indexed `[ix, iy]`",
+    "\"y\"",
+    "direction of a line of a matrix; a text that looks like points is a matrix if this is given; an error for a format that \
+     determines it, see [formats](formats.md)",
+);
+/// Number of lines above the numbers of a text file.
+pub(super) const SKIP: Optional<usize> =
+    optional("skip", count(0), "0", "6", "number of lines above the numbers of a text");

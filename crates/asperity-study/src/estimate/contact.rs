@@ -1,0 +1,380 @@
+//! Contacts that the grid does not resolve: cut off at its boundary, with too few cells, or absent.
+//!
+//! Predictions use Hertz' contact of the paraboloid closest to the gap. Warnings about a result use its pressures.
+
+use std::f64::consts::SQRT_2;
+
+use ndarray::s;
+
+use asperity_base::grid::Field;
+use asperity_base::math::parallel;
+use asperity_base::math::sum::sums;
+use asperity_base::ranks::Merged;
+use asperity_base::units::{self, Dimension, Metre, Pascal};
+use asperity_contact::motion::{Position, initial_gap, largest_spot};
+use asperity_contact::operator::Boundary;
+use asperity_contact::reference::HertzEllipse;
+use asperity_contact::solver::Control;
+
+/// Number of cells across a contact spot from which its pressures are accurate to a few per cent.
+pub(crate) const CELLS_ACROSS: usize = 6;
+
+/// The paraboloid closest to a gap, by least squares over all cells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Paraboloid {
+    /// Principal curvatures, the larger one first; positive where the gap opens outwards.
+    curvatures: [f64; 2],
+    /// Direction of the larger curvature, (cos φ, sin φ).
+    direction: [f64; 2],
+    /// The lowest point, relative to the corner of the grid; along a straight line, the centre.
+    apex: [Metre; 2],
+    extent: [Metre; 2],
+    pitch: [Metre; 2],
+}
+
+impl Paraboloid {
+    /// Fits the paraboloid closest to `gap`. Returns `None` if it explains less than nine tenths of the variance of the gap
+    /// about a plane: such a gap is rough rather than curved.
+    pub(crate) fn of(gap: &Field, pitch: [Metre; 2]) -> Option<Self> {
+        /// Smallest fraction of the variance of the gap that a paraboloid must explain.
+        const DOMINATES: f64 = 0.9;
+        let shape = [gap.nrows(), gap.ncols()];
+        // On a full grid these six are orthogonal: 1, x, y, x² − its mean, y² − its mean, xy.
+        let places = [0, 1].map(|axis| {
+            let middle = 0.5 * (shape[axis] as f64 - 1.0);
+            (0..shape[axis]).map(|i| (i as f64 - middle) * pitch[axis]).collect::<Vec<f64>>()
+        });
+        let squares = [0, 1].map(|axis| {
+            let mean = places[axis].iter().map(|s| s * s).sum::<f64>() / shape[axis] as f64;
+            places[axis].iter().map(|s| s * s - mean).collect::<Vec<f64>>()
+        });
+        let mean = gap.mean()?;
+        let [y, yy] = [&places[1], &squares[1]];
+        let of_row = |i: usize| {
+            let row = gap.row(i);
+            let row = row.to_slice().expect("standard layout");
+            let [h, hy, hyy, hh] =
+                sums(row, |j, h| [h - mean, (h - mean) * y[j], (h - mean) * yy[j], (h - mean).powi(2)]);
+            [places[0][i] * h, hy, squares[0][i] * h, hyy, places[0][i] * hy, hh]
+        };
+        let [x_sum, y_sum, xx_sum, yy_sum, xy_sum, variance] =
+            parallel::merged(shape, |rows| Merged::of_parts(rows.map(of_row)));
+        let norm = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
+        let (rows, columns) = (shape[0] as f64, shape[1] as f64);
+        let products = [
+            [x_sum, columns * norm(&places[0])],
+            [y_sum, rows * norm(y)],
+            [xx_sum, columns * norm(&squares[0])],
+            [yy_sum, rows * norm(yy)],
+            [xy_sum, norm(&places[0]) * norm(y)],
+        ];
+        let coefficient = |[product, norm]: [f64; 2]| if norm > 0.0 { product / norm } else { 0.0 };
+        let told = |[product, norm]: [f64; 2]| if norm > 0.0 { product * product / norm } else { 0.0 };
+        let planar = variance - told(products[0]) - told(products[1]);
+        let curved: f64 = products[2..].iter().map(|product| told(*product)).sum();
+        if !(curved > DOMINATES * planar && curved > 1e-12 * variance) {
+            return None;
+        }
+        let [tilt_x, tilt_y, xx, yy, xy] = products.map(coefficient);
+        let (xx, yy) = (2.0 * xx, 2.0 * yy);
+        let (middle, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
+        let curvatures = [middle + half, middle - half];
+        let angle = 0.5 * xy.atan2(0.5 * (xx - yy));
+        let direction = [angle.cos(), angle.sin()];
+        // Along each principal direction the slope vanishes at the lowest point.
+        let across = [-direction[1], direction[0]];
+        let least = 1e-6 * curvatures[0].abs().max(curvatures[1].abs());
+        let mut apex = [0, 1].map(|axis| 0.5 * shape[axis] as f64 * pitch[axis]);
+        for (curvature, [x, y]) in curvatures.into_iter().zip([direction, across]) {
+            if curvature.abs() > least {
+                let distance = -(tilt_x * x + tilt_y * y) / curvature;
+                apex = [apex[0] + distance * x, apex[1] + distance * y];
+            }
+        }
+        let extent = [0, 1].map(|axis| shape[axis] as f64 * pitch[axis]);
+        Some(Self { curvatures, direction, apex, extent, pitch })
+    }
+
+    /// Whether the gap does not open outwards in all directions: a line contact, a saddle or a hollow.
+    fn is_endless(&self) -> bool {
+        self.curvatures[1] <= 1e-6 * self.curvatures[0]
+    }
+
+    /// Axis of a line contact: that of the smaller curvature.
+    fn line(&self) -> usize {
+        usize::from(self.direction[0].abs() > 1.0 / SQRT_2)
+    }
+
+    /// Returns Hertz' contact of the paraboloid under `control`, with the approach relative to the gap `touch`. `None` if
+    /// the gap does not open outwards in all directions, or if nothing presses.
+    fn hertz(&self, modulus: Pascal, control: Control, touch: Metre) -> Option<HertzEllipse> {
+        if self.is_endless() {
+            return None;
+        }
+        let contact = |load: f64| HertzEllipse::new(self.curvatures.map(f64::recip), modulus, load);
+        let load = match control {
+            Control::Load(load) => load,
+            // δ is proportional to W^⅔.
+            Control::Approach(approach) => ((approach - touch).max(0.0) / contact(1.0).approach).powf(1.5),
+        };
+        (load > 0.0 && load.is_finite()).then(|| contact(load))
+    }
+
+    /// Finds the free side of the grid with the highest edge pressure for a contact with these semi-axes along the
+    /// principal directions. Returns its axis, the reach of the contact from the apex, the distance of the side, and the
+    /// pressure at the side over that at the centre.
+    ///
+    /// A contact with the reach a that is cut off at w presses on the last cells, of pitch h, with about p₀ (√(h/w) + 1.1
+    /// (a/w − 1) √(w/h)). An edge at w adds a term to Hertz' pressure that grows as the inverse root of the distance from
+    /// the edge, here averaged over a cell. The factor 1.1 is from computations of spheres and ellipsoids on 32 to 128
+    /// cells.
+    fn hardest_side(&self, semi_axes: [Metre; 2], boundary: Boundary) -> Option<(usize, Metre, Metre, f64)> {
+        let [c, s] = self.direction;
+        let [along, across] = semi_axes;
+        let reach = [(along * c).hypot(across * s), (along * s).hypot(across * c)];
+        let sides = [0, 1].into_iter().filter(|axis| !boundary.repeats(*axis)).flat_map(|axis| {
+            [self.apex[axis], self.extent[axis] - self.apex[axis]].map(|rim| (axis, reach[axis], rim))
+        });
+        let pressures = sides.map(|(axis, reach, rim)| {
+            let cells = (rim / self.pitch[axis]).max(1.0);
+            (
+                axis,
+                reach,
+                rim,
+                cells.sqrt().recip() + 1.1 * (reach / rim.max(self.pitch[axis]) - 1.0) * cells.sqrt(),
+            )
+        });
+        pressures.max_by(|one, other| one.3.total_cmp(&other.3))
+    }
+}
+
+/// Returns the predictions of Hertz' estimate for bodies with this initial `gap`: whether the boundary cuts the contact
+/// off, and whether it has too few cells.
+pub(super) fn predict(
+    gap: &Field,
+    pitch: [Metre; 2],
+    modulus: Pascal,
+    boundary: Boundary,
+    control: Control,
+) -> HertzPrediction {
+    let mut prediction = HertzPrediction::default();
+    let Some(paraboloid) = Paraboloid::of(gap, pitch) else { return prediction };
+    let touch = gap.iter().copied().fold(f64::INFINITY, f64::min);
+    let presses = match control {
+        Control::Load(_) => true,
+        Control::Approach(approach) => approach > touch,
+    };
+    if !presses {
+        return prediction;
+    }
+    let length = |value| units::format(value, Dimension::Length);
+    let Some(contact) = paraboloid.hertz(modulus, control, touch) else {
+        prediction.rim = endless(&paraboloid, boundary);
+        return prediction;
+    };
+    if let Some((axis, reach, rim, pressure)) = paraboloid.hardest_side(contact.semi_axes, boundary)
+        && pressure >= 1.0
+    {
+        prediction.rim = Some(format!(
+            "the rim of the grid cuts the contact off along {}: by Hertz it reaches {} from the apex, the rim is {} away; \
+             take a larger `shape` or a lower load",
+            ["x", "y"][axis],
+            length(reach),
+            length(rim)
+        ));
+    }
+    let narrow = 2.0 * contact.semi_axes[0].min(contact.semi_axes[1]);
+    let cells = narrow / paraboloid.pitch[0].max(paraboloid.pitch[1]);
+    if cells < CELLS_ACROSS as f64 {
+        prediction.coarse = Some(format!(
+            "the mesh is coarse for the contact: by Hertz it is {} across, {cells:.3} cells; its pressures need \
+             {CELLS_ACROSS}: take a smaller `pitch`",
+            length(narrow)
+        ));
+    }
+    prediction
+}
+
+/// Predictions of Hertz' estimate.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct HertzPrediction {
+    /// Warning that the boundary of the grid cuts the contact off.
+    pub(super) rim: Option<String>,
+    /// Warning that the contact has too few cells.
+    pub(super) coarse: Option<String>,
+}
+
+/// Warns of a gap that does not open towards a free side.
+fn endless(paraboloid: &Paraboloid, boundary: Boundary) -> Option<String> {
+    let [large, small] = paraboloid.curvatures;
+    let axis = paraboloid.line();
+    let length = |value| units::format(value, Dimension::Length);
+    if large <= 0.0 || -small > large {
+        return (boundary != Boundary::PERIODIC).then(|| {
+            format!(
+                "the gap is hollow, of radius {}: the bodies touch at the rim of the grid, where pressures rise without \
+                 bound; `level = \"quadratic\"` removes the curvature of a measurement",
+                length(1.0 / small.abs())
+            )
+        });
+    }
+    (!boundary.repeats(axis)).then(|| {
+        format!(
+            "the line contact ends at the rim of the grid along {}, where its pressure rises, nor is it in plane strain: \
+             the radius is {} across; {} gives it no ends",
+            ["x", "y"][axis],
+            length(1.0 / large),
+            boundary_of_a_line(axis)
+        )
+    })
+}
+
+/// Boundary of a line contact along an axis, as written in a case file.
+fn boundary_of_a_line(axis: usize) -> &'static str {
+    ["`boundary = [\"periodic\", \"free\"]`", "`boundary = [\"free\", \"periodic\"]`"][axis]
+}
+
+/// Returns the gap at first touch, if the bodies do not touch at this `approach` at any of the `positions`.
+pub(super) fn apart(surfaces: [&Field; 2], positions: &[Position], approach: Metre) -> Option<Metre> {
+    let highest = surfaces[0].iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let lowest = surfaces[1].iter().copied().fold(f64::INFINITY, f64::min);
+    let mut touch = f64::INFINITY;
+    // Positions with the largest overlap usually touch first, and the search ends at the first that touches.
+    let mut ordered: Vec<&Position> = positions.iter().collect();
+    ordered.sort_by_key(|position| std::cmp::Reverse(position.columns));
+    for position in ordered {
+        touch = initial_gap(surfaces, position).iter().copied().fold(touch, f64::min);
+        if touch < approach {
+            return None;
+        }
+        // The most prominent heights bound the distance.
+        if touch <= lowest - highest {
+            break;
+        }
+    }
+    Some(touch)
+}
+
+/// Warns that there is no contact at an approach below `touch`.
+pub(super) fn no_contact(approach: Metre, touch: Metre) -> String {
+    let length = |value| units::format(value, Dimension::Length);
+    format!(
+        "no contact: the approach is {}, the smallest gap {}; the bodies touch from an `approach` of {} on",
+        length(approach),
+        length(touch),
+        length(touch)
+    )
+}
+
+/// Warns if the largest contact spot has too few cells.
+pub(crate) fn too_few_cells(across: usize) -> Option<String> {
+    match across {
+        1 => Some(format!(
+            "the mesh is coarse for the contact: its largest spot is a single cell across, {CELLS_ACROSS} or more are \
+             needed for its pressures; take a smaller `pitch`"
+        )),
+        2..CELLS_ACROSS => Some(format!(
+            "the mesh is coarse for the contact: its largest spot is {across} cells across, {CELLS_ACROSS} or more are \
+             needed for its pressures; take a smaller `pitch`"
+        )),
+        _ => None,
+    }
+}
+
+/// Warns if a free side of the grid cuts a curved contact off, according to the `pressure`. Either the pressure is largest
+/// in the outermost cells, or the load on one side of them is not much below that on the most loaded line inside.
+///
+/// If the Hertzian contact of a sphere or an ellipsoid extends slightly beyond the side, its largest pressure is still
+/// accurate to 1 %. Once the pressure at the side exceeds it, the error soon exceeds 5 %.
+pub(crate) fn cut_off(
+    pressure: &Field,
+    gap: impl FnOnce() -> Field,
+    pitch: [Metre; 2],
+    boundary: Boundary,
+) -> Option<String> {
+    const SHARE_OF_A_LINE: f64 = 0.75;
+    let sides = [0, 1].map(|axis| Sides::of(pressure, axis));
+    let (axis, side) = sides
+        .iter()
+        .enumerate()
+        .filter(|(axis, side)| !boundary.repeats(*axis) && side.rim > 0.0)
+        .filter(|(_, side)| side.rim >= side.inside || side.line >= SHARE_OF_A_LINE * side.fullest)
+        .max_by(|one, other| one.1.rim.total_cmp(&other.1.rim))?;
+    let paraboloid = Paraboloid::of(&gap(), pitch)?;
+    let value = |value| units::format(value, Dimension::Pressure);
+    let way_out = if paraboloid.is_endless() {
+        format!("{} gives a line contact no ends", boundary_of_a_line(paraboloid.line()))
+    } else {
+        "take a larger `shape` or a lower load".to_owned()
+    };
+    Some(format!(
+        "the rim of the grid cuts the contact off along {}: the largest pressure there is {}, inside {}, and the outermost \
+         cells bear {:.2} % of the load; {way_out}",
+        ["x", "y"][axis],
+        value(side.rim),
+        value(side.inside),
+        100.0 * outermost(pressure, boundary) / pressure.sum()
+    ))
+}
+
+/// Warns if a free side of the grid cuts the attraction of curved bodies off, according to the `pressure`, which is negative
+/// under tension.
+pub(crate) fn attraction_cut_off(
+    pressure: &Field,
+    gap: impl FnOnce() -> Field,
+    pitch: [Metre; 2],
+    boundary: Boundary,
+) -> Option<String> {
+    /// Largest share of the adhesive load in the outermost cells without a warning.
+    const FELT: f64 = 0.01;
+    let tension = pressure.mapv(|pressure| (-pressure).max(0.0));
+    let share = outermost(&tension, boundary) / tension.sum();
+    (share > FELT).then_some(())?;
+    Paraboloid::of(&gap(), pitch)?;
+    Some(format!(
+        "the rim of the grid cuts the attraction off: the outermost cells have {:.1} % of the adhesive load; take a larger `shape`",
+        100.0 * share
+    ))
+}
+
+/// Sums the outermost cells of a field at its free sides.
+fn outermost(field: &Field, boundary: Boundary) -> f64 {
+    let shape = [field.nrows(), field.ncols()];
+    let is_rim = |axis: usize, i: usize| !boundary.repeats(axis) && (i == 0 || i + 1 == shape[axis]);
+    field.indexed_iter().filter(|((i, j), _)| is_rim(0, *i) || is_rim(1, *j)).map(|(_, p)| p).sum()
+}
+
+/// Pressures at the two sides of the grid across an axis.
+struct Sides {
+    /// Largest pressure at them.
+    rim: Pascal,
+    /// Largest pressure elsewhere, without all sides.
+    inside: Pascal,
+    /// The larger of the sums over the two sides.
+    line: Pascal,
+    /// Largest sum over a line between them.
+    fullest: Pascal,
+}
+
+impl Sides {
+    fn of(pressure: &Field, axis: usize) -> Self {
+        let n = pressure.len_of(ndarray::Axis(axis));
+        let ends = || pressure.axis_iter(ndarray::Axis(axis)).step_by((n - 1).max(1));
+        let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+        let end = |n: usize| (n - 1).max(1);
+        let inside = pressure.slice(s![1..end(pressure.nrows()), 1..end(pressure.ncols())]);
+        let lines = pressure.sum_axis(ndarray::Axis(1 - axis));
+        Self {
+            rim: most(&mut ends().flat_map(|line| line.to_vec())),
+            inside: inside.fold(0.0, |most, p| if *p > most { *p } else { most }),
+            line: most(&mut ends().map(|line| line.sum())),
+            fullest: most(&mut lines.iter().copied().take(n - 1).skip(1)),
+        }
+    }
+}
+
+/// Number of cells across the largest contact spot of a pressure field.
+pub(crate) fn spot(pressure: &Field, boundary: Boundary) -> usize {
+    let touching = pressure.iter().enumerate().filter(|(_, p)| **p > 0.0).map(|(cell, _)| cell);
+    largest_spot(touching, [pressure.nrows(), pressure.ncols()], boundary.wraps())
+}

@@ -1,0 +1,612 @@
+//! Memory and time of a run, estimated from the numbers of cells alone, before a surface is made.
+
+use web_time::Instant;
+
+use crate::case::{Body, Case, ControlKind, CounterBody, Layer, LoadingPath, MotionSpec, Source};
+use crate::given::SurfaceInput;
+use crate::prepare::grids;
+use crate::subsurface::Plan;
+use asperity_base::error::{Error, Result};
+use asperity_base::grid::Grid;
+use asperity_base::units::Second;
+use asperity_contact::material::Compliances;
+use asperity_contact::motion::{PlasticUpdate, memory_together};
+use asperity_contact::operator::{FreeFft, Operator};
+use asperity_contact::solver::{Control, Coupling, Friction, Method, Sliding};
+
+/// Cost of a run. Memory in bytes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Demand {
+    /// Memory of the two surfaces, and of making the larger one.
+    pub surfaces: f64,
+    /// Memory of one solver. Each thread has one, up to the number of positions.
+    pub solver: f64,
+    /// Memory to solve the positions of a pass together.
+    pub together: f64,
+    /// Memory of the results until they are written.
+    pub results: f64,
+    /// Largest memory at any time.
+    pub memory: f64,
+    /// Number of computed passes, without extrapolated ones; 1 for a static contact.
+    pub passes: f64,
+    /// Convolutions of all contacts together, with those on coarser grids weighted by their number of cells; 0 for
+    /// elasto-plastic bodies.
+    pub convolutions: f64,
+    /// Work of solving and writing, in units of the time per cell and log₂ N of one iteration: about a nanosecond.
+    pub effort: f64,
+    /// Work of the figures and the page, in the same unit.
+    pub drawing: f64,
+}
+
+/// Estimates the cost of `case` on `threads` threads. Only the sizes of files are read.
+///
+/// # Errors
+/// [`Error::Case`] if a file cannot be read, or if a step of its preparation is invalid on its grid.
+pub fn demand(case: &Case, given: &SurfaceInput, threads: usize) -> Result<Demand> {
+    let [lower, upper] = grids(case, given)?;
+    let overlaps: Vec<usize> = super::positions(case, [lower, upper]).iter().map(|p| p.columns).collect();
+    let sizes = Sizes { case, lower, upper, overlaps: &overlaps };
+    let surfaces = sizes.surfaces();
+    let Memory { solver, together, results, volumes } = sizes.memory(threads);
+    let solvers = threads.clamp(1, overlaps.len().max(1)) as f64 * solver;
+    let memory = PROGRAM
+        + match case.motion {
+            // Results of a static contact are written after its solver is freed, and drawn after all are written.
+            None => {
+                let drawn = PICTURES + NUMBER * DRAWN * sizes.facing().iter().product::<f64>();
+                surfaces.making.max(surfaces.kept + solvers.max(results)).max(drawn)
+            }
+            Some(_) => {
+                let working = (solvers + results - volumes).max(together + solver);
+                let drawing = PICTURES + ANIMATION + surfaces.making.max(surfaces.kept + working);
+                // The volumes of elasto-plastic bodies are large, and are freed before drawing.
+                drawing.max(surfaces.kept + working + volumes)
+            }
+        };
+    let (convolutions, solving) = sizes.solving(threads);
+    let effort = solving + sizes.writing();
+    let drawing = sizes.drawing(threads);
+    let surfaces = surfaces.making.max(surfaces.kept);
+    let passes = case.motion.map_or(1.0, |motion| sizes.computed_passes(motion.passes));
+    Ok(Demand { surfaces, solver, together, results, memory, passes, convolutions, effort, drawing })
+}
+
+impl Demand {
+    /// Estimates the time of solving and writing, and that of figures and page, on this machine in its present state.
+    ///
+    /// The time of a few convolutions is measured, in a few milliseconds. The sum is accurate within a factor of 1.5 for
+    /// the examples, and of three for ordinary contacts.
+    pub fn times(&self) -> [Second; 2] {
+        let unit = unit_of_effort();
+        [self.effort * unit, self.drawing * unit]
+    }
+
+    /// Returns an error if the needed memory exceeds the `available` memory, in bytes.
+    ///
+    /// # Errors
+    /// [`Error::Memory`].
+    pub fn fits(&self, available: f64) -> Result<()> {
+        if self.memory <= available { Ok(()) } else { Err(Error::Memory { needed: self.memory, available }) }
+    }
+}
+
+/// Memory of the program and its libraries.
+const PROGRAM: f64 = 12e6;
+/// Memory of pictures while they are drawn.
+const PICTURES: f64 = 60e6;
+/// Memory of the pictures of the animation of a motion.
+const ANIMATION: f64 = 12e6;
+/// Number of fields of a static contact that are drawn at a time.
+const DRAWN: f64 = 6.0;
+/// Numbers of each cell for adhesion: the directions of a step of Newton's iteration, usually 25 or less and 60 at most, and the fields
+/// of two states.
+const ATTRACTED: f64 = 40.0;
+/// Numbers of each cell for an iteration, with the gap; some are in single precision.
+const ITERATION: f64 = 5.7;
+/// Numbers of each cell for the near copy of the operator on a free grid.
+const NEAR_COPY: f64 = 1.3;
+/// Bytes of a number.
+const NUMBER: f64 = 8.0;
+
+struct Sizes<'a> {
+    case: &'a Case,
+    lower: Grid,
+    upper: Grid,
+    overlaps: &'a [usize],
+}
+
+struct Surfaces {
+    kept: f64,
+    making: f64,
+}
+
+/// Memory besides the surfaces, bytes.
+struct Memory {
+    /// Memory of one solver.
+    solver: f64,
+    /// Memory of the positions of a pass together.
+    together: f64,
+    /// Memory of the results until they are written.
+    results: f64,
+    /// Part of it for the volumes of elasto-plastic bodies.
+    volumes: f64,
+}
+
+impl Sizes<'_> {
+    /// Number of cells along x and y of the largest contact.
+    fn facing(&self) -> [f64; 2] {
+        [self.lower.shape[0].min(self.upper.shape[0]), self.lower.shape[1]].map(|n| n as f64)
+    }
+
+    fn compliances(&self) -> Option<Compliances> {
+        Compliances::new(&self.case.lower.material, &self.case.upper.material).ok()
+    }
+
+    /// Number of cells used to make each surface, and of fields on them.
+    fn making(&self) -> [[f64; 2]; 2] {
+        let making = |body: &Body, grid: &Grid, other: &Grid| {
+            let cells = grid.shape[0] as f64 * grid.shape[1] as f64;
+            let layers = body.topography.plus.iter().map(|layer| match layer {
+                Layer::Generate { generate, .. } => generate.cells(grid),
+                Layer::Form { .. } => cells,
+            });
+            match &body.topography.source {
+                // A spectrum, noise, heights.
+                Source::Generate { generate, .. } => {
+                    let cells =
+                        body.topography.made_on(Some(*other)).map_or(cells, |grid| generate.cells(&grid));
+                    [layers.fold(cells, f64::max), 3.0]
+                }
+                Source::File { .. } | Source::Given { .. } => [layers.fold(cells, f64::max), 3.0],
+                Source::Form { shape, .. } => {
+                    let shape = shape.unwrap_or(other.shape);
+                    [layers.fold(shape[0] as f64 * shape[1] as f64, f64::max), 2.0]
+                }
+            }
+        };
+        let Self { case, lower, upper, .. } = self;
+        [making(&case.lower, lower, upper), making(&case.upper, upper, lower)]
+    }
+
+    fn surfaces(&self) -> Surfaces {
+        let bytes =
+            [&self.lower, &self.upper].map(|grid| NUMBER * grid.shape[0] as f64 * grid.shape[1] as f64);
+        let [lower, upper] = self.making().map(|[cells, fields]| NUMBER * fields * cells);
+        Surfaces { kept: bytes[0] + bytes[1], making: lower.max(bytes[0] + upper) }
+    }
+
+    fn memory(&self, threads: usize) -> Memory {
+        let case = self.case;
+        let [nx, ny] = self.facing();
+        // Numbers of the iteration for each cell. Half of the padded transform is stored, if single precision is
+        // enough. Of the real kernel a quarter is stored, and the kernels of the coarse grids.
+        let [padded_x, padded_y] = case.contact.boundary.wraps().map(|wraps| if wraps { 1.0 } else { 2.0 });
+        let padded = padded_x * nx * (padded_y * ny + 2.0);
+        let stored = if matches!(case.contact.method, Method::Auto | Method::ActiveSet) { 0.5 } else { 1.0 };
+        let transforms = padded * (stored / padded_x + 1.0 / 3.0);
+        let dense = if case.contact.method == Method::Direct { (0.5 * nx * ny).powi(2) } else { 0.0 };
+        let iteration = if padded_x * padded_y > 1.0 { ITERATION + NEAR_COPY } else { ITERATION };
+        let normal = iteration * nx * ny + transforms + dense;
+        // Six kernels, three transforms, and about thirty numbers for each cell: tractions, displacements and slips of two
+        // increments, and the tangential iteration.
+        let coupled = 1.5 * padded + 3.0 * nx * (padded_y * ny + 2.0) + 34.0 * nx * ny;
+        let mut solver = NUMBER * if self.is_coupled() { normal + coupled } else { normal };
+        if case.adhesion.is_some() {
+            solver += NUMBER * ATTRACTED * nx * ny;
+        }
+        let positions = super::positions(case, [self.lower, self.upper]);
+        if let Ok(Some(plan)) = Plan::new(case, [&self.lower, &self.upper], &positions) {
+            solver += plan.memory();
+        }
+        // A motion also stores the results of the passes before, and of the current pass.
+        let kept = if case.motion.is_some() { 260.0 } else { 0.0 };
+        let volume = |(cells, periodic)| cells * (kept + if periodic { 350.0 } else { 500.0 });
+        let volumes: f64 = self.volumes().map(volume).sum();
+        let motion = case.motion(nx * ny * self.lower.cell_area());
+        let yields = case.lower.hardness.yields() || case.upper.hardness.yields();
+        let together = motion
+            .and_then(|motion| {
+                memory_together(&motion, case.contact.method, yields, self.solved(), self.lower.shape[1])
+            })
+            .unwrap_or(0.0);
+        // The fields besides the bodies, and one while it is written.
+        let statics = if case.friction.is_some() { 16.0 } else { 6.0 };
+        let results = case.motion.map_or(statics * nx * ny, |_| {
+            let cells = [&self.lower, &self.upper].map(|grid| grid.shape[0] as f64 * grid.shape[1] as f64);
+            let kept = match case.output.pressure_every {
+                0 => 0.0,
+                every => self.overlaps.iter().step_by(every).sum::<usize>() as f64 * ny,
+            };
+            let kept = if case.friction.is_some() { 2.0 * kept } else { kept };
+            2.0 * (cells[0] + cells[1]) + 2.0 * kept
+        });
+        let results = NUMBER * results + volumes + self.passage_memory(threads);
+        Memory { solver, together, results, volumes }
+    }
+
+    /// Number of overlap columns at the solved positions.
+    fn solved(&self) -> &[usize] {
+        let couples = self.compliances().is_some_and(|compliances| compliances.coupling != 0.0);
+        let yields = self.case.lower.hardness.yields() || self.case.upper.hardness.yields();
+        let all = self.overlaps.len();
+        &self.overlaps[..self.case.motion(1.0).map_or(all, |motion| motion.distinct(all, yields, couples))]
+    }
+
+    /// Number of cells in all layers of each elasto-plastic body, and whether its boundary is periodic.
+    fn volumes(&self) -> impl Iterator<Item = (f64, bool)> {
+        let layers = self.case.plasticity.map_or(0, |plasticity| plasticity.layers) as f64;
+        let periodic = self.case.contact.boundary.repeats(0) && self.case.contact.boundary.repeats(1);
+        let bodies = [(&self.case.lower, &self.lower), (&self.case.upper, &self.upper)].into_iter();
+        bodies
+            .filter(|(body, _)| body.plasticity.is_some())
+            .map(move |(_, grid)| (grid.shape[0] as f64 * grid.shape[1] as f64 * layers, periodic))
+    }
+
+    /// Work of the operator applications of elasto-plastic bodies.
+    fn flow(&self, threads: usize) -> f64 {
+        /// Operator applications of a plastic increment, and of an unloading increment.
+        const PRODUCTS: [f64; 2] = [8.0, 1.0];
+        /// Operator applications per position of a motion, and number of approaches tried in a pass.
+        const ROLLING: [f64; 2] = [3.5, 4.0];
+        let Some(plasticity) = self.case.plasticity else { return 0.0 };
+        let products = match self.case.motion {
+            Some(motion) => {
+                let [products, trials] = ROLLING;
+                let trials = if motion.control == ControlKind::PassLoad { trials } else { 1.0 };
+                trials * products * (motion.passes * self.overlaps.len()) as f64
+            }
+            None => {
+                let later: usize = self.case.history.iter().map(|stage| stage.increments).sum();
+                let [flowing, unloading] = PRODUCTS;
+                let unloading = if plasticity.unload == Some(true) { unloading } else { 0.0 };
+                let friction = self.case.friction.as_ref().map_or(1, |friction| friction.increments);
+                let first = plasticity.increments.unwrap_or(friction) as f64;
+                flowing * (first + later as f64) + unloading * first
+            }
+        };
+        let product = |(cells, periodic)| cells * if periodic { 250.0 } else { 1000.0 };
+        products * self.volumes().map(product).sum::<f64>() / (threads.clamp(1, 2) as f64).powf(0.85)
+    }
+
+    /// Whether tangential tractions are computed.
+    fn is_coupled(&self) -> bool {
+        let sliding = |friction: Friction| Sliding { friction, direction: [1.0, 0.0] };
+        let shear_displaces_normally = |friction| {
+            self.compliances().is_some_and(|compliances| {
+                sliding(friction).shear_displaces_normally(compliances.coupling != 0.0)
+            })
+        };
+        self.case.friction.as_ref().is_some_and(|friction| {
+            (self.case.motion.is_none() && self.case.sliding.is_none())
+                || shear_displaces_normally(friction.law)
+        })
+    }
+
+    /// Estimates the number of computed passes from the stability limit and the largest wear of an extrapolation.
+    fn computed_passes(&self, passes: usize) -> f64 {
+        /// Wear depth of the most worn cell over the mean.
+        const DEEPEST: f64 = 8.0;
+        let (case, passes) = (self.case, passes as f64);
+        let (Some(acceleration), Some(compliances)) = (case.acceleration, self.compliances()) else {
+            return passes;
+        };
+        let [nx, ny] = self.facing();
+        let area = nx * ny * self.lower.cell_area();
+        let Some(motion) = case.motion(area) else { return passes };
+        let friction = case.friction.as_ref().map_or(0.0, |friction| friction.law.coefficient);
+        let worn: f64 =
+            [&case.lower, &case.upper].into_iter().map(|body| body.wear_per_pressure(friction)).sum();
+        let slid = self.overlaps.len() as f64 * motion.sliding_distance(self.lower.pitch[0]);
+        let mean = match motion.control {
+            Control::Load(load) => load / area,
+            Control::Approach(_) => 0.0,
+        };
+        let stable =
+            0.45 * self.lower.pitch[0].min(self.lower.pitch[1]) / (compliances.modulus() * worn * slid);
+        let shallow = acceleration.max_wear / (DEEPEST * worn * mean * slid);
+        let jump = stable.min(shallow).min(acceleration.max_jump as f64).min(passes).max(1.0);
+        passes.min(passes / jump + jump.log2())
+    }
+
+    /// Returns the convolutions of all contacts, and the work of solving them with everything computed besides, in units of
+    /// a cell times the binary logarithm of the cells of its contact.
+    fn solving(&self, threads: usize) -> (f64, f64) {
+        let case = self.case;
+        let [nx, ny] = self.facing();
+        let work = |columns: f64| columns * ny * (columns * ny).max(2.0).log2();
+        let boundary: f64 =
+            case.contact.boundary.wraps().map(|wraps| if wraps { 0.3 } else { 0.5 }).iter().sum();
+        let digits = (0.3 - 0.7 * case.contact.tolerance.log10() / 6.0).max(0.4);
+        // A larger grid takes slightly more.
+        let size = (nx * ny / LARGE).max(1.0).powf(GROWTH);
+        let together = |works: usize| (threads.clamp(1, works.max(1)) as f64).powf(EFFICIENCY);
+        let method = match case.contact.method {
+            Method::PolonskyKeer => 10.0,
+            _ => 1.0,
+        };
+        let all: f64 = self.solved().iter().map(|columns| work(*columns as f64)).sum();
+        // Convolutions of each contact, and their work including the iteration around them.
+        let of = |cost: Cost, contacts: f64| {
+            let convolutions = contacts * cost.convolutions * digits;
+            [convolutions, boundary * cost.work * convolutions * all]
+        };
+        let normal = if case.adhesion.is_some() { ADHESIVE } else { NORMAL };
+        let normal = Cost { convolutions: method * size * normal.convolutions, ..normal };
+        let unlike = self.compliances().is_some_and(|compliances| compliances.dundurs().abs() > 1e-3);
+        let rolling = if unlike { ROLLING_UNLIKE } else { ROLLING };
+        let [convolutions, mut effort] = match (case.motion, &case.friction) {
+            (Some(motion), _) => {
+                let searches = match (motion.control, motion.plastic_update) {
+                    (ControlKind::PassLoad, PlasticUpdate::Step) => 5.0,
+                    _ => 1.0,
+                };
+                let positions = self.solved().len();
+                let passes = self.computed_passes(motion.passes);
+                let mut cost = if self.is_coupled() { SLIDING } else { normal };
+                // Later passes start from the pressures of the pass before.
+                cost.convolutions *= WARM + (1.0 - WARM) / passes.max(1.0);
+                let [convolutions, effort] = of(cost, passes * searches);
+                let effort = effort + POSITION * passes * positions as f64;
+                let beside = passes * self.running(motion.passes);
+                [convolutions * positions as f64, effort / together(positions) + beside]
+            }
+            (None, _) if case.sliding.is_some() => {
+                let updates = case.sliding.map_or(0, |sliding| sliding.updates) as f64;
+                of(normal, 2.0 + updates)
+            }
+            (None, friction) => match case.loading_path(nx * ny * self.lower.cell_area()) {
+                Some(LoadingPath::Rolling(_)) => of(rolling, 1.0),
+                Some(LoadingPath::Stages(stages)) => {
+                    let increments = stages.iter().map(|stage| stage.increments).sum::<usize>() as f64;
+                    let shear = match friction.as_ref().map(|friction| friction.law.coupling) {
+                        Some(Coupling::Full | Coupling::Goodman) if unlike => SHEAR_UNLIKE,
+                        Some(_) => SHEAR,
+                        None => normal,
+                    };
+                    of(shear, increments)
+                }
+                Some(LoadingPath::Sweep(points)) => {
+                    let rolls = points.iter().filter(|point| point.rolling.is_some()).count() as f64;
+                    let [a, b] = [of(rolling, rolls), of(normal, points.len() as f64 - rolls)];
+                    // The stiffness with adhesion is not computed.
+                    let each = if case.adhesion.is_some() { 0.0 } else { STIFFNESS };
+                    let stiffness = each * boundary * digits * points.len() as f64 * all;
+                    [a[0] + b[0], a[1] + b[1] + stiffness]
+                }
+                None => of(normal, 1.0),
+            },
+        };
+        if let Some(spec) = &case.subsurface {
+            let passes = self.computed_passes(case.motion.map_or(1, |motion| motion.passes));
+            let planes = spec.layers + spec.planes.len();
+            effort += passes * STRESS * planes as f64 * work(nx) / together(planes);
+        }
+        effort += self.passage(boundary, digits, &together);
+        // A new counterbody is made for each pass.
+        let times = match case.motion {
+            Some(MotionSpec { counter: CounterBody::Fresh, passes, .. }) => [1.0, passes as f64],
+            _ => [1.0; 2],
+        };
+        let made = self.making().into_iter().zip(times);
+        let making =
+            MAKING * made.map(|([cells, _], times)| times * cells * cells.max(2.0).log2()).sum::<f64>();
+        (convolutions, effort + self.flow(threads) + making)
+    }
+
+    /// Number of contacts that are solved: increments, updates, points, or positions of all computed passes.
+    fn contacts(&self) -> f64 {
+        let case = self.case;
+        let [nx, ny] = self.facing();
+        match (case.motion, case.sliding) {
+            (Some(motion), _) => self.computed_passes(motion.passes) * self.overlaps.len() as f64,
+            (None, Some(sliding)) => 1.0 + sliding.updates as f64,
+            (None, None) => match case.loading_path(nx * ny * self.lower.cell_area()) {
+                Some(LoadingPath::Stages(stages)) => {
+                    stages.iter().map(|stage| stage.increments).sum::<usize>() as f64
+                }
+                Some(LoadingPath::Sweep(points)) => points.len() as f64,
+                Some(LoadingPath::Rolling(_)) | None => 1.0,
+            },
+        }
+    }
+
+    /// Number of contacts that an observer with this interval looks at.
+    fn observed(&self, every: usize) -> f64 {
+        let passes = self.case.motion.map_or(1.0, |motion| self.computed_passes(motion.passes));
+        if every == 0 { passes } else { (self.contacts() / every as f64).max(passes) }
+    }
+
+    /// Work of the conductance and of the flow through the gap.
+    fn passage(&self, boundary: f64, digits: f64, together: &dyn Fn(usize) -> f64) -> f64 {
+        let (case, [nx, ny]) = (self.case, self.facing());
+        let work = nx * ny * (nx * ny).max(2.0).log2();
+        let conductance = case.conductance.map_or(0.0, |spec| {
+            let gas = if spec.gas.is_some() { CONDUCTING_GAS } else { 1.0 };
+            CONDUCTANCE * gas * boundary * digits * self.observed(spec.every)
+                / together(self.observed_together(spec.every))
+        });
+        let flow = case.flow.map_or(0.0, |spec| {
+            FLOW * self.observed(spec.every) / together(self.observed_together(spec.every))
+        });
+        (conductance + flow) * work
+    }
+
+    /// Number of contacts of a step that an observer with this interval looks at.
+    fn observed_together(&self, every: usize) -> usize {
+        match (self.case.motion, every) {
+            (None, _) | (Some(_), 0) => 1,
+            (Some(_), every) => self.overlaps.len().div_ceil(every),
+        }
+    }
+
+    /// Memory of the conductance and of the flow through the gap, bytes: their solvers, one for each thread, and the gaps of a pass.
+    fn passage_memory(&self, threads: usize) -> f64 {
+        let (case, [nx, ny]) = (self.case, self.facing());
+        let together = |every: Option<usize>| every.map_or(0, |every| self.observed_together(every));
+        let [conductance, flow] =
+            [case.conductance.map(|spec| spec.every), case.flow.map(|spec| spec.every)].map(together);
+        let gaps = NUMBER * conductance.max(flow) as f64 * nx * ny;
+        let at_once = |positions: usize| threads.clamp(1, positions.max(1)).min(positions) as f64;
+        let conductance = at_once(conductance) * NUMBER * 14.0 * nx * ny;
+        let flow = at_once(flow)
+            * (asperity_contact::flow::memory([nx as usize, ny as usize]) + NUMBER * 2.0 * nx * ny);
+        gaps + conductance.max(flow)
+    }
+
+    /// Work of films and flash temperatures in a computed pass.
+    fn running(&self, passes: usize) -> f64 {
+        let films = [&self.case.lower, &self.case.upper].iter().filter(|body| body.film.is_some()).count();
+        let heated = match self.case.temperature {
+            Some(spec) if spec.every > 0 => 1.0 / spec.every.min(passes.max(1)) as f64,
+            _ => 0.0,
+        };
+        let cells = self.solved().iter().sum::<usize>() as f64 * self.facing()[1];
+        cells * (FILM * films as f64 + HEAT * heated)
+    }
+
+    /// Number of cells of both bodies together.
+    fn cells(&self) -> f64 {
+        [&self.lower, &self.upper].map(|grid| grid.shape[0] as f64 * grid.shape[1] as f64).iter().sum()
+    }
+
+    /// Number of positions of a pass whose pressures are stored, and of their cells.
+    fn kept(&self) -> [f64; 2] {
+        match self.case.output.pressure_every {
+            0 => [0.0; 2],
+            every => {
+                let kept = self.overlaps.iter().step_by(every);
+                [kept.len() as f64, kept.sum::<usize>() as f64 * self.lower.shape[1] as f64]
+            }
+        }
+    }
+
+    /// Work of writing fields.
+    fn writing(&self) -> f64 {
+        let case = self.case;
+        let bodies = [&case.lower, &case.upper];
+        let of_body = |body: &&Body| if body.film.is_some() { 3.0 } else { 2.0 };
+        let [fields, cells] = match case.motion {
+            Some(motion) => {
+                let shear = if case.friction.is_some() { 2.0 } else { 1.0 };
+                let kept = self.kept().map(|kept| shear * kept);
+                let heat = if case.temperature.is_some() { 2.0 } else { 0.0 };
+                let of_bodies = bodies.iter().map(of_body).sum::<f64>() + heat;
+                let pass = [kept[0] + of_bodies, kept[1] + 0.5 * of_bodies * self.cells()];
+                pass.map(|of_pass| self.computed_passes(motion.passes) * of_pass)
+            }
+            None => {
+                let fields = if case.friction.is_some() { 12.0 } else { 6.0 };
+                [fields, fields * self.facing().iter().product::<f64>()]
+            }
+        };
+        FIELD * fields + WRITTEN * cells
+    }
+
+    /// Work of figures and page.
+    fn drawing(&self, threads: usize) -> f64 {
+        let case = self.case;
+        let bodies = [&case.lower, &case.upper];
+        let any = |has: fn(&Body) -> bool| f64::from(bodies.into_iter().any(has));
+        let [wears, film] = [any(|body| body.wear.is_some()), any(|body| body.film.is_some())];
+        let given = |there: bool| f64::from(there);
+        let mut figures = match case.motion {
+            Some(_) => 19.0 + given(case.friction.is_some()) + given(case.temperature.is_some()),
+            None => 9.0 + if case.friction.is_some() { 4.0 } else { 0.0 },
+        };
+        figures += wears + film + 2.0 * wears.max(film) + given(case.subsurface.is_some());
+        figures += 2.0 * given(case.plasticity.is_some()) + given(case.is_swept());
+        let [frames, kept, cells] = match case.motion {
+            Some(motion) => {
+                let [fields, cells] = self.kept();
+                let passes = self.computed_passes(motion.passes);
+                [fields, passes * fields, passes * cells]
+            }
+            None => [0.0; 3],
+        };
+        let pictures = FIGURE * figures + FRAME * frames + DRAWN_CELL * self.cells();
+        let page = SHOWN * kept + SHOWN_CELL * cells + 0.5 * DRAWN_CELL * self.cells();
+        START + (pictures + page) / (threads.clamp(1, 4) as f64).powf(EFFICIENCY)
+    }
+}
+
+/// The cost of a contact.
+#[derive(Clone, Copy)]
+struct Cost {
+    /// Convolutions to 10⁻⁶ on a small grid.
+    convolutions: f64,
+    /// Work of one, including the iteration around it, with free boundary, in the unit of effort.
+    work: f64,
+}
+
+// Each is measured (docs/performance.md).
+/// A normal contact.
+const NORMAL: Cost = Cost { convolutions: 15.8, work: 2.2 };
+/// A normal contact of bodies that attract each other, with Tabor's parameter from 0.1 to 1.
+const ADHESIVE: Cost = Cost { convolutions: 45.0, work: 3.5 };
+/// A contact in gross slip whose shear displaces the surface normally.
+const SLIDING: Cost = Cost { convolutions: 36.0, work: 6.5 };
+/// An increment with friction of identical bodies, whose pressure does not depend on the shear.
+const SHEAR: Cost = Cost { convolutions: 24.0, work: 7.0 };
+/// An increment with friction of dissimilar bodies.
+const SHEAR_UNLIKE: Cost = Cost { convolutions: 68.0, work: 7.0 };
+/// Steady rolling of identical bodies.
+const ROLLING: Cost = Cost { convolutions: 85.0, work: 4.6 };
+/// Steady rolling of dissimilar bodies.
+const ROLLING_UNLIKE: Cost = Cost { convolutions: 230.0, work: 5.0 };
+/// Convolutions of a later pass relative to the first.
+const WARM: f64 = 0.8;
+/// Number of cells from which a contact takes more convolutions, and the exponent of this growth.
+const LARGE: f64 = 16384.0;
+const GROWTH: f64 = 0.09;
+/// Work at a position besides its contact.
+const POSITION: f64 = 3.7e5;
+/// Work of the stiffness of a contact, in the unit of effort for each cell and log₂ N.
+const STIFFNESS: f64 = 12.0;
+/// Work of the conductance of a contact, as [`STIFFNESS`], and how many times that with gas.
+const CONDUCTANCE: f64 = 1.1 * STIFFNESS;
+const CONDUCTING_GAS: f64 = 1.5;
+/// Work of the flow through a gap along both axes: 0.2 to 0.4 µs for each cell and log₂ N.
+const FLOW: f64 = 250.0;
+/// Work of the stress on a plane, in the same unit.
+const STRESS: f64 = 120.0;
+/// Work of a surface: read or generated, prepared, with its figures for the estimate, in the same unit.
+const MAKING: f64 = 6.0;
+/// Work of the growth of a film on a cell of a body at a position, in the unit of effort.
+const FILM: f64 = 380.0;
+/// Work of the flash temperature of a cell at a position.
+const HEAT: f64 = 90.0;
+/// Work of writing a field, and of each of its cells.
+const FIELD: f64 = 4e5;
+const WRITTEN: f64 = 55.0;
+/// Work of a figure, and of a picture of an animation.
+const FIGURE: f64 = 3.4e7;
+const FRAME: f64 = 1.4e7;
+/// Work of a cell of a body in the figures.
+const DRAWN_CELL: f64 = 150.0;
+/// Work of a pressure field on the page, and of each of its cells.
+const SHOWN: f64 = 4e5;
+const SHOWN_CELL: f64 = 190.0;
+/// Work of the start and the end of the program.
+const START: f64 = 2.5e7;
+/// Exponent of the number of threads in the speed-up of shared work.
+const EFFICIENCY: f64 = 0.85;
+
+/// Measures the seconds per cell and log₂ N: the smallest of several convolutions, on this machine in its present state.
+fn unit_of_effort() -> Second {
+    /// Number of cells along each axis of the timed convolutions.
+    const SIDE: usize = 128;
+    /// Time of a solve relative to that of a double-precision convolution, for each of its own convolutions.
+    const SHARE: f64 = 1.4;
+    let grid = Grid { shape: [SIDE, SIDE], pitch: [1.0; 2] };
+    let mut operator = FreeFft::new(grid, 1.0);
+    let (pressure, mut displacement) = (grid.zeros(), grid.zeros());
+    let time = || {
+        let began = Instant::now();
+        operator.apply(&pressure, &mut displacement);
+        began.elapsed().as_secs_f64()
+    };
+    let least = std::iter::repeat_with(time).take(32).fold(f64::INFINITY, f64::min);
+    let cells = (SIDE * SIDE) as f64;
+    SHARE * least / (cells * cells.log2())
+}

@@ -1,0 +1,215 @@
+//! Quantities outside what exists, which most likely have another unit than their author meant.
+
+use toml::Value;
+
+use super::Estimate;
+use crate::case::schema::tables::declaration;
+use crate::case::schema::{Exists, Key};
+use crate::case::{Body, Case, Hardness, Source};
+use asperity_base::grid::Grid;
+use asperity_base::units::{self, Dimension, Metre, format_number};
+
+/// Cells of this size do not resolve roughness.
+const WIDE: Metre = 1e-3;
+/// Hardness over E*: glass and the hardest ceramics come near this value, and metals stay below a fifth of it.
+const HARD: f64 = 0.1;
+
+/// Warns of implausible quantities in `case` on `grid`.
+pub(super) fn implausible(case: &Case, grid: &Grid, estimate: &Estimate, warnings: &mut Vec<String>) {
+    let given = case.document().values();
+    warnings.extend(given.filter_map(|(path, text)| unheard_of(declaration(path)?, path, &text)));
+    if grid.pitch.iter().any(|pitch| *pitch > WIDE) {
+        warnings.extend(wide(case, grid));
+    }
+    if estimate.hardness > HARD * estimate.modulus && !case.is_coated() && estimate.hardness.is_finite() {
+        warnings.push(hard(case, estimate));
+    }
+}
+
+/// Warns of a value of `key`, written as `text` at the dotted `path`, outside what exists.
+fn unheard_of(key: &Key, path: &str, text: &str) -> Option<String> {
+    let Exists::Within { least, most, of, slips } = key.exists else { return None };
+    let dimension = key.kind.dimension();
+    let exists = |value: f64| value == 0.0 || value.is_infinite() || (least..=most).contains(&value.abs());
+    let given: toml::Table = toml::from_str(&format!("value = {text}")).ok()?;
+    let (value, number) =
+        quantities(&given["value"], dimension).into_iter().find(|(value, _)| !exists(*value))?;
+    let said = dimension.map_or_else(|| format_number(value), |dimension| units::format(value, dimension));
+    let far =
+        |ratio: f64| format_number(if ratio < 10.0 { (10.0 * ratio).round() / 10.0 } else { ratio.round() });
+    let beyond = match value.abs() > most {
+        true => format!("{} times the most", far(value.abs() / most)),
+        false => format!("1/{} of the least", far(least / value.abs())),
+    };
+    let meant = |slip: &&str| match (slip.contains("{}"), dimension) {
+        (true, _) => Some(format!("`{}`", slip.replace("{}", &number))),
+        (false, Some(dimension)) => {
+            let other = format!("{number} {slip}");
+            units::parse(&other, dimension)
+                .ok()
+                .filter(|value| exists(*value))
+                .map(|_| format!("\"{other}\""))
+        }
+        (false, None) => None,
+    };
+    let advice = slips
+        .iter()
+        .find_map(meant)
+        .map_or("check it and its unit".to_owned(), |meant| format!("was {meant} meant?"));
+    Some(format!("`{path} = {text}` is {said}, {beyond} that exists, {of}: {advice}"))
+}
+
+/// Numbers in a value, SI, with their texts without a unit.
+fn quantities(value: &Value, dimension: Option<Dimension>) -> Vec<(f64, String)> {
+    match value {
+        Value::Integer(number) => vec![(*number as f64, number.to_string())],
+        Value::Float(number) => vec![(*number, format!("{number:?}"))],
+        Value::String(text) => {
+            let number = text.trim().split(|c: char| !c.is_ascii_digit() && !"+-.eE_".contains(c)).next();
+            let value = dimension.and_then(|dimension| units::parse(text, dimension).ok());
+            value.map(|value| (value, number.unwrap_or_default().to_owned())).into_iter().collect()
+        }
+        Value::Array(items) => items.iter().flat_map(|item| quantities(item, dimension)).collect(),
+        Value::Boolean(_) | Value::Datetime(_) | Value::Table(_) => Vec::new(),
+    }
+}
+
+/// Warns of the wide cells of a file; a `pitch` is judged as a key.
+fn wide(case: &Case, grid: &Grid) -> Option<String> {
+    let spec = &case.lower.topography;
+    let Source::File { path, .. } = &spec.source else { return None };
+    let [x, y] = grid.pitch.map(|pitch| units::format(pitch, Dimension::Length));
+    spec.pitch.is_none().then(|| {
+        format!("cells of {x} × {y} see no roughness: check the unit of the lengths in {}", path.display())
+    })
+}
+
+fn hard(case: &Case, estimate: &Estimate) -> String {
+    let bears = |body: &Body| match body.hardness {
+        Hardness::Uniform(value) => value,
+        Hardness::Map(_) | Hardness::Given(_) => 0.0,
+    };
+    let body = softer(bears(&case.lower), bears(&case.upper));
+    let pressure = |value| units::format(value, Dimension::Pressure);
+    format!(
+        "`hardness = {}` of the {body} body is above a tenth of E*, {}, and hardly any solid is so hard: check the \
+         units of `hardness` and `young`, or leave `hardness` out for an elastic body",
+        case.written(&format!("{body}.hardness")),
+        pressure(HARD * estimate.modulus)
+    )
+}
+
+/// Name of the body with the smaller value.
+fn softer(lower: f64, upper: f64) -> &'static str {
+    if lower <= upper { "lower" } else { "upper" }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::Case;
+    use crate::case::schema::{Bounds, Exists, Kind};
+    use crate::estimate::estimate;
+    use crate::prepare::bodies;
+
+    fn warnings(young: &str, hardness: &str, pitch: &str) -> Vec<String> {
+        let body = |name: &str, material: &str| {
+            format!(
+                "[{name}]\npoisson = 0.3\n{material}\n[{name}.topography]\nform = \"flat\"\nshape = [4, 4]\n\
+                 pitch = {pitch}\n"
+            )
+        };
+        let text = format!(
+            "{}{}[contact]\nmean_pressure = 1\nboundary = \"periodic\"\n",
+            body("lower", &format!("young = {young}\n{hardness}")),
+            body("upper", "young = \"inf\"")
+        );
+        let case = Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap();
+        estimate(&case, &bodies(&case, crate::SurfaceInput::default()).unwrap()).unwrap().warnings
+    }
+
+    #[test]
+    fn plausible_numbers_need_no_word() {
+        assert_eq!(warnings("\"210 GPa\"", "hardness = \"4 GPa\"", "\"0.5 um\""), [""; 0]);
+        // Rubber on cells of a millimetre.
+        assert_eq!(warnings("\"2 MPa\"", "", "\"1 mm\""), [""; 0]);
+    }
+
+    #[test]
+    fn a_number_without_its_unit_is_noticed() {
+        let said = |found: Vec<String>, words: &str| assert_eq!(found, [words]);
+        said(
+            warnings("210", "", "\"0.5 um\""),
+            "`lower.young = 210` is 210 Pa, 1/48 of the least that exists, soft gels to diamond: was \"210 GPa\" meant?",
+        );
+        said(
+            warnings("\"3 kPa\"", "", "\"0.5 um\""),
+            "`lower.young = \"3 kPa\"` is 3 kPa, 1/3.3 of the least that exists, soft gels to diamond: was \"3 GPa\" meant?",
+        );
+        said(
+            warnings("\"210 GPa\"", "", "0.5")[..1].to_vec(),
+            "`lower.topography.pitch = 0.5` is 500 mm, 500 times the most that exists, atoms to cells that see no roughness: \
+             was \"0.5 um\" meant?",
+        );
+        let found = warnings("\"210 GPa\"", "", "[\"1 um\", \"2 mm\"]");
+        assert!(found.len() == 2 && found[0].contains("is 2 mm, 2 times the most that exists"), "{found:?}");
+        let found = warnings("\"70 GPa\"", "hardness = \"9 GPa\"", "\"0.5 um\"");
+        let words = ["`hardness = \"9 GPa\"` of the lower body", "7.69", "elastic"];
+        assert!(found.len() == 1 && words.iter().all(|word| found[0].contains(word)), "{found:?}");
+    }
+
+    /// The slip of the trade: a dimensionless number where 1/Pa is meant.
+    #[test]
+    fn wear_numbers_friction_adhesion_and_thermal_constants_are_held_against_what_exists() {
+        let said = |path: &str, text: &str| {
+            super::unheard_of(crate::case::schema::tables::declaration(path).unwrap(), path, text)
+        };
+        for (path, text, words) in [
+            (
+                "lower.wear.coefficient",
+                "1e-4",
+                "1e6 times the most that exists, well lubricated bearings to dry metals that seize: was `dimensionless = 0.0001` meant?",
+            ),
+            ("lower.wear.coefficient", "1e-8", "100 times"),
+            ("friction.coefficient", "5", "is 5, 1.7 times the most that exists"),
+            ("adhesion.work", "50", "was \"50 mJ/m2\" meant?"),
+            ("adhesion.work", "\"50 J/m2\"", "was \"50 mJ/m2\" meant?"),
+            ("flow.viscosity", "\"80 Pa s\"", "was \"80 mPa s\" meant?"),
+            ("upper.conductivity", "0.046", "was \"0.046 W/(mm K)\" meant?"),
+            ("upper.density", "7.85", "was \"7.85 g/cm3\" meant?"),
+            ("upper.heat_capacity", "0.46", "was \"0.46 J/(g K)\" meant?"),
+        ] {
+            let found = said(path, text).unwrap_or_default();
+            assert!(found.starts_with(&format!("`{path} = {text}` is")) && found.contains(words), "{found}");
+        }
+        for (path, text) in [
+            ("friction.coefficient", "0.3"),
+            ("friction.coefficient", "\"inf\""),
+            ("lower.hardness", "\"inf\""),
+            ("adhesion.range", "\"grid\""),
+            ("temperature.bulk", "[\"100 °C\", 400]"),
+        ] {
+            assert_eq!(said(path, text), None);
+        }
+    }
+
+    #[test]
+    fn every_physical_key_says_what_exists() {
+        let is_bounded = |kind: &Kind| matches!(kind, Kind::Quantity(_, Bounds::Within(..)));
+        let silent =
+            crate::keys().iter().flat_map(|section| section.keys.iter().map(move |key| (section, key)));
+        let silent: Vec<_> = silent
+            .filter(|(_, key)| key.kind.dimension().is_some() && !is_bounded(&key.kind))
+            .filter(|(_, key)| key.exists == Exists::Undeclared)
+            .map(|(section, key)| format!("{:?} {}", section.tables, key.name))
+            .collect();
+        assert_eq!(silent, [""; 0]);
+        for key in crate::keys().iter().flat_map(|section| section.keys) {
+            if let Exists::Within { least, most, .. } = key.exists {
+                assert!(least < most);
+                if !key.example.is_empty() {
+                    assert_eq!(super::unheard_of(key, key.name, key.example), None);
+                }
+            }
+        }
+    }
+}

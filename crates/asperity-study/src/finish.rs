@@ -1,0 +1,122 @@
+//! Shared beginning and end of every run.
+
+use serde_json::Value;
+use web_time::Instant;
+
+use crate::adhesion::AdhesionSummary;
+use crate::case::Case;
+use crate::closed_form::{ClosedForm, ClosedFormRecord, ElasticContact};
+use crate::observed::{ConductanceRecord, GapFlowRecord};
+use crate::prepare::Bodies;
+use crate::results::Writer;
+use crate::subsurface::SubsurfaceRecord;
+use crate::summary::{Outcome, RunningIn, Summary};
+use asperity_base::error::Result;
+use asperity_base::units::Metre;
+use asperity_contact::motion::{FlowRecord, Pair, UpdateRecord};
+use asperity_contact::solver::{Control, Params};
+
+/// Results of a run for its summary.
+pub(super) struct Computed {
+    pub(super) outcome: Outcome,
+    pub(super) subsurface: Vec<SubsurfaceRecord>,
+    /// The last update of a contact that wears in place.
+    pub(super) sliding: Option<UpdateRecord>,
+    /// The plastic flow of a motion of elasto-plastic bodies.
+    pub(super) flow: Option<FlowRecord>,
+    /// Adhesion of the bodies in numbers.
+    pub(super) adhesion: Option<AdhesionSummary>,
+    /// The closed form of the contact of smooth forms.
+    pub(super) closed_form: Option<ClosedFormRecord>,
+    /// The conductance of the last contact, or of each pass.
+    pub(super) conductance: Vec<ConductanceRecord>,
+    /// The flow through the gap of the last contact.
+    pub(super) gap_flow: Vec<GapFlowRecord>,
+}
+
+impl Computed {
+    /// Creates results with an outcome and nothing else.
+    pub(super) fn of(outcome: Outcome) -> Self {
+        Self {
+            outcome,
+            subsurface: Vec::new(),
+            sliding: None,
+            flow: None,
+            adhesion: None,
+            closed_form: None,
+            conductance: Vec::new(),
+            gap_flow: Vec::new(),
+        }
+    }
+}
+
+/// Writes the results at the end of every run.
+pub(super) fn conclude(
+    case: &Case,
+    writer: &Writer,
+    resolved: Value,
+    began: Instant,
+    Computed { outcome, subsurface, sliding, flow, adhesion, closed_form, conductance, gap_flow }: Computed,
+    mut warnings: Vec<String>,
+) -> Result<Summary> {
+    outcome.check()?;
+    warnings.extend(writer.warning().map(str::to_owned));
+    if case.output.paraview {
+        writer.write_for_paraview()?;
+    }
+    let running_in = match &outcome {
+        Outcome::Passes(passes) => RunningIn::of(passes),
+        Outcome::Static(_) | Outcome::Sweep(_) => None,
+    };
+    let summary = Summary {
+        running_in,
+        sliding,
+        plasticity: flow,
+        adhesion,
+        closed_form,
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        case: resolved,
+        outcome,
+        subsurface,
+        conductance,
+        flow: gap_flow,
+        warnings,
+        wall_time_s: began.elapsed().as_secs_f64(),
+    };
+    writer.finish(&summary)?;
+    Ok(summary)
+}
+
+/// Returns the closed form beside the computed contact of `case` on a grid of this extent, for a sweep at its last point. `None`
+/// if there is none, or if cells have yielded or worn, which no closed form here describes.
+pub(super) fn closed_form(case: &Case, extent: [Metre; 2], outcome: &Outcome) -> Option<ClosedFormRecord> {
+    let computed: ElasticContact = match outcome {
+        Outcome::Static(record) => {
+            let yields = record.flow.as_ref().is_some_and(|flow| flow.max_plastic_strain > 0.0);
+            (record.plastic_cells == 0 && !yields).then(|| (&**record).into())
+        }
+        Outcome::Sweep(points) => points.last().filter(|point| point.plastic_area == 0.0).map(Into::into),
+        Outcome::Passes(_) => None,
+    }?;
+    let is_plain = case.sliding.is_none() && case.adhesion.is_none();
+    let form = ClosedForm::of(case, extent, Control::Load(computed.load)).filter(|_| is_plain)?;
+    Some(form.beside(computed))
+}
+
+/// Creates the pair of the `bodies` of `case`.
+pub(super) fn pair(case: &Case, bodies: Bodies) -> Result<Pair> {
+    let Bodies { lower, upper } = bodies;
+    let materials = [&case.lower.material, &case.upper.material];
+    let pair = Pair::new(lower.topography, upper.topography, materials)?
+        .with_hardness([lower.hardness, upper.hardness])?;
+    let attraction = case.attraction(&pair.lower_grid(), pair.modulus())?;
+    Ok(pair.with_adhesion(attraction))
+}
+
+/// Returns the solver parameters of `case`.
+pub(super) fn params(case: &Case) -> Params {
+    let mut params = Params::default();
+    params.method = case.contact.method;
+    params.tolerance = case.contact.tolerance;
+    params
+}

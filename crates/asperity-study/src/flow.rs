@@ -1,0 +1,28 @@
+//! Elasto-plastic bodies of a case, as arguments of a contact.
+
+use std::sync::Arc;
+
+use crate::case::{Case, PlasticitySpec};
+use asperity_base::error::Result;
+use asperity_contact::motion::{FlowPath, Pair, Stage};
+use asperity_contact::plasticity::{PlasticBody, Volume};
+
+/// Creates the elasto-plastic bodies of `case`, lower one first, under the surfaces of the `pair`.
+pub(super) fn bodies(case: &Case, spec: &PlasticitySpec, pair: &Pair) -> Result<[Option<PlasticBody>; 2]> {
+    let grids = [pair.lower_grid(), pair.upper_grid()];
+    let of_body = |index: usize| {
+        let body = [&case.lower, &case.upper][index];
+        let Some(flow) = &body.plasticity else { return Ok(None) };
+        let volume = Volume::new(grids[index], spec.layers()?, case.contact.boundary, &body.material)?;
+        Ok(Some(PlasticBody::new(volume, Arc::new(flow.law()?))))
+    };
+    Ok([of_body(0)?, of_body(1)?])
+}
+
+/// Creates the loading path of elasto-plastic bodies through these `stages`. Unloading takes as many steps as the first
+/// stage.
+pub(super) fn path(spec: &PlasticitySpec, stages: Vec<Stage>) -> FlowPath {
+    let steps = stages.first().map_or(1, |stage| stage.increments);
+    let unloading = spec.unload.unwrap_or(true).then_some(steps);
+    FlowPath::new(stages).with_unloading(unloading).with_flow(spec.params())
+}

@@ -1,0 +1,235 @@
+//! Identity of a run: its case, the digests of its surface files, and one digest shared by its files.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use super::case::{Case, Source};
+use super::prepare::{Bodies, Origin};
+use crate::io::sha256;
+use asperity_base::error::{Error, Result};
+use asperity_base::grid::Grid;
+
+/// Keys that may name a file in a case, surfaces first.
+pub(super) const FILES: [&str; 4] =
+    ["/lower/topography", "/upper/topography", "/lower/hardness", "/upper/hardness"];
+
+/// Returns the content of `case.json`. The case is resolved to SI, a shape or pitch taken from the other body is filled in,
+/// and the SHA-256 of each file stands beside its name. `identity` is the digest of everything that determines the numbers.
+pub fn resolved(case: &Case, bodies: &Bodies) -> Value {
+    resolved_of(
+        case,
+        [&bodies.lower, &bodies.upper].map(|body| BodyData {
+            grid: *body.topography.grid(),
+            origin: body.origin.as_ref(),
+            hardness_sha256: body.hardness_sha256.as_ref(),
+        }),
+    )
+}
+
+/// Data of a body that its case does not contain.
+pub(super) struct BodyData<'a> {
+    pub(super) grid: Grid,
+    pub(super) origin: Option<&'a Origin>,
+    pub(super) hardness_sha256: Option<&'a String>,
+}
+
+/// [`resolved`] for bodies given only by these data.
+pub(super) fn resolved_of(case: &Case, bodies: [BodyData<'_>; 2]) -> Value {
+    let mut resolved = serde_json::to_value(case).expect("a case can be written as JSON");
+    let specs = [&case.lower.topography, &case.upper.topography];
+    let grids = [&bodies[0], &bodies[1]].map(|body| body.grid);
+    for (n, body) in bodies.iter().enumerate() {
+        let (key, spec, other) = (FILES[n], specs[n], grids[1 - n]);
+        let topography = resolved.pointer_mut(key).expect("a body has a topography");
+        for lacking in spec.lacks() {
+            topography[lacking] = if lacking == "shape" { json!(other.shape) } else { json!(other.pitch) };
+        }
+        let digest = body.origin.map(|origin| origin.sha256.clone());
+        if let (Source::File { .. } | Source::Given { .. }, Some(digest)) = (&spec.source, digest) {
+            topography["sha256"] = digest.into();
+        }
+        if let (Some(digest), Some(map)) = (body.hardness_sha256, resolved.pointer_mut(FILES[n + 2])) {
+            map["sha256"] = digest.clone().into();
+        }
+    }
+    resolved["identity"] = of(&resolved).into();
+    resolved
+}
+
+/// Returns the digest in all files of a run. Runs with equal results have the same digest, so that their files are
+/// interchangeable.
+pub(super) fn of(case: &Value) -> String {
+    sha256(&serde_json::to_vec(&deciding(case)).expect("a JSON value can be written"))
+}
+
+/// Returns an error unless the results in `directory`, whose case is `before`, are also those of the case `now`.
+pub(super) fn compare(directory: &Path, before: &Value, now: &Value) -> Result<()> {
+    for key in FILES {
+        let digest = |case: &Value| case.pointer(key)?.get("sha256").cloned();
+        let file = |case: &Value| {
+            let table = case.pointer(key)?;
+            table.get("file").or(table.get("given")).cloned()
+        };
+        if let (Some(_), Some(path)) = (file(before), file(now))
+            && digest(before) != digest(now)
+        {
+            let file = path.as_str().unwrap_or_default().into();
+            return Err(Error::SurfaceChanged { path: directory.to_owned(), file });
+        }
+    }
+    match difference("", &deciding(before), &deciding(now)) {
+        None => Ok(()),
+        Some((key, [before, now])) => Err(Error::OtherCase { path: directory.to_owned(), key, before, now }),
+    }
+}
+
+/// The case without the digests and the identity, which results add to it.
+pub(super) fn without_digests(resolved: &Value) -> Value {
+    let mut case = resolved.clone();
+    if let Some(keys) = case.as_object_mut() {
+        keys.remove("identity");
+    }
+    for key in FILES {
+        if let Some(table) = case.pointer_mut(key).and_then(Value::as_object_mut) {
+            table.remove("sha256");
+        }
+    }
+    case
+}
+
+/// Returns the case without the keys that do not affect a finished pass: title, number of passes, folder of the files.
+fn deciding(case: &Value) -> Value {
+    let mut case = case.clone();
+    if let Some(keys) = case.as_object_mut() {
+        keys.remove("title");
+        keys.remove("identity");
+    }
+    if let Some(motion) = case.pointer_mut("/motion").and_then(Value::as_object_mut) {
+        motion.remove("passes");
+    }
+    for key in FILES {
+        // Its folder depends on the working directory of the program.
+        if let Some(file) = case.pointer_mut(key).and_then(|topography| topography.get_mut("file")) {
+            let name = Path::new(file.as_str().unwrap_or_default()).file_name();
+            *file = name.map_or(Value::Null, |name| name.to_string_lossy().into());
+        }
+    }
+    case
+}
+
+/// Returns the first key at which two cases differ, dotted, and both values.
+fn difference(path: &str, before: &Value, now: &Value) -> Option<(String, [String; 2])> {
+    if before == now {
+        return None;
+    }
+    let join = |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
+    match (before, now) {
+        (Value::Object(old), Value::Object(new)) => old.keys().chain(new.keys()).find_map(|key| {
+            let [old, new] = [old, new].map(|keys| keys.get(key).unwrap_or(&Value::Null));
+            difference(&join(key), old, new)
+        }),
+        (Value::Array(old), Value::Array(new)) if old.len() == new.len() => old
+            .iter()
+            .zip(new)
+            .enumerate()
+            .find_map(|(n, (old, new))| difference(&join(&n.to_string()), old, new)),
+        _ => {
+            let shown =
+                |value: &Value| if value.is_null() { "not given".to_owned() } else { value.to_string() };
+            Some((path.to_owned(), [shown(before), shown(now)]))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_difference_is_named_and_what_decides_nothing_is_none() {
+        let before = json!({"title": "a", "identity": "x", "contact": {"load": 0.02}, "motion": {"passes": 3, "stride": 1},
+            "lower": {"topography": {"file": "there/a.npy", "sha256": "00"}}, "history": [{"load": 1.0}]});
+        let with = |pointer: &str, value: Value| {
+            let mut now = before.clone();
+            *now.pointer_mut(pointer).unwrap() = value;
+            compare(Path::new("out"), &before, &now).map_err(|error| error.to_string())
+        };
+        for (pointer, value) in [
+            ("/title", json!("b")),
+            ("/identity", json!("y")),
+            ("/motion/passes", json!(9)),
+            ("/lower/topography/file", json!("here/a.npy")),
+        ] {
+            assert_eq!(with(pointer, value), Ok(()), "{pointer}");
+        }
+        for (pointer, value, told) in [
+            ("/contact/load", json!(0.03), "'contact.load' was 0.02, now it is 0.03"),
+            ("/contact/load", Value::Null, "'contact.load' was 0.02, now it is not given"),
+            ("/history/0/load", json!(2.0), "'history.0.load' was 1.0, now it is 2.0"),
+            (
+                "/lower/topography/file",
+                json!("b.npy"),
+                "'lower.topography.file' was \"a.npy\", now it is \"b.npy\"",
+            ),
+            (
+                "/lower/topography/sha256",
+                json!("01"),
+                "there/a.npy has changed since the results in out were begun",
+            ),
+        ] {
+            let error = with(pointer, value).unwrap_err();
+            assert!(error.ends_with(told), "{pointer}: {error}");
+        }
+    }
+
+    #[test]
+    fn the_identity_of_a_case_stays_what_it_was() {
+        // Frozen: a change makes it impossible to resume earlier results.
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/inputs/good");
+        let mut files: Vec<_> =
+            std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+        files.sort();
+        let identities: Vec<_> = files
+            .iter()
+            .map(|path| {
+                let text = std::fs::read_to_string(path).unwrap();
+                let case = Case::parse(&text, path, Path::new("")).unwrap();
+                let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+                (name, of(&serde_json::to_value(case).unwrap())[..8].to_owned())
+            })
+            .collect();
+        let frozen = [
+            ("as_the_other", "3a9cbdd3"),
+            ("coated", "c0bedc7a"),
+            ("driven", "deeb49fa"),
+            ("ellipsoid", "f5ac373b"),
+            ("flowing", "44c871dd"),
+            ("forms", "45aafccc"),
+            ("grooves", "21dc62a2"),
+            ("line", "8fb19859"),
+            ("looked_into", "af5e8b80"),
+            ("matrix_of_text", "e065768a"),
+            ("measured", "eb457a9e"),
+            ("ploughed", "a7abdeb1"),
+            ("prepared", "fc13f0ca"),
+            ("pushed", "137f2c48"),
+            ("rolled", "4de6a6f8"),
+            ("rolling", "6a4293d4"),
+            ("rough_ball", "80c24a7a"),
+            ("rubbing", "c3ea33d8"),
+            ("running_in", "58e862ee"),
+            ("smallest", "0bab5fb9"),
+            ("sticking", "8a4a2c46"),
+            ("stuck", "9945b5f2"),
+            ("swept", "0eb13fb9"),
+            ("swept_approaches", "36a3c377"),
+            ("swept_creepages", "ccb05528"),
+            ("swept_pressures", "776fc760"),
+            ("swept_rolling", "50369784"),
+            ("there_and_back", "1c9f39ac"),
+            ("wearing", "9fbaeaa5"),
+        ];
+        assert_eq!(identities, frozen.map(|(name, identity)| (name.to_owned(), identity.to_owned())));
+    }
+}

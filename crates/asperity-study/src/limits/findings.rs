@@ -1,0 +1,157 @@
+//! The quantities of a step that the limits bound.
+
+use crate::case::Side;
+use asperity_base::grid::{Field, Grid};
+use asperity_base::units::{Kelvin, Metre, Pascal};
+use asperity_contact::motion::{Contact, Pair, PassRecord, PassReport, Step, StepRecord, UpdateRecord, WEAR};
+use asperity_contact::solver::{Equilibrium, Solution};
+
+/// A result beyond a limit.
+pub(super) struct Finding {
+    /// Position in the pass, increment, update or point.
+    pub(super) step: Option<usize>,
+    pub(super) body: Option<Side>,
+    pub(super) value: f64,
+    pub(super) bound: f64,
+}
+
+/// Quantities of a step.
+#[derive(Default)]
+pub(super) struct Findings<'a> {
+    /// The pass of a motion.
+    pub(super) pass: Option<usize>,
+    pub(super) contacts: Vec<ContactFindings>,
+    /// The bodies after the step, if it may have changed them.
+    pub(super) changed: Option<&'a Pair>,
+    /// Deepest wear of the lower and of the upper body in one pass.
+    pub(super) wear: [Metre; 2],
+    /// Mean thickness of the film, and Sq, of the lower and of the upper body.
+    pub(super) films: [[Metre; 2]; 2],
+    /// Largest temperature, and where.
+    pub(super) temperature: Option<(usize, Kelvin)>,
+}
+
+/// Quantities of a contact.
+pub(super) struct ContactFindings {
+    /// Number of the position, increment, update or point.
+    pub(super) step: usize,
+    pub(super) max_pressure: Pascal,
+    /// Largest elastic displacement, if it is known.
+    pub(super) displacement: Option<Metre>,
+    /// Largest plastic interference.
+    pub(super) interference: Metre,
+    /// Number of cells at the hardness, and of all cells.
+    pub(super) cells: [usize; 2],
+}
+
+impl ContactFindings {
+    pub(super) fn of(step: usize, solution: &Solution) -> Self {
+        let capped = |(cell, p): &(usize, &f64)| solution.bounds.caps(*cell, **p);
+        Self {
+            step,
+            max_pressure: solution.max_pressure(),
+            displacement: Some(solution.max_displacement()),
+            interference: solution.max_interference(),
+            cells: [solution.pressure.iter().enumerate().filter(capped).count(), solution.grid.cells()],
+        }
+    }
+
+    fn at_position(step: usize, contact: &Contact, width: usize) -> Self {
+        Self {
+            step,
+            max_pressure: contact.max_pressure(),
+            displacement: contact.max_displacement,
+            interference: contact.plastic.iter().fold(0.0, |most: f64, (_, w)| most.max(*w)),
+            cells: [contact.plastic.len(), contact.position.columns * width],
+        }
+    }
+}
+
+impl<'a> Findings<'a> {
+    pub(super) fn of(step: &Step<'a>) -> Self {
+        let number = step.number();
+        let alone = |solution: &Solution| Self {
+            contacts: vec![ContactFindings::of(number, solution)],
+            ..Self::default()
+        };
+        match *step {
+            Step::Increment { state, .. } => alone(state.contact.normal()),
+            Step::Flow { contact, .. } => contact.map(Equilibrium::normal).map_or_else(Self::default, alone),
+            Step::Point { contact, .. } => alone(contact.solution.normal()),
+            Step::Update { state, solution, .. } => {
+                let update = state.updates.last().expect("the update just done");
+                Self::of_update(&state.pair, update, solution)
+            }
+            Step::Pass(report) => Self::of_pass(&report),
+        }
+    }
+
+    fn of_update(pair: &'a Pair, update: &UpdateRecord, solution: &Solution) -> Self {
+        let mut contact = ContactFindings::of(update.update, solution);
+        // The displacement of an update includes its wear.
+        contact.displacement = contact.displacement.filter(|_| update.update == 0);
+        let sq = |heights: &Field| heights.std(0.0);
+        Self {
+            contacts: vec![contact],
+            changed: Some(pair).filter(|_| update.update > 0),
+            films: [
+                [update.mean_film_lower, sq(&pair.lower.heights)],
+                [update.mean_film_upper, sq(&pair.upper.heights)],
+            ],
+            temperature: Some((update.update, update.max_temperature)),
+            ..Self::default()
+        }
+    }
+
+    fn of_pass(report: &PassReport<'a>) -> Self {
+        let PassReport { record, steps, contacts, pair, .. } = *report;
+        let width = pair.lower.width();
+        let contacts = contacts.iter().enumerate();
+        let hot = |step: &StepRecord| Some((step.step, step.heat?.max_flash_temperature));
+        Self {
+            pass: Some(record.pass),
+            contacts: contacts
+                .map(|(index, each)| ContactFindings::at_position(index + 1, each, width))
+                .collect(),
+            changed: Some(pair),
+            wear: worn(record, [pair.lower_grid(), pair.upper_grid()]),
+            films: record.running.map_or([[0.0; 2]; 2], |running| {
+                [[running.mean_film_lower, record.sq_lower], [running.mean_film_upper, record.sq_upper]]
+            }),
+            temperature: steps
+                .iter()
+                .filter_map(hot)
+                .reduce(|most, next| if next.1 > most.1 { next } else { most }),
+        }
+    }
+
+    /// Returns the largest value of its contacts, if it exceeds a bound.
+    pub(super) fn largest(&self, bound: f64, value: impl Fn(&ContactFindings) -> f64) -> Option<Finding> {
+        let values = self.contacts.iter().map(|contact| (contact.step, value(contact)));
+        let (step, value) = values.reduce(|most, next| if next.1 > most.1 { next } else { most })?;
+        (value > bound).then_some(Finding { step: Some(step), body: None, value, bound })
+    }
+
+    /// Returns the value of the body that exceeds its bound most, if one does.
+    pub(super) fn of_bodies(&self, [lower, upper]: [[f64; 2]; 2]) -> Option<Finding> {
+        let [lower_beyond, upper_beyond] = [lower, upper].map(|[value, bound]| value > bound);
+        let (body, [value, bound]) = match lower_beyond && !(upper_beyond && upper[0] > lower[0]) {
+            true => (Side::Lower, lower),
+            false => (Side::Upper, upper),
+        };
+        self.as_a_whole(Some(body), value, bound)
+    }
+
+    /// Returns a value of the whole step, if it exceeds a bound.
+    pub(super) fn as_a_whole(&self, body: Option<Side>, value: f64, bound: f64) -> Option<Finding> {
+        let step = self.contacts.first().map(|contact| contact.step).filter(|_| self.pass.is_none());
+        (value > bound).then_some(Finding { step, body, value, bound })
+    }
+}
+
+/// Returns the deepest wear of each body in one pass; that of a law in Python is known only as a mean.
+fn worn(record: &PassRecord, grids: [Grid; 2]) -> [Metre; 2] {
+    let deepest = record.running.map_or([0.0; 2], |running| [running.max_wear_lower, running.max_wear_upper]);
+    let mean = record.lost(WEAR);
+    [0, 1].map(|body| deepest[body].max(mean[body] / grids[body].area()) / record.represents() as f64)
+}

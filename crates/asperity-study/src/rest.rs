@@ -1,0 +1,430 @@
+//! A static contact of a case: solved in memory, or written to a results directory increment by increment and point by
+//! point.
+
+use crate::adhesion::{self, AdhesionSummary};
+use crate::case::{Case, LoadingPath, PlasticitySpec};
+use crate::closed_form::ClosedFormRecord;
+use crate::estimate::{Estimate, estimate};
+use crate::fields::{NamedField, RestFields};
+use crate::finish::{closed_form, pair, params};
+use crate::flow;
+use crate::given::SurfaceInput;
+use crate::limits::Limits;
+use crate::observe::{self, Observations, Observers};
+use crate::observed::{ConductanceRecord, GapFlowRecord};
+use crate::prepare::bodies_until;
+use crate::results::{StepWriter, Writer};
+use crate::review;
+use crate::summary::Outcome;
+use crate::tables;
+use asperity_base::error::{Error, Result};
+use asperity_base::grid::{CellValues, Field, check_finite};
+use asperity_contact::motion::{
+    ElastoPlasticContact, FILM, FlowResult, IncrementRecord, LoadedContact, Output, Pair, PlasticVolume,
+    Point, Slide, SlidingState, Stage, State, StaticContact, StaticRecord, UpdateRecord, WEAR, Watch,
+    WearInPlace, WornContact, load_in_stages, press, press_elasto_plastic, roll, sweep,
+};
+use asperity_contact::operator::Boundary;
+use asperity_contact::solver::{Control, Equilibrium, Friction, Params, Rolling, Solution};
+
+/// Result of a static contact.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct StaticResult {
+    /// The record of the contact, or the points of a sweep.
+    pub outcome: Outcome,
+    /// The increments of a loading in stages; empty for other contacts.
+    pub increments: Vec<IncrementRecord>,
+    /// The updates of a contact that wears in place, beginning before it slides; empty for other contacts.
+    pub updates: Vec<UpdateRecord>,
+    /// The fields of the contact; for a sweep, at its last point.
+    pub fields: RestFields,
+    /// Adhesion of the bodies in numbers; `None` without adhesion.
+    pub adhesion: Option<AdhesionSummary>,
+    /// The closed form of the contact, if both bodies are smooth forms; `None` for others.
+    pub closed_form: Option<ClosedFormRecord>,
+    /// The plastic state below the surfaces; `None` for other than elasto-plastic bodies.
+    pub flow_result: Option<FlowResult>,
+    /// The conductance of the observed contacts, if requested.
+    pub conductance: Vec<ConductanceRecord>,
+    /// The flow through the gap of the observed contacts, if requested.
+    pub gap_flow: Vec<GapFlowRecord>,
+    /// Warnings for the user.
+    pub warnings: Vec<String>,
+}
+
+/// Computes the static contact of `case` without writing any file. The result has the bits of
+/// [`run()`](crate::run()).
+///
+/// # Errors
+/// Every error of a case, its surfaces or the contact; [`Error::Unsupported`] for a motion. Stress under the surface is not
+/// computed, because it is written to a file.
+pub fn rest(case: &Case, given: SurfaceInput, watch: &dyn Watch) -> Result<StaticResult> {
+    if case.motion.is_some() {
+        return Err(Error::Unsupported("a motion is not a static contact"));
+    }
+    let bodies = bodies_until(case, given, &|| watch.stop())?;
+    let estimate = estimate(case, &bodies)?;
+    let pair = pair(case, bodies)?;
+    let mut rest = solve(case, pair, &estimate, None, watch)?;
+    rest.warnings.splice(0..0, estimate.warnings);
+    rest.checked()
+}
+
+impl StaticResult {
+    /// Creates an outcome with its fields, and nothing else.
+    fn of(outcome: impl Into<Outcome>, fields: RestFields) -> Self {
+        let outcome = outcome.into();
+        Self {
+            outcome,
+            increments: Vec::new(),
+            updates: Vec::new(),
+            fields,
+            adhesion: None,
+            closed_form: None,
+            flow_result: None,
+            conductance: Vec::new(),
+            gap_flow: Vec::new(),
+            warnings: Vec::new(),
+        }
+    }
+
+    /// Adds what the observers have found.
+    fn seen_by(mut self, case: &Case, observers: Observers) -> Result<Self> {
+        let Observations { conductance, flow, fields } = observers.finish()?;
+        self.fields.fields.extend(fields);
+        self.warnings.extend(observe::warnings(case, &conductance, &flow));
+        if let Outcome::Sweep(points) = &self.outcome {
+            self.warnings.extend(observe::barber(case, points, &conductance));
+        }
+        Ok(Self { conductance, gap_flow: flow, ..self })
+    }
+
+    /// Returns the contact after checking that all its numbers are finite, as for the files of a run.
+    fn checked(self) -> Result<Self> {
+        self.outcome.check()?;
+        tables::checked(&self.increments)?;
+        tables::checked(&self.updates)?;
+        for NamedField { name, values, .. } in &self.fields.fields {
+            check_finite(name, values.shape(), values)?;
+        }
+        for volume in self
+            .flow_result
+            .iter()
+            .flat_map(|flow_result| [&flow_result.volumes, &flow_result.residual])
+            .flatten()
+        {
+            let PlasticVolume { state, residual_stress, displacement, .. } = volume;
+            check_finite("strain", state.strain.shape(), &state.strain)?;
+            check_finite("accumulated", state.accumulated.shape(), &state.accumulated)?;
+            check_finite("residual_stress", residual_stress.shape(), residual_stress)?;
+            check_finite("displacement", displacement.shape(), displacement)?;
+        }
+        Ok(self)
+    }
+}
+
+/// Solves the static contact of `case`, whose bodies are a `pair`, and adds warnings about the result. Intermediate results
+/// are written by the `writer`, which begins with the first of them.
+pub(super) fn solve(
+    case: &Case,
+    pair: Pair,
+    estimate: &Estimate,
+    writer: Option<&Writer>,
+    watch: &dyn Watch,
+) -> Result<StaticResult> {
+    let apparent_area = estimate.apparent_area;
+    let law = case.friction.as_ref().map(|friction| &friction.law);
+    let control = case.contact.prescribed.control(apparent_area);
+    let extent = pair.lower_grid().extent();
+    let adhesion = pair.adhesion().map(|adhesion| {
+        let (gap, boundary) = (pair.initial_gap(&pair.at_rest()), case.contact.boundary);
+        AdhesionSummary::new(adhesion, &gap, pair.pitch(), boundary, pair.modulus())
+    });
+    let contact = StaticProblem { case, pair, estimate, law, control, params: params(case), writer, watch };
+    if let Some(slide) = case.slide(apparent_area) {
+        return contact.slide(slide);
+    }
+    let rest = match (case.loading_path(apparent_area), law, &case.plasticity) {
+        (Some(LoadingPath::Stages(stages)), _, Some(spec)) => contact.flow(spec, stages),
+        (Some(LoadingPath::Sweep(points)), ..) => contact.sweep(&points),
+        (Some(LoadingPath::Rolling(rolling)), Some(friction), _) => contact.roll(friction, rolling),
+        (Some(LoadingPath::Stages(stages)), law, _) if law.is_some() || stages.len() > 1 => {
+            contact.load_in_stages(&stages)
+        }
+        _ => contact.press(),
+    }?;
+    let adhesion = adhesion.map(|adhesion| adhesion.after(&rest.increments));
+    Ok(StaticResult { adhesion, closed_form: closed_form(case, extent, &rest.outcome), ..rest })
+}
+
+/// A static contact to be solved.
+struct StaticProblem<'a> {
+    case: &'a Case,
+    pair: Pair,
+    estimate: &'a Estimate,
+    law: Option<&'a Friction>,
+    control: Control,
+    params: Params,
+    writer: Option<&'a Writer>,
+    watch: &'a dyn Watch,
+}
+
+impl StaticProblem<'_> {
+    /// Solves in one step without friction.
+    fn press(self) -> Result<StaticResult> {
+        let case = self.case;
+        let StaticContact { record, solution, .. } =
+            press(&self.pair, self.boundary(), self.control, &self.params, self.watch)?;
+        self.begin()?;
+        let mut observers = self.observers(None)?;
+        observers.contact(&solution)?;
+        let warnings = [self.compare(&solution)?, self.review(&solution)].concat();
+        StaticResult { warnings, ..StaticResult::of(record, pressed(self.pair, solution)) }
+            .seen_by(case, observers)
+    }
+
+    /// Solves steady rolling.
+    fn roll(self, friction: &Friction, rolling: Rolling) -> Result<StaticResult> {
+        let case = self.case;
+        let (boundary, control) = (self.boundary(), self.control);
+        let contact = roll(&self.pair, boundary, friction, control, rolling, &self.params, self.watch)?;
+        self.begin()?;
+        let mut observers = self.observers(None)?;
+        observers.contact(contact.solution.normal())?;
+        let broken = self.compare(contact.solution.normal())?;
+        self.loaded(contact, broken).seen_by(case, observers)
+    }
+
+    /// Solves stage after stage.
+    fn load_in_stages(self, stages: &[Stage]) -> Result<StaticResult> {
+        let case = self.case;
+        self.begin()?;
+        let increments = stages.iter().map(|stage| stage.increments).sum();
+        let under_way = |writer: &Writer| writer.results().loading_under_way(&self.pair, increments);
+        let left = self.writer.map(under_way).transpose()?.flatten();
+        let done = left.as_ref().map_or(&[][..], |left| &left.increments);
+        let mut kept = self.writer.map(|writer| writer.increments(done)).transpose()?;
+        let done = done.last().map(|last| last.increment);
+        let (mut observers, mut limits) = (self.observers(done)?, self.limits(done)?);
+        let (boundary, outputs) = (self.boundary(), &mut outputs(&mut observers, &mut limits, &mut kept));
+        let contact =
+            load_in_stages(&self.pair, boundary, self.law, stages, &self.params, left, self.watch, outputs)?;
+        self.loaded(contact, limits.all()).seen_by(case, observers)
+    }
+
+    /// Solves one load, or one creepage, after another.
+    fn sweep(self, points: &[Point]) -> Result<StaticResult> {
+        let case = self.case;
+        self.begin()?;
+        let mut done = self.writer.map(|writer| writer.results().sweep()).transpose()?.unwrap_or_default();
+        done.truncate(points.len().saturating_sub(1));
+        let every = self.case.output.pressure_every;
+        let mut kept = self.writer.map(|writer| writer.points(&done, every)).transpose()?;
+        let last = done.last().map(|last| last.point);
+        let (mut observers, mut limits) = (self.observers(last)?, self.limits(last)?);
+        let (boundary, outputs) = (self.boundary(), &mut outputs(&mut observers, &mut limits, &mut kept));
+        let (points, contact) =
+            sweep(&self.pair, boundary, self.law, points, &self.params, done, self.watch, outputs)?;
+        let warnings = [limits.all(), review::sweep(&points, &contact)].concat();
+        let LoadedContact { solution, plastic, slip, .. } = contact;
+        let fields = fields(self.pair, solution, plastic, slip);
+        StaticResult { warnings, ..StaticResult::of(Outcome::Sweep(points), fields) }.seen_by(case, observers)
+    }
+
+    /// Solves wear in place.
+    fn slide(self, slide: Slide) -> Result<StaticResult> {
+        let case = self.case;
+        let friction = slide.friction;
+        self.begin()?;
+        let under_way = |writer: &Writer| writer.results().sliding_under_way(&self.pair);
+        let left = self.writer.map(under_way).transpose()?.flatten();
+        let done = left.as_ref().map_or(&[][..], |left| &left.updates);
+        let mut kept = self.writer.map(|writer| writer.updates(done)).transpose()?;
+        let last = done.last().map(|last| last.update);
+        let (mut observers, mut limits) = (self.observers(last)?, self.limits(last)?);
+        let from = left.as_ref().map_or(&self.pair, |left| &left.pair).clone();
+        let contact = self.case.wearing(WearInPlace::new(from, self.boundary(), slide, self.params)?)?;
+        let state = left.map(|left| SlidingState::resumed(&contact, left.updates, left.pressure));
+        let worn = contact.run(state, self.watch, &mut outputs(&mut observers, &mut limits, &mut kept))?;
+        let (record, updates) = (worn.record.clone(), worn.state.updates.clone());
+        let of_answer = review::static_contact(&worn.state.pair, self.boundary(), &worn.solution.pressure);
+        let warnings = [limits.all(), of_answer].concat();
+        let result = StaticResult::of(record, worn_fields(worn, friction));
+        StaticResult { updates, warnings, ..result }.seen_by(case, observers)
+    }
+
+    /// Solves the stages of elasto-plastic bodies.
+    fn flow(self, spec: &PlasticitySpec, stages: Vec<Stage>) -> Result<StaticResult> {
+        let case = self.case;
+        let (bodies, path) = (flow::bodies(self.case, spec, &self.pair)?, flow::path(spec, stages));
+        self.begin()?;
+        let mut kept = self.writer.map(|writer| writer.increments(&[])).transpose()?;
+        let (mut observers, mut limits) = (self.observers(None)?, self.limits(None)?);
+        let outputs = &mut outputs(&mut observers, &mut limits, &mut kept);
+        let (pair, boundary) = (&self.pair, self.boundary());
+        let contact =
+            press_elasto_plastic(pair, boundary, self.law, bodies, &path, &self.params, self.watch, outputs)?;
+        let of_answer = self.review(contact.solution.normal());
+        let of_flow = review::elasto_plastic(self.case, &self.pair, &contact);
+        let warnings = [limits.all(), of_flow, of_answer].concat();
+        let ElastoPlasticContact { record, solution, slip, flow_result, .. } = contact;
+        let nothing = self.pair.lower_grid().zeros();
+        let fields = fields(flow_result.displaced(self.pair), solution, nothing, slip);
+        let increments = flow_result.increments.clone();
+        let result = StaticResult::of(record, fields);
+        StaticResult { increments, flow_result: Some(flow_result), warnings, ..result }
+            .seen_by(case, observers)
+    }
+
+    /// Creates the result from the end of a loading, or of rolling, with the warnings of `broken` limits.
+    fn loaded(self, contact: LoadedContact, broken: Vec<String>) -> StaticResult {
+        let jumps = adhesion::jumps(&contact.increments).into_iter().collect();
+        let warnings =
+            [broken, review::loaded(&contact), jumps, self.review(contact.solution.normal())].concat();
+        let LoadedContact { record, increments, solution, plastic, slip, .. } = contact;
+        let fields = fields(self.pair, solution, plastic, slip);
+        StaticResult { increments, warnings, ..StaticResult::of(record, fields) }
+    }
+
+    /// Creates the observers of the case, after the steps that are `done`.
+    fn observers(&self, done: Option<usize>) -> Result<Observers> {
+        Observers::new(self.case, &self.pair, &[], (self.writer, done))
+    }
+
+    /// Creates the limits of the case, after the steps that are `done`.
+    fn limits(&self, done: Option<usize>) -> Result<Limits> {
+        Limits::new(self.case, &self.pair, self.estimate, (self.writer, done))
+    }
+
+    /// Compares a contact that is solved in one step with the limits. Returns the warnings, which the watch receives at once.
+    fn compare(&self, solution: &Solution) -> Result<Vec<String>> {
+        let mut limits = self.limits(None)?;
+        limits.contact(solution)?;
+        limits.all().iter().for_each(|warning| self.watch.warning(warning));
+        Ok(limits.all())
+    }
+
+    fn boundary(&self) -> Boundary {
+        self.case.contact.boundary
+    }
+
+    /// Clears the results that will be replaced, if any.
+    fn begin(&self) -> Result<()> {
+        self.writer.map_or(Ok(()), Writer::begin)
+    }
+
+    fn review(&self, solution: &Solution) -> Vec<String> {
+        review::static_contact(&self.pair, self.boundary(), &solution.pressure)
+    }
+}
+
+/// Returns the outputs of a course: the rows of the observers and the limits are written before that of the step.
+fn outputs<'a>(
+    observers: &'a mut Observers,
+    limits: &'a mut Limits,
+    kept: &'a mut Option<StepWriter>,
+) -> Vec<&'a mut dyn Output> {
+    let kept = kept.iter_mut().map(|kept| kept as &mut dyn Output);
+    [observers as &mut dyn Output, limits].into_iter().chain(kept).collect()
+}
+
+impl From<StaticRecord> for Outcome {
+    fn from(record: StaticRecord) -> Self {
+        Self::Static(Box::new(record))
+    }
+}
+
+/// Creates the fields of a contact of the `pair` in one step without friction.
+pub(super) fn pressed(pair: Pair, solution: Solution) -> RestFields {
+    let plastic = solution.plastic_interference();
+    fields(pair, Equilibrium::Frictionless(Box::new(solution)), plastic, None)
+}
+
+/// Creates the fields of a contact of the `pair` with this plastic interference of its cells.
+fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field; 2]>) -> RestFields {
+    let (grid, hardness) = (pair.lower_grid(), pair.min_hardness());
+    let (normal, shear) = match solution {
+        Equilibrium::Frictionless(solution) => (*solution, None),
+        Equilibrium::Frictional(solution) => {
+            let solution = *solution;
+            (solution.normal, Some((solution.shear, solution.displacement, solution.stick)))
+        }
+    };
+    let contact = pair.adhesion().map(|_| normal.contact_field());
+    // The heights are those of the prepared bodies, whatever the loading history did to them.
+    drop(normal.initial_gap);
+    let gap = pair.initial_gap(&pair.at_rest()) + &normal.displacement - normal.approach;
+    let mut fields = Vec::new();
+    let mut add = |name, unit, values| fields.push(NamedField { name, unit, values });
+    add("pressure", "Pa", normal.pressure);
+    if let Some(contact) = contact {
+        add("contact", "1", contact);
+    }
+    add("displacement", "m", normal.displacement);
+    add("gap", "m", gap);
+    add("lower", "m", pair.lower.heights);
+    add("upper", "m", pair.upper.heights);
+    add("plastic", "m", plastic);
+    if let CellValues::Field(cap) = normal.bounds.upper() {
+        add("cap", "Pa", cap.clone());
+    }
+    let stick = shear.map(|([qx, qy], [ux, uy], stick)| {
+        add("traction_x", "Pa", qx);
+        add("traction_y", "Pa", qy);
+        add("displacement_x", "m", ux);
+        add("displacement_y", "m", uy);
+        stick
+    });
+    if let Some([x, y]) = slip {
+        add("slip_x", "m", x);
+        add("slip_y", "m", y);
+    }
+    if let Some(stick) = stick {
+        add("stick", "1", stick);
+    }
+    RestFields { grid, approach: normal.approach, hardness, fields }
+}
+
+/// Names of the fields of the state of laws on the lower and on the upper body.
+const STATES: [(&str, [&str; 2]); 3] = [
+    (WEAR, ["wear_lower", "wear_upper"]),
+    (FILM, ["film_lower", "film_upper"]),
+    ("film_grown", ["film_grown_lower", "film_grown_upper"]),
+];
+
+/// Creates the fields of a contact that wore in place, with its worn bodies.
+fn worn_fields(contact: WornContact, friction: Option<Friction>) -> RestFields {
+    let WornContact { state: SlidingState { pair, .. }, solution, temperature, .. } = contact;
+    // Films have changed the hardness of the bodies.
+    let (grid, approach, hardness) = (pair.lower_grid(), solution.approach, pair.min_hardness());
+    let (gap, plastic) = (solution.gap(), solution.plastic_interference());
+    let mut fields = Vec::new();
+    let mut add = |name, unit, values| fields.push(NamedField { name, unit, values });
+    let shear = friction.map(|friction| solution.pressure.mapv(|p| friction.shear_limit(p)));
+    add("pressure", "Pa", solution.pressure);
+    add("displacement", "m", solution.displacement);
+    add("gap", "m", gap);
+    for (state, names) in STATES {
+        for (name, body) in names.into_iter().zip([&pair.lower, &pair.upper]) {
+            if let Some(State { values, .. }) = body.state.get(state) {
+                add(name, "m", values.clone());
+            }
+        }
+    }
+    add("lower", "m", pair.lower.heights);
+    add("upper", "m", pair.upper.heights);
+    add("plastic", "m", plastic);
+    if let CellValues::Field(cap) = solution.bounds.upper() {
+        add("cap", "Pa", cap.clone());
+    }
+    if let Some(shear) = shear {
+        let nothing = Field::zeros(shear.raw_dim());
+        add("traction_x", "Pa", shear);
+        add("traction_y", "Pa", nothing);
+    }
+    if let Some(temperature) = temperature {
+        add("temperature", "K", temperature);
+    }
+    RestFields { grid, approach, hardness, fields }
+}

@@ -1,0 +1,250 @@
+//! Output of a course to a results directory, step by step.
+//!
+//! The fields of a step are written first, then the state from which the next one continues, and last its row. A step is
+//! done once its row is written, and the state of the step before is then removed. The state after the last step is needed
+//! only for a motion, which may be extended by more passes.
+
+use std::path::PathBuf;
+
+use super::bodies::{add_bodies, add_volumes, set_caps};
+use super::state::{ROWS, increment, pass, update};
+use super::write::Writer;
+use super::{Results, cap_name, is_nth, pressure_name, temperature_name, traction_name};
+use crate::case::Keep;
+use crate::io::fields::FieldFile;
+use crate::subsurface::{Plan, SubsurfaceRecord};
+use crate::tables::{self, GrowingTable, Record};
+use asperity_base::error::Result;
+use asperity_base::grid::{CellValues, Field};
+use asperity_contact::motion::{
+    IncrementRecord, LoadedContact, Output, PassReport, Step, StepRecord, SweepRecord, UpdateRecord,
+};
+use asperity_contact::subsurface::Tractions;
+
+/// Writes each step of a course to files.
+pub struct StepWriter {
+    results: Results,
+    identity: String,
+    /// The table with a row for each step.
+    rows: GrowingTable,
+    /// Digest of all rows.
+    digest: String,
+    /// The table of the positions of the passes of a motion.
+    positions: Option<GrowingTable>,
+    /// Interval of the points of a sweep, or of the positions of a pass, whose fields are kept; 0 for none.
+    fields_every: usize,
+    /// The plan of the stress under the surface in each pass.
+    plan: Option<Plan>,
+    /// The passes whose plastic volumes are kept.
+    keep: Keep,
+}
+
+impl Output for StepWriter {
+    fn step(&mut self, step: &Step<'_>) -> Result<()> {
+        let number = step.number();
+        match step {
+            Step::Increment { state, .. } => {
+                let file = self.state(step, |file| increment::add(file, state));
+                self.add(number, file, &[], &state.increments[number - 1..])
+            }
+            Step::Flow { record, .. } => self.rows.add(std::slice::from_ref(*record)),
+            Step::Update { state, .. } => {
+                let file = self.state(step, |file| update::add(file, state));
+                self.add(number, file, &[], &state.updates[number..])
+            }
+            Step::Point { record, contact, .. } => {
+                if is_nth(number, self.fields_every) {
+                    self.write_point(number, contact)?;
+                }
+                let file = self.state(step, |_| ());
+                self.add(number, file, &[], std::slice::from_ref(*record))
+            }
+            Step::Pass(report) => {
+                self.write_pass(report)?;
+                let grids = [report.pair.lower_grid(), report.pair.upper_grid()];
+                let file = self.state(step, |file| pass::add(file, number, &grids, report.warm));
+                self.add(number, file, report.steps, std::slice::from_ref(report.record))?;
+                match self.keep {
+                    Keep::Last => self.results.remove(&self.results.flow_path(Some(number - 1))),
+                    Keep::Passes => Ok(()),
+                }
+            }
+        }
+    }
+}
+
+impl Writer {
+    /// Creates the output for the increments of a loading, after those that are `done`.
+    ///
+    /// # Errors
+    /// [`asperity_base::Error::File`].
+    pub fn increments(&self, done: &[IncrementRecord]) -> Result<StepWriter> {
+        self.steps(self.results.increments_path(), done.len(), tables::digest("", done))
+    }
+
+    /// Creates the output for the updates of a contact that wears in place, after those that are `done`.
+    ///
+    /// # Errors
+    /// [`asperity_base::Error::File`].
+    pub fn updates(&self, done: &[UpdateRecord]) -> Result<StepWriter> {
+        self.steps(self.results.updates_path(), done.len(), tables::digest("", done))
+    }
+
+    /// Creates the output for the points of a sweep, after those that are `done`, with the fields of every
+    /// `fields_every`-th (0 for none).
+    ///
+    /// # Errors
+    /// [`asperity_base::Error::File`].
+    pub fn points(&self, done: &[SweepRecord], fields_every: usize) -> Result<StepWriter> {
+        let writer = self.steps(self.results.sweep_path(), done.len(), tables::digest("", done))?;
+        Ok(StepWriter { fields_every, ..writer })
+    }
+
+    /// Creates the output for passes, with the pressures of every `pressure_every`-th position (0 for none), the stress
+    /// under the surface if there is a `plan`, and the volumes of elasto-plastic bodies.
+    ///
+    /// # Errors
+    /// [`asperity_base::Error::File`] if the results of earlier passes cannot be read.
+    pub fn passes(&self, pressure_every: usize, plan: Option<Plan>) -> Result<StepWriter> {
+        let passes = self.results.passes()?;
+        let steps = self.results.steps()?;
+        let digest = tables::digest_of_passes(&passes, &steps);
+        let writer = self.steps(self.results.passes_path(), passes.len(), digest)?;
+        let positions = Some(GrowingTable::open(self.results.steps_path(), steps.len())?);
+        Ok(StepWriter { positions, fields_every: pressure_every, plan, keep: self.keep(), ..writer })
+    }
+
+    /// Creates the output for steps, after `rows` rows with this digest.
+    fn steps(&self, table: PathBuf, rows: usize, digest: String) -> Result<StepWriter> {
+        Ok(StepWriter {
+            results: self.results.clone(),
+            identity: self.identity.clone(),
+            rows: GrowingTable::open(table, rows)?,
+            digest,
+            positions: None,
+            fields_every: 0,
+            plan: None,
+            keep: Keep::Last,
+        })
+    }
+}
+
+impl StepWriter {
+    /// Reads the stress under the surface in each of `passes` passes; empty without a plan.
+    ///
+    /// # Errors
+    /// [`asperity_base::Error::File`].
+    pub fn subsurface(&self, passes: usize) -> Result<Vec<SubsurfaceRecord>> {
+        let wanted = self.plan.iter().flat_map(|_| 1..=passes);
+        wanted.map(|pass| SubsurfaceRecord::read(&self.results.subsurface_path(Some(pass)))).collect()
+    }
+
+    /// Creates the file of the state after a step; `None` after the last step.
+    fn state(&self, step: &Step<'_>, add: impl FnOnce(&mut FieldFile)) -> Option<FieldFile> {
+        (!step.is_last()).then(|| {
+            let mut file = FieldFile::of_run(&self.identity, &self.results.state_path(step.number()));
+            add(&mut file);
+            file
+        })
+    }
+
+    /// Writes the state after a step, if another one follows, and appends the rows of its `positions` and its own row.
+    fn add<T: Record>(
+        &mut self,
+        number: usize,
+        state: Option<FieldFile>,
+        positions: &[StepRecord],
+        record: &[T],
+    ) -> Result<()> {
+        let digest = tables::digest(&tables::digest(&self.digest, positions), record);
+        let goes_on = state.is_some();
+        if let Some(mut state) = state {
+            state.set(ROWS, digest.as_str());
+            state.write()?;
+        }
+        if let Some(table) = &mut self.positions {
+            table.add(positions)?;
+        }
+        self.rows.add(record)?;
+        self.digest = digest;
+        match number.checked_sub(1).filter(|_| goes_on) {
+            Some(before) => self.results.remove(&self.results.state_path(before)),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes the fields of a point of a sweep.
+    fn write_point(&self, point: usize, contact: &LoadedContact) -> Result<()> {
+        let solution = contact.solution.normal();
+        let mut file = FieldFile::of_run(&self.identity, &self.results.point_path(point));
+        file.set("point", point).set("approach", solution.approach);
+        let mut add = |name: &str, unit: &str, field: &Field| {
+            file.add_field(name, unit, &solution.grid, [0.0, 0.0], field);
+        };
+        add("pressure", "Pa", &solution.pressure);
+        // The pressure alone does not say which cells are in contact.
+        if contact.record.adhesion.is_some() {
+            add("contact", "1", &solution.contact_field());
+        }
+        add("gap", "m", &solution.gap());
+        if solution.bounds.upper().min().is_finite() {
+            add("plastic", "m", &contact.plastic);
+        }
+        file.write()
+    }
+
+    /// Writes the fields of a pass.
+    fn write_pass(&self, report: &PassReport<'_>) -> Result<()> {
+        let pair = report.pair;
+        let results = &self.results;
+        let mut file = FieldFile::of_run(&self.identity, &results.fields_path(report.record.pass));
+        file.set("pass", report.record.pass);
+        set_caps(&mut file, report.min_hardness(), report.motion.friction.as_ref());
+        add_bodies(&mut file, pair);
+        let [lower, upper] = report.mean_pressure();
+        file.add_field("mean_pressure_lower", "Pa", &pair.lower_grid(), [0.0, 0.0], &lower);
+        file.add_field("mean_pressure_upper", "Pa", &pair.upper_grid(), [0.0, 0.0], &upper);
+        for (index, contact) in report.contacts.iter().enumerate() {
+            if self.fields_every > 0 && index % self.fields_every == 0 {
+                let pressure: Field = contact.pressure_field(pair.lower.width());
+                let corner = [contact.position.places()[0] * pair.pitch()[0], 0.0];
+                let grid = pair.grid(contact.position.columns);
+                file.add_field(&pressure_name(index + 1), "Pa", &grid, corner, &pressure);
+                if let Some(temperature) = contact.temperature_field(pair.lower.width()) {
+                    file.add_field(&temperature_name(index + 1), "K", &grid, corner, &temperature);
+                }
+                if let CellValues::Field(cap) = report.bounds(contact).upper() {
+                    file.add_field(&cap_name(index + 1), "Pa", &grid, corner, cap);
+                }
+                if let Some(sliding) = report.motion.sliding(contact.position.stroke) {
+                    let traction = pressure.mapv(|p| sliding.shear(p)[0]);
+                    file.add_field(&traction_name(index + 1), "Pa", &grid, corner, &traction);
+                }
+            }
+        }
+        file.write()?;
+        if let Some(plan) = &self.plan {
+            let pass = Some(report.record.pass);
+            let contact = &report.contacts[plan.index];
+            let pressure = contact.pressure_field(pair.lower.width());
+            let sliding = report.motion.sliding(contact.position.stroke);
+            let path = results.subsurface_path(pass);
+            let shear = |axis: usize| sliding.map(|sliding| pressure.mapv(|p| sliding.shear(p)[axis]));
+            let tractions = Tractions { shear: [shear(0), shear(1)], pressure };
+            let plan = plan.at(&contact.position, &pair.lower_grid());
+            let placements = pair.placements(&contact.position);
+            let states_under_load = report.plastic_volumes.iter().zip(report.states_under_load);
+            let plastic_state = states_under_load.into_iter().find(|(volume, _)| volume.body == plan.side());
+            let plastic_state = plastic_state.map(|(_, state)| (state, &placements[plan.side()]));
+            plan.write(FieldFile::of_run(&self.identity, &path), &path, pass, tractions, plastic_state)?;
+        }
+        let passes = report.record.pass;
+        if !report.plastic_volumes.is_empty() {
+            let mut file = FieldFile::of_run(&self.identity, &results.flow_path(Some(passes)));
+            file.set("pass", passes);
+            add_volumes(&mut file, report.plastic_volumes, report.plastic_volumes);
+            file.write()?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,130 @@
+//! Bad inputs are files that contain the expected message.
+//!
+//! Below the faulty line is `#^ message`, with its caret under the faulty place, then `#= hint: …` if the error has a hint.
+
+use std::path::{Path, PathBuf};
+
+use asperity_base::Error;
+use asperity_base::error::CaseError;
+use asperity_study::Case;
+use asperity_study::many::Study;
+
+#[test]
+fn every_bad_input_is_refused_with_the_message_it_holds() {
+    let files = files("bad");
+    assert!(files.len() > 90, "only {} bad inputs found", files.len());
+    let wrong: Vec<_> = files.iter().filter_map(|file| check(file, Case::load(file).err()).err()).collect();
+    assert!(wrong.is_empty(), "{} of {} files:\n{}", wrong.len(), files.len(), wrong.join("\n"));
+}
+
+#[test]
+fn every_bad_study_is_refused_with_the_message_it_holds() {
+    let files = files("bad_studies");
+    assert!(files.len() > 25, "only {} bad studies found", files.len());
+    let wrong: Vec<_> = files.iter().filter_map(|file| check(file, Study::load(file).err()).err()).collect();
+    assert!(wrong.is_empty(), "{} of {} files:\n{}", wrong.len(), files.len(), wrong.join("\n"));
+}
+
+#[test]
+fn a_file_that_is_not_there_is_named() {
+    let error = Case::load(Path::new("nowhere/case.toml")).unwrap_err();
+    assert!(matches!(&error, Error::File { .. }), "{error:?}");
+    assert!(error.to_string().starts_with("nowhere/case.toml: "), "{error}");
+}
+
+/// Pieces of good cases are cut out, doubled and exchanged. Most of these cases are rejected, none causes a panic, and the
+/// place of each error can be shown.
+#[test]
+fn a_damaged_case_never_panics() {
+    let good: Vec<_> = files("good").iter().map(|file| std::fs::read_to_string(file).unwrap()).collect();
+    arbtest::arbtest(|u| {
+        let mut text = u.choose(&good)?.clone();
+        for _ in 0..u.int_in_range(1..=3)? {
+            let place = |u: &mut arbtest::arbitrary::Unstructured<'_>, text: &str| {
+                let mut place = u.int_in_range(0..=text.len())?;
+                while !text.is_char_boundary(place) {
+                    place -= 1;
+                }
+                Ok(place)
+            };
+            let (a, b) = (place(u, &text)?, place(u, &text)?);
+            let piece: String = match u.int_in_range(0..=2)? {
+                0 => String::new(),
+                1 => (*u.choose(&["µ", "\"", "[", "=", "-", "1e999", "inf", "{", "\r\n", ".", "0"])?)
+                    .to_owned(),
+                _ => text[a.min(b)..a.max(b)].repeat(2),
+            };
+            let end = a.max(b).min(a.min(b) + 40);
+            let end = (a.min(b)..=end).rev().find(|end| text.is_char_boundary(*end)).unwrap();
+            text.replace_range(a.min(b)..end, &piece);
+        }
+        if let Err(error) = Case::parse(&text, Path::new("case.toml"), Path::new("")) {
+            let Error::Case(error) = error else { panic!("{error:?}") };
+            assert!(error.text.get(error.span.clone()).is_some(), "{error:?}");
+            assert!(error.line >= 1 && error.line <= text.lines().count() + 1, "{error:?}");
+        }
+        Ok(())
+    });
+}
+
+fn check(file: &Path, error: Option<Error>) -> Result<(), String> {
+    let name = file.file_name().unwrap().to_string_lossy();
+    let found = match error {
+        Some(Error::Case(error)) => error,
+        Some(other) => return Err(format!("{name}: {other:?}")),
+        None => return Err(format!("{name}: accepted")),
+    };
+    let expected = Expected::of(&found.text);
+    // Files are relative to the working directory.
+    let folder = format!("{}/", env!("CARGO_MANIFEST_DIR"));
+    let same = found.message.replace(&folder, "") == expected.message
+        && found.hint == expected.hint
+        && found.line == expected.line
+        && columns(&found).contains(&expected.column);
+    let CaseError { line, message, hint, .. } = &*found;
+    let columns = columns(&found);
+    if same {
+        assert_eq!(found.to_string(), format!("{}:{line}: {message}", file.display()));
+        Ok(())
+    } else {
+        Err(format!(
+            "{name}\n  found line {line} columns {columns:?}: {message}\n    {hint:?}\n  {expected:?}"
+        ))
+    }
+}
+
+#[derive(Debug)]
+struct Expected {
+    line: usize,
+    column: usize,
+    message: String,
+    hint: Option<String>,
+}
+
+impl Expected {
+    fn of(text: &str) -> Self {
+        let lines: Vec<_> = text.lines().collect();
+        let is_mark = |line: &&str| line.starts_with('#') && line[1..].trim_start().starts_with('^');
+        let mark = lines.iter().position(is_mark).expect("a line `#^ message`");
+        let (before, message) = lines[mark].split_once('^').unwrap();
+        Self {
+            line: mark, // counted from 1, the line above the mark
+            column: before.chars().count() + 1,
+            message: message.trim().to_owned(),
+            hint: lines.get(mark + 1).and_then(|line| line.strip_prefix("#= hint: ")).map(str::to_owned),
+        }
+    }
+}
+
+/// Returns the columns of the place; at the start of a line also the second, because the caret follows a `#`.
+fn columns(error: &CaseError) -> std::ops::RangeInclusive<usize> {
+    let width = error.text[error.span.clone()].chars().count().max(1);
+    error.column..=(error.column + width - 1).max(2)
+}
+
+fn files(kind: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/inputs").join(kind);
+    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    files
+}

@@ -1,0 +1,91 @@
+//! Contacts that wear in place: implicit updates, and the compliance used to solve them.
+
+use std::path::Path;
+
+use asperity_base::Error;
+use asperity_contact::motion::{Progress, UpdateRecord, Watch};
+use asperity_study::{Case, Existing, SurfaceInput};
+
+const CASE: &str = r#"
+[lower]
+young = "210 GPa"
+poisson = 0.3
+hardness = "2 GPa"
+conductivity = "46 W/(m K)"
+heat_capacity = "460 J/(kg K)"
+density = "7850 kg/m3"
+topography = { form = "flat", shape = [32, 32], pitch = "4 um" }
+wear = { coefficient = "1e-4 mm3/(N m)", under_film = "1e-5 mm3/(N m)" }
+film = { law = "mechano-chemical", max_thickness = "50 nm", x = 1e-14, c3 = "5 nm", c4 = 0.1, hardness = "1.5 GPa" }
+[upper]
+young = "210 GPa"
+poisson = 0.3
+conductivity = "46 W/(m K)"
+heat_capacity = "460 J/(kg K)"
+density = "7850 kg/m3"
+topography = { form = "sphere", radius = "5 mm", shape = [32, 32], pitch = "4 um" }
+wear = { energy = "1e-3 mm3/J" }
+[contact]
+load = "1 N"
+[friction]
+coefficient = 0.1
+coupling = "none"
+[sliding]
+distance = "50 mm"
+speed = "10 mm/s"
+updates = 8
+[temperature]
+bulk = "100 °C"
+"#;
+
+/// Stops after a number of updates.
+struct Stop(std::sync::atomic::AtomicUsize);
+
+impl Watch for Stop {
+    fn at(&self, _: &Progress) {}
+
+    fn update(&self, _: &UpdateRecord) {
+        self.0.fetch_sub(1, std::sync::atomic::Ordering::Relaxed);
+    }
+
+    fn stop(&self) -> bool {
+        self.0.load(std::sync::atomic::Ordering::Relaxed) == 0
+    }
+}
+
+#[test]
+fn a_case_slides_and_goes_on_after_an_interruption_with_the_same_bits() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = Case::parse(CASE, Path::new("case.toml"), folder.path()).unwrap();
+    let run = |name: &str, existing, watch: &dyn Watch| {
+        asperity_study::run(&case, SurfaceInput::default(), &folder.path().join(name), existing, watch)
+    };
+    let (summary, writer) = run("whole", Existing::Keep, &()).unwrap();
+    let whole = writer.results().clone();
+    let updates = whole.updates().unwrap();
+    assert_eq!(updates.len(), 9);
+    assert_eq!(summary.sliding.as_ref(), updates.last());
+    let last = updates.last().unwrap();
+    assert!((last.distance, last.time) == (0.05, 5.0) && last.max_temperature > 373.15);
+    assert!(last.lost("wear").iter().all(|volume| *volume > 0.0) && last.lost("film")[0] < 0.0);
+    // Proportional to the frictional energy, for any pressures: α μ W s.
+    assert!((last.lost("wear")[1] / (1e-12 * 0.1 * 0.05) - 1.0).abs() < 1e-9);
+    let names = whole.static_fields().unwrap().names().unwrap();
+    for name in ["pressure", "gap", "lower", "wear_lower", "wear_upper", "film_lower", "temperature"] {
+        assert!(names.iter().any(|known| known == name), "{name} is missing in {names:?}");
+    }
+    assert!(matches!(run("cut", Existing::Keep, &Stop(4.into())).err(), Some(Error::Interrupted)));
+    let (again, writer) = run("cut", Existing::Resume, &()).unwrap();
+    assert_eq!(again.sliding, summary.sliding);
+    assert_eq!(again.outcome, summary.outcome);
+    let text = |name: &str| std::fs::read_to_string(folder.path().join(name).join("updates.csv")).unwrap();
+    assert_eq!(text("cut"), text("whole"));
+    for name in names.iter().filter(|name| *name != "temperature") {
+        let [one, other] = [&whole, writer.results()]
+            .map(|results| results.static_fields().unwrap().read(name).unwrap().into_field().unwrap());
+        assert_eq!(one, other, "{name}");
+    }
+    assert!(!folder.path().join("cut/fields").exists());
+    let memory = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
+    assert_eq!(memory.updates, updates);
+}

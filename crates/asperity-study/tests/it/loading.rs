@@ -1,0 +1,307 @@
+//! Static contacts loaded stage after stage: plastic deformation is irreversible, and interruptions leave no trace.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+use asperity_base::{Error, Grid};
+use asperity_contact::motion::{Progress, Watch};
+use asperity_study::Existing;
+use asperity_study::case;
+use asperity_surface::{Form, Topography};
+
+// ---- interruptions ---------------------------------------------------------------------------------------
+
+/// Stops after a number of increments of a run, or never.
+struct Until {
+    solved: AtomicUsize,
+    most: usize,
+}
+
+impl Until {
+    fn increment(most: usize) -> Self {
+        Self { solved: AtomicUsize::new(0), most }
+    }
+}
+
+impl Watch for Until {
+    fn at(&self, progress: &Progress) {
+        self.solved.store(progress.solved, Relaxed);
+    }
+
+    fn stop(&self) -> bool {
+        self.solved.load(Relaxed) >= self.most
+    }
+}
+
+const BODIES: &str = "
+[lower]
+young = \"210 GPa\"
+poisson = 0.3
+hardness = \"0.6 GPa\"
+topography = { form = \"flat\", shape = [24, 22], pitch = \"1 um\" }
+[upper]
+young = \"70 GPa\"
+poisson = 0.25
+[upper.topography]
+form = \"sphere\"
+radius = \"1 mm\"
+shape = [24, 22]
+pitch = \"1 um\"
+plus = [{ generate = \"self-affine\", seed = 3, sq = \"20 nm\", hurst = 0.8, shortest = \"4 um\" }]
+";
+
+const PUSHED: &str = "
+[contact]
+load = \"50 mN\"
+[friction]
+coefficient = 0.3
+junction_growth = 9
+increments = 2
+[[history]]
+load = \"0.1 N\"
+force = [\"10 mN\", \"-5 mN\"]
+increments = 2
+[[history]]
+load = \"30 mN\"
+force = \"0 N\"
+increments = 2
+[[history]]
+approach = \"60 nm\"
+displacement = \"10 nm\"
+increments = 2
+";
+
+const PRESSED: &str = "
+[contact]
+mean_pressure = \"0.1 GPa\"
+[[history]]
+load = \"10 mN\"
+increments = 3
+[[history]]
+approach = \"80 nm\"
+increments = 2
+";
+
+fn parsed(text: &str) -> case::Case {
+    case::Case::parse(&format!("{BODIES}{text}"), "case.toml".as_ref(), "".as_ref()).unwrap()
+}
+
+/// Returns the bytes of all files without times and without the case, which does not contain the loading.
+fn outcome(directory: &Path) -> BTreeMap<String, Vec<u8>> {
+    let read = |name: &str| (name.to_owned(), fs::read(directory.join(name)).unwrap());
+    let mut files = BTreeMap::from(["increments.csv", "fields.h5"].map(read));
+    let summary = fs::read_to_string(directory.join("summary.json")).unwrap();
+    let lines = summary.lines().filter(|line| !line.contains("wall_time"));
+    files.insert("summary.json".to_owned(), lines.collect::<String>().into_bytes());
+    assert!(!directory.join("fields").exists(), "nothing is left under way");
+    files
+}
+
+#[test]
+fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
+    for (text, increments) in [(PUSHED, 8), (PRESSED, 6)] {
+        let case = parsed(text);
+        let folder = tempfile::tempdir().unwrap();
+        let whole = folder.path().join("whole");
+        asperity_study::run(&case, asperity_study::SurfaceInput::default(), &whole, Existing::Keep, &())
+            .unwrap();
+        let expected = outcome(&whole);
+        // After each increment, and once within one.
+        for stopped in 1..increments {
+            let directory = folder.path().join(format!("after-{stopped}"));
+            let outcome_of = |existing, most| {
+                asperity_study::run(
+                    &case,
+                    asperity_study::SurfaceInput::default(),
+                    &directory,
+                    existing,
+                    &Until::increment(most),
+                )
+            };
+            assert!(matches!(outcome_of(Existing::Keep, stopped), Err(Error::Interrupted)));
+            let rows = fs::read_to_string(directory.join("increments.csv")).unwrap().lines().count();
+            assert_eq!(rows, stopped + 1);
+            if stopped + 2 < increments {
+                // Killed after the state of an increment was written, before its row.
+                let state = directory.join(format!("fields/state-{stopped:04}.h5"));
+                let [kept, rows] =
+                    [&state, &directory.join("increments.csv")].map(|path| fs::read(path).unwrap());
+                assert!(matches!(outcome_of(Existing::Resume, stopped + 1), Err(Error::Interrupted)));
+                fs::write(&state, kept).unwrap();
+                fs::write(directory.join("increments.csv"), rows).unwrap();
+            }
+            asperity_study::run(
+                &case,
+                asperity_study::SurfaceInput::default(),
+                &directory,
+                Existing::Resume,
+                &(),
+            )
+            .unwrap();
+            assert!(outcome(&directory) == expected, "{text}: stopped after {stopped}");
+        }
+    }
+}
+
+#[test]
+fn a_loading_without_friction_leaves_its_increments_and_one_gap_with_what_was_taken_up() {
+    let folder = tempfile::tempdir().unwrap();
+    let summary = asperity_study::run(
+        &parsed(PRESSED),
+        asperity_study::SurfaceInput::default(),
+        folder.path(),
+        Existing::Keep,
+        &(),
+    )
+    .unwrap()
+    .0;
+    let results = asperity_study::Results::open(folder.path()).unwrap();
+    let rows = results.increments().unwrap();
+    assert_eq!(rows.iter().map(|row| row.stage).collect::<Vec<_>>(), [1, 2, 2, 2, 3, 3]);
+    assert!(rows.iter().all(|row| row.tangential_force_x == 0.0 && row.stick_area == 0.0));
+    let fields = results.static_fields().unwrap();
+    let read = |name| fields.read(name).unwrap().into_field().unwrap();
+    let [lower, upper, gap, plastic] = ["lower", "upper", "gap", "plastic"].map(read);
+    let asperity_study::Outcome::Static(record) = summary.outcome else { panic!("a static contact") };
+    assert!(record.shear.is_none());
+    let recomputed = &upper - &lower + &read("displacement") - record.approach;
+    assert_eq!(gap, recomputed);
+    let apart = &gap + &plastic;
+    let scale = read("displacement").std(0.0);
+    for (distance, p) in apart.iter().zip(&read("pressure")) {
+        assert!(*distance > -1e-5 * scale && (*p == 0.0 || *distance < 1e-5 * scale), "{distance:e}");
+    }
+    assert!(rows[0].plastic_volume > 0.0 && rows[3].plastic_volume >= rows[0].plastic_volume * (1.0 - 1e-6));
+    assert_eq!(rows[5].plastic_volume, record.plastic_volume);
+}
+
+/// Each is refused before anything is cleared.
+#[test]
+fn loads_that_what_slides_does_not_bear_are_refused_beforehand() {
+    let sliding =
+        "[contact]\nmean_pressure = \"0.5 GPa\"\n[friction]\ncoefficient = 0.5\njunction_growth = 9\n";
+    for (text, bears) in [
+        (format!("{sliding}sliding = [1, 0]"), false),
+        (format!("{sliding}increments = 2"), true),
+        (
+            format!("{sliding}[[history]]\nsliding = [1, 0]\nmean_pressure = \"0.1 GPa\"\nincrements = 20"),
+            false,
+        ),
+        (format!("{sliding}[[history]]\nsliding = [1, 0]\nmean_pressure = \"0.1 GPa\""), true),
+        (format!("{sliding}force = \"0.06 N\""), false),
+        (format!("{sliding}[motion]\nstrategy = \"overlap\"\nplastic_update = \"pass\""), false),
+        ("[contact]\nload = \"1 mN\"\n[[history]]\nload = \"1 N\"".to_owned(), false),
+    ] {
+        let case = parsed(&text);
+        let bodies = asperity_study::bodies(&case, asperity_study::SurfaceInput::default()).unwrap();
+        let found = asperity_study::estimate(&case, &bodies);
+        match found {
+            Ok(_) => assert!(bears, "{text}"),
+            Err(Error::BeyondPlasticLimit { load, limit }) => assert!(!bears && load >= limit, "{text}"),
+            Err(other) => panic!("{text}: {other}"),
+        }
+    }
+}
+
+#[test]
+fn what_friction_is_not_asked_rightly_is_said_beforehand() {
+    const ONE_STEP: &str = "loaded in one step";
+    const AT_ONCE: &str = "pressed and pushed in one step";
+    const ROUGH: &str = "steady rolling of a rough surface";
+    const TRACK: &str = "not flattened before";
+    let load = "[contact]\nload = \"50 mN\"\n[friction]\ncoefficient = 0.3\n";
+    let light = "[contact]\nload = \"5 mN\"\n[friction]\ncoefficient = 0.3\n";
+    let onwards = "[[history]]\nload = \"50 mN\"\nincrements = 20\n";
+    let elastic = |text: &str| text.replace("hardness = \"0.6 GPa\"\n", "");
+    let smooth =
+        |text: &str| text.lines().filter(|line| !line.starts_with("plus")).collect::<Vec<_>>().join("\n");
+    let rolling = format!("{BODIES}{load}creepage = 1e-3");
+    for (text, said) in [
+        (format!("{BODIES}{load}"), vec![ONE_STEP]),
+        (format!("{BODIES}{load}coupling = \"none\""), vec![]),
+        (format!("{BODIES}{load}increments = 10"), vec![]),
+        (format!("{BODIES}{light}{onwards}"), vec![]),
+        (format!("{BODIES}{load}").replace("0.3\n", "0.001\n"), vec![]),
+        (format!("{BODIES}{load}force = \"1 mN\""), vec![ONE_STEP, AT_ONCE]),
+        (format!("{BODIES}{load}increments = 10\nforce = \"1 mN\""), vec![]),
+        (format!("{BODIES}{load}sliding = [0, 1]"), vec![]),
+        (rolling.clone(), vec![ROUGH]),
+        (rolling.replace("0.6 GPa", "0.2 GPa"), vec![ROUGH, TRACK]),
+        (elastic(&rolling), vec![ROUGH]),
+        (smooth(&rolling), vec![]),
+        (smooth(&rolling).replace("0.6 GPa", "0.2 GPa"), vec![TRACK]),
+        (smooth(&elastic(&rolling)), vec![]),
+        (smooth(&rolling).replace("0.6 GPa", "0.2 GPa").replace("50 mN", "1 uN"), vec![]),
+    ] {
+        let case = case::Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap();
+        let bodies = asperity_study::bodies(&case, asperity_study::SurfaceInput::default()).unwrap();
+        let estimate = asperity_study::estimate(&case, &bodies).unwrap();
+        let warnings = [estimate.warnings, estimate.predicted].concat().join("\n");
+        for part in [ONE_STEP, AT_ONCE, ROUGH, TRACK] {
+            assert_eq!(warnings.contains(part), said.contains(&part), "{part}: {text}\n{warnings}");
+        }
+    }
+}
+
+/// A surface from a file is rough because of its heights, not because it comes from a file.
+#[test]
+fn what_rolls_from_a_file_is_rough_by_what_it_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "[lower]\nyoung = \"210 GPa\"\npoisson = 0.3\nhardness = \"20 GPa\"\ntopography = { form = \"flat\" }\n\
+                [upper]\nyoung = \"210 GPa\"\npoisson = 0.3\ntopography = { file = \"ball.npy\", pitch = \"1 um\" }\n\
+                [contact]\nload = \"5 mN\"\n[friction]\ncoefficient = 0.3\ncreepage = 1e-3\n";
+    let ball = Form::Sphere { radius: 1e-3 }.on(&Grid::new([24, 24], [1e-6; 2]).unwrap()).unwrap();
+    let rough = |amplitude: f64| {
+        let mut heights = ball.heights().clone();
+        heights.indexed_iter_mut().for_each(|((i, j), z)| *z += amplitude * ((i * 7 + j * 5) % 3) as f64);
+        Topography::new(*ball.grid(), heights).unwrap()
+    };
+    for (surface, is_rough) in [(ball.clone(), false), (rough(1e-11), false), (rough(2e-8), true)] {
+        surface.write(folder.path().join("ball.npy")).unwrap();
+        let path = folder.path().join("case.toml");
+        let case = case::Case::parse(text, &path, folder.path()).unwrap();
+        let bodies = asperity_study::bodies(&case, asperity_study::SurfaceInput::default()).unwrap();
+        let estimate = asperity_study::estimate(&case, &bodies).unwrap();
+        let warnings = [estimate.warnings, estimate.predicted].concat();
+        let said = |part: &str| warnings.iter().any(|warning| warning.contains(part));
+        assert_eq!(said("steady rolling of a rough surface"), is_rough, "{warnings:?}");
+        assert!(!said("not flattened before"), "{warnings:?}");
+    }
+}
+
+#[test]
+fn what_only_the_answer_shows_is_said_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let warnings = |name: &str, text: &str| {
+        let case = case::Case::parse(text, "case.toml".as_ref(), "".as_ref()).unwrap();
+        let summary = asperity_study::run(
+            &case,
+            asperity_study::SurfaceInput::default(),
+            &folder.path().join(name),
+            Existing::Keep,
+            &(),
+        )
+        .unwrap()
+        .0;
+        summary.warnings.join("\n")
+    };
+    let contact = "[contact]\nload = \"20 mN\"\n[friction]\ncoefficient = 0.3\nincrements = 2\n";
+    let both = |increments: usize| {
+        format!(
+            "{BODIES}{contact}[[history]]\nload = \"0.1 N\"\nforce = \"20 mN\"\nincrements = {increments}"
+        )
+    };
+    assert!(warnings("coarse", &both(1)).contains("`dissipation` has an error of"));
+    let fine = both(60).replace("increments = 2", "increments = 30");
+    assert!(!warnings("fine", &fine).contains("`dissipation` has an error of"));
+    // Reported once, whether it is predictable or not.
+    let rolling = format!("{BODIES}{}creepage = 1e-3", contact.replace("increments = 2\n", ""));
+    let rolling = rolling.replace("0.6 GPa", "0.2 GPa");
+    assert_eq!(warnings("rolling", &rolling).matches("not flattened before").count(), 1);
+    let slow = rolling
+        .replace("sq = \"20 nm\"", "sq = \"5 nm\"")
+        .replace("shortest = \"4 um\"", "shortest = \"10 um\"");
+    assert_eq!(warnings("slow", &slow).matches("cells yield").count(), 1);
+}

@@ -1,0 +1,23 @@
+//! Tests of case files, runs and results, as one program with a module for each subject.
+
+mod bad_inputs;
+mod case_file;
+mod common_grid;
+mod documents;
+mod elasto_plastic;
+mod extremes;
+mod good_inputs;
+mod hardness;
+mod in_place;
+mod kinematics;
+mod limits;
+mod loading;
+mod passage;
+mod real_surface;
+mod rolling;
+mod smooth_forms;
+mod subsurface;
+mod sweep;
+mod warnings;
+mod watch;
+mod written;

@@ -1,0 +1,321 @@
+//! Conductance and flow of the contacts of every course.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use asperity_base::{Error, Field, Grid};
+use asperity_contact::conductance::{self, Joint, Kind};
+use asperity_contact::flow::{self, Along, Ends, Fluid, Settings, Sides};
+use asperity_contact::motion::{Progress, Watch};
+use asperity_contact::operator::{Boundary, FreeFft, Operator, PeriodicFft};
+use asperity_contact::solver::Params;
+use asperity_study::{Case, ConductanceRecord, Existing, GapFlowRecord, Results, SurfaceInput};
+use asperity_surface::Axis;
+
+const PASSAGE: &str = "
+[conductance]
+film = \"2e-8 m2 K/W\"
+gas = \"0.026 W/(m K)\"
+jump = \"0.3 um\"
+drop = \"10 K\"
+
+[flow]
+viscosity = \"80 mPa s\"
+pressure = \"1 bar\"
+";
+
+/// The fluid of this `[flow]`.
+const OIL: Fluid = Fluid { viscosity: 0.08, drop: 1e5, outlet: None };
+
+/// Two rough bodies under this `[contact]`, with further tables and keys of the lower body.
+fn case(lower: &str, contact: &str, more: &str) -> Case {
+    let text = format!(
+        "[lower]
+young = \"210 GPa\"
+poisson = 0.3
+conductivity = \"46 W/(m K)\"
+topography = {{ generate = \"self-affine\", hurst = 0.8, sq = \"0.2 um\", shape = [24, 20], pitch = \"1 um\", seed = 3 }}
+{lower}
+[upper]
+young = \"210 GPa\"
+poisson = 0.3
+conductivity = \"20 W/(m K)\"
+topography = {{ generate = \"self-affine\", hurst = 0.8, sq = \"0.2 um\", shape = [24, 20], pitch = \"1 um\", seed = 4 }}
+[contact]
+{contact}
+{more}
+{PASSAGE}"
+    );
+    Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap()
+}
+
+/// A course with its name, its case, and the number of contacts that are observed.
+fn courses() -> Vec<(&'static str, Case, usize)> {
+    let free = "load = \"0.05 N\"";
+    let periodic = "load = \"0.05 N\"\nboundary = \"periodic\"";
+    let wear = "wear = { coefficient = \"1e-6 mm3/(N m)\" }";
+    vec![
+        ("pressed", case("hardness = \"6 GPa\"", free, ""), 1),
+        ("periodic", case("", periodic, ""), 1),
+        ("swept", case("", "loads = [\"0.01 N\", \"0.05 N\", \"0.2 N\"]\nboundary = \"periodic\"", ""), 3),
+        ("loaded", case("hardness = \"6 GPa\"", free, "[[history]]\nload = \"0.02 N\"\nincrements = 3"), 4),
+        ("rubbed", case("", free, "[friction]\ncoefficient = 0.3\nforce = \"5 mN\"\nincrements = 2"), 2),
+        ("worn", case(wear, free, "[sliding]\ndistance = \"1 mm\"\nupdates = 4"), 5),
+        (
+            "plastic",
+            case(
+                "plasticity = { yield_stress = \"1 GPa\" }",
+                free,
+                "[plasticity]\ndepth = \"6 um\"\nlayers = 6\nincrements = 2\nunload = true",
+            ),
+            2,
+        ),
+        ("overlap", case(wear, free, "[motion]\nspeed = \"1 m/s\"\nstride = 7\npasses = 2"), 2 * 7),
+        (
+            "to and fro",
+            case("", free, "[motion]\nspeed = \"1 m/s\"\nstride = 12\npasses = 2\npath = \"reciprocating\""),
+            0,
+        ),
+        (
+            "shift",
+            case(
+                "hardness = \"3 GPa\"",
+                periodic,
+                "[motion]\nstrategy = \"shift\"\nstride = 8\npasses = 2\nplastic_update = \"step\"\nspeed_upper = \"1 m/s\"",
+            ),
+            2 * 3,
+        ),
+    ]
+}
+
+fn run(
+    case: &Case,
+    directory: &Path,
+    existing: Existing,
+    watch: &dyn Watch,
+) -> asperity_base::Result<Results> {
+    asperity_study::run(case, SurfaceInput::default(), directory, existing, watch)
+        .map(|(_, writer)| writer.results().clone())
+}
+
+/// The conductance of a contact with a film and gas, without the program around it.
+fn conducts(grid: Grid, boundary: Boundary, pressure: &Field, gap: &Field) -> f64 {
+    let composite = conductance::composite_conductivity(46.0, 20.0).unwrap();
+    let mut operator: Box<dyn Operator> = match boundary {
+        Boundary::PERIODIC => Box::new(PeriodicFft::new(grid, composite)),
+        _ => Box::new(FreeFft::new(grid, composite)),
+    };
+    let joint = Joint::new(Kind::Thermal, composite)
+        .with_film(2e-8)
+        .with_gas(conductance::Gas { conductivity: 0.026, jump: 0.3e-6 });
+    let touching = pressure.mapv(|p| p > 0.0);
+    let params = Params::default().with_tolerance(1e-9);
+    conductance::solve(operator.as_mut(), &touching, Some(gap), &joint, None, &params)
+        .unwrap()
+        .conductance
+        .unwrap()
+}
+
+/// The leakage through a gap along x, 0 where the bodies touch.
+fn leaks(grid: Grid, boundary: Boundary, pressure: &Field, gap: &Field) -> f64 {
+    let mut open = gap.mapv(|gap| gap.max(0.0));
+    open.zip_mut_with(pressure, |gap, p| *gap = if *p > 0.0 { 0.0 } else { *gap });
+    let settings = match boundary {
+        Boundary::PERIODIC => Settings { along: Along::X, ..Settings::default() },
+        _ => {
+            Settings { along: Along::X, ends: Ends::Reservoirs, sides: Sides::Closed, ..Settings::default() }
+        }
+    };
+    let found = flow::solve(&open, &grid, &settings).unwrap();
+    found.along[0].as_ref().unwrap().leakage(&OIL).unwrap()
+}
+
+fn near(one: f64, other: f64, within: f64) -> bool {
+    (one - other).abs() <= within * other.abs()
+}
+
+#[test]
+fn every_course_says_what_its_contacts_let_through() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, case, contacts) in courses() {
+        let results = run(&case, &folder.path().join(name), Existing::Keep, &()).unwrap();
+        let rows = results.conductance().unwrap();
+        let flows = results.flow().unwrap();
+        assert!(rows.len() == contacts || contacts == 0 && !rows.is_empty(), "{name}: {} rows", rows.len());
+        assert_eq!(flows.len(), 2 * rows.len(), "{name}");
+        for (row, flows) in rows.iter().zip(flows.chunks(2)) {
+            let thermal = row.thermal.as_ref().unwrap();
+            assert!(
+                row.electrical.is_none() && thermal.thermal_conductance.unwrap() > 0.0,
+                "{name}: {row:?}"
+            );
+            assert!((row.spot_share + row.gas_share - 1.0).abs() < 1e-9, "{name}: {row:?}");
+            assert!(near(row.power.unwrap(), 10.0 * thermal.thermal_conductance.unwrap(), 1e-12));
+            for (flow, along) in flows.iter().zip([Axis::X, Axis::Y]) {
+                assert_eq!((flow.pass, Some(flow.step), flow.along), (row.pass, row.step, along), "{name}");
+                assert!(flow.load == row.load && flow.contact_area == row.contact_area, "{name}");
+                assert!(
+                    flow.leakage >= 0.0 && (flow.leakage > 0.0) == (flow.critical_gap > 0.0),
+                    "{name}: {flow:?}"
+                );
+            }
+        }
+        let summary = results.summary().unwrap();
+        if case.motion.is_some() {
+            let passes: Vec<_> = summary.conductance.iter().map(|row| (row.pass, row.step)).collect();
+            assert_eq!(passes, [(Some(1), None), (Some(2), None)], "{name}");
+            let of_last: Vec<&ConductanceRecord> = rows.iter().filter(|row| row.pass == Some(2)).collect();
+            let mean =
+                of_last.iter().map(|row| row.conductance().unwrap()).sum::<f64>() / of_last.len() as f64;
+            assert!(near(summary.conductance[1].conductance().unwrap(), mean, 1e-12), "{name}");
+        } else {
+            assert_eq!(summary.conductance.first(), rows.last(), "{name}");
+            // As by the solvers on the fields that are written.
+            let fields = results.static_fields().unwrap();
+            let read = |name: &str| fields.read(name).unwrap();
+            let pitch = read("gap").pitch;
+            let [pressure, gap, flux, rate] =
+                ["pressure", "gap", "flux", "flow_x"].map(|name| read(name).into_field().unwrap());
+            let grid = Grid::new([gap.nrows(), gap.ncols()], [pitch[0], pitch[1]]).unwrap();
+            let boundary = case.contact.boundary;
+            // The last update of a contact that wears is that of the bodies before they wear.
+            let within = if name == "worn" { 0.02 } else { 1e-5 };
+            let last = rows.last().unwrap();
+            let alone = conducts(grid, boundary, &pressure, &gap);
+            assert!(near(last.conductance().unwrap(), alone, within), "{name}: {last:?} {alone}");
+            assert!(near(grid.cell_area() * flux.sum(), 10.0 * last.conductance().unwrap(), 1e-5), "{name}");
+            let flow = &flows[flows.len() - 2];
+            let alone = leaks(grid, boundary, &pressure, &gap);
+            // A gap to the third power.
+            assert!(near(flow.leakage, alone, 10.0 * within), "{name}: {flow:?} {alone}");
+            assert_eq!(flow.leakage > 0.0, rate.iter().any(|rate| *rate > 0.0), "{name}");
+            assert_eq!(summary.flow, GapFlowRecord::last(&flows), "{name}");
+            let in_memory = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
+            assert_eq!((&in_memory.conductance, &in_memory.gap_flow), (&rows, &flows), "{name}");
+        }
+    }
+}
+
+/// Stops after some contacts.
+struct After(AtomicUsize);
+
+impl Watch for After {
+    fn at(&self, _: &Progress) {
+        let _ = self.0.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(1));
+    }
+
+    fn stop(&self) -> bool {
+        self.0.load(Ordering::Relaxed) == 0
+    }
+}
+
+#[test]
+fn a_resumed_run_has_the_tables_of_an_uninterrupted_one() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, case, _) in
+        courses().into_iter().filter(|(name, ..)| *name != "pressed" && *name != "periodic")
+    {
+        let whole = folder.path().join(name);
+        run(&case, &whole, Existing::Keep, &()).unwrap();
+        let table = |directory: &Path, name: &str| std::fs::read_to_string(directory.join(name)).unwrap();
+        for contacts in [1, 2, 3, 30] {
+            let cut = folder.path().join(format!("{name} {contacts}"));
+            match run(&case, &cut, Existing::Keep, &After(contacts.into())) {
+                Err(Error::Interrupted) => {
+                    run(&case, &cut, Existing::Resume, &()).unwrap();
+                }
+                other => drop(other.unwrap()),
+            }
+            for file in ["conductance.csv", "flow.csv"] {
+                assert_eq!(table(&cut, file), table(&whole, file), "{name}: {contacts}");
+            }
+        }
+    }
+}
+
+#[test]
+fn positions_that_are_kept_have_their_fields() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, case, _) = courses().into_iter().find(|(name, ..)| *name == "overlap").unwrap();
+    let results = run(&case, folder.path(), Existing::Keep, &()).unwrap();
+    let names = |name: &str| results.observed_fields(name, 2).unwrap().names().unwrap();
+    assert_eq!(names("conductance"), ["flux_00001"]);
+    assert!(names("flow").contains(&"fluid_pressure_x_00001".to_owned()), "{:?}", names("flow"));
+}
+
+#[test]
+fn each_axis_has_the_ends_and_sides_of_its_boundary() {
+    for [x, y] in [[true, false], [false, true]] {
+        let [one, other] = [x, y].map(|periodic| if periodic { "periodic" } else { "free" });
+        let case = case("", &format!("load = \"0.05 N\"\nboundary = [\"{one}\", \"{other}\"]"), "");
+        let rest = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
+        let gap = rest.fields.fields.iter().find(|field| field.name == "gap").unwrap().values.clone();
+        let pressure = rest.fields.fields.iter().find(|field| field.name == "pressure").unwrap();
+        let gap = ndarray::Zip::from(&gap)
+            .and(&pressure.values)
+            .map_collect(|gap, p| if *p > 0.0 { 0.0 } else { gap.max(0.0) });
+        let grid = Grid::new([24, 20], [1e-6; 2]).unwrap();
+        let ends = |periodic| if periodic { Ends::Periodic } else { Ends::Reservoirs };
+        let sides = |periodic| if periodic { Sides::Periodic } else { Sides::Closed };
+        let settings = [(x, y), (y, x)].map(|(along, across)| (ends(along), sides(across)));
+        for (axis, (ends, sides)) in settings.into_iter().enumerate() {
+            let along = [Along::X, Along::Y][axis];
+            let found =
+                flow::solve(&gap, &grid, &Settings { ends, sides, along, ..Settings::default() }).unwrap();
+            let alone = found.along[axis].as_ref().unwrap().leakage(&OIL).unwrap();
+            let row = &rest.gap_flow[axis];
+            assert!(alone > 0.0 && near(row.leakage, alone, 1e-9), "{one} {axis}: {row:?} {alone}");
+        }
+    }
+}
+
+#[test]
+fn a_gas_has_the_fields_of_its_leakage() {
+    let (inlet, outlet) = (5e5, 2e5);
+    let mut case = case("", "load = \"0.05 N\"", "");
+    let liquid = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
+    let spec = case.flow.as_mut().unwrap();
+    (spec.gas, spec.outlet, spec.pressure) = (true, Some(outlet), inlet - outlet);
+    let gas = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
+    let field = |rest: &asperity_study::StaticResult, name: &str| {
+        rest.fields.fields.iter().find(|field| field.name == name).unwrap().values.clone()
+    };
+    let ratio = gas.gap_flow[0].leakage / liquid.gap_flow[0].leakage;
+    assert!(near(ratio, (inlet * inlet - outlet * outlet) / (2.0 * outlet * 1e5), 1e-12), "{ratio}");
+    let rates = ["flow_x", "flow_y"].map(|name| (field(&liquid, name), field(&gas, name)));
+    for (liquid, gas) in rates {
+        assert!(liquid.iter().zip(&gas).all(|(liquid, gas)| (gas - ratio * liquid).abs() <= 1e-12 * gas));
+    }
+    // The square of the absolute pressure falls as the pressure of a liquid does.
+    let (liquid, gas) = (field(&liquid, "fluid_pressure_x"), field(&gas, "fluid_pressure_x"));
+    assert!(liquid.iter().any(|p| *p > 0.0 && *p < 1e5));
+    for (liquid, gas) in liquid.iter().zip(&gas) {
+        let square = outlet * outlet + liquid / 1e5 * (inlet * inlet - outlet * outlet);
+        assert!(near(gas + outlet, square.sqrt(), 1e-12), "{liquid} {gas}");
+    }
+}
+
+#[test]
+fn a_path_to_and_fro_has_one_flush_position() {
+    let folder = tempfile::tempdir().unwrap();
+    let motion = "[motion]\nspeed = \"1 m/s\"\nstride = 12\npasses = 2\npath = \"reciprocating\"";
+    let mut case = case("", "load = \"0.05 N\"", motion);
+    case.flow.as_mut().unwrap().every = 0;
+    let results = run(&case, folder.path(), Existing::Keep, &()).unwrap();
+    let seen: Vec<_> = results.flow().unwrap().iter().map(|row| (row.pass, row.step, row.along)).collect();
+    let at = |pass| [Axis::X, Axis::Y].map(|along| (Some(pass), seen[0].1, along));
+    assert_eq!(seen, [at(1), at(2)].concat());
+}
+
+#[test]
+fn positions_are_looked_at_in_parallel_with_the_same_bits() {
+    let tables = [1, 3].map(|threads| {
+        let folder = tempfile::tempdir().unwrap();
+        let case = case("", "load = \"0.05 N\"", "[motion]\nspeed = \"1 m/s\"\nstride = 3\npasses = 2");
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| run(&case, folder.path(), Existing::Keep, &()).map(drop)).unwrap();
+        ["conductance.csv", "flow.csv"].map(|name| std::fs::read_to_string(folder.path().join(name)).unwrap())
+    });
+    assert_eq!(tables[0], tables[1]);
+    assert!(tables[0].iter().all(|table| table.lines().count() > 2 * 15), "{tables:?}");
+}
