@@ -12,8 +12,9 @@ use asperity::study::{Bodies, Case, Demand, Estimate, MountedSurface, Plan, Surf
 use asperity::units::{self, Dimension, bytes};
 
 use crate::args::Check;
-use crate::report::{Outcome, clipped, note, print};
-use crate::{closed_form, machine, passage, place};
+use crate::report::{Outcome, note, print};
+use crate::{machine, place};
+use asperity_report::words::{clipped, closed_form, passage};
 
 pub(crate) fn check(arguments: &Check) -> Outcome {
     let case = place::case(&arguments.case, "check")?;

@@ -10,11 +10,12 @@ use asperity::{Choice, Field};
 use serde_json::{Value, json};
 
 use crate::args::Conductance;
-use crate::draw::Unit;
-use crate::figures::{FLUX, flux_map};
 use crate::machine;
-use crate::passage::{self, Files, line};
+use crate::maps::{self, Files, line};
 use crate::report::{Failure, Outcome, print, report_warning};
+use asperity_report::draw::Unit;
+use asperity_report::figures::{FLUX, flux_map};
+use asperity_report::words::passage;
 
 /// Memory of a solution, bytes a cell.
 const MEMORY: f64 = 260.0;
@@ -28,8 +29,8 @@ pub(crate) fn conductance(arguments: &Conductance) -> Outcome {
         return Err(Failure::usage(message, None));
     }
     let files = Files::new(&arguments.writing, &arguments.input.file, arguments.drawing.paper())?;
-    let contact = passage::read(&arguments.input)?;
-    let gap = arguments.gap.as_ref().map(|path| passage::read_gap(path, &arguments.input, &contact));
+    let contact = maps::read(&arguments.input)?;
+    let gap = arguments.gap.as_ref().map(|path| maps::read_gap(path, &arguments.input, &contact));
     let gap = gap.transpose()?;
     let grid = *contact.grid();
     machine::holds(MEMORY * grid.cells() as f64)?;
@@ -84,7 +85,7 @@ impl Found {
         let percent = |share: f64| format!("{} %", format_number(100.0 * share));
         let mut contact = format!(
             "{}; {} in contact",
-            passage::cells(grid),
+            maps::cells(grid),
             percent(self.touching as f64 / grid.cells() as f64)
         );
         match spots.count() {

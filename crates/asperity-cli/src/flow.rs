@@ -9,11 +9,12 @@ use asperity::{Field, Grid};
 use serde_json::{Value, json};
 
 use crate::args::Flow;
-use crate::draw::{Quantity, Unit};
-use crate::figures::{FLOW, flow_map};
 use crate::machine;
-use crate::passage::{self, Files, line};
+use crate::maps::{self, Files, line};
 use crate::report::{Outcome, print, report_warning};
+use asperity_report::draw::{Quantity, Unit};
+use asperity_report::figures::{FLOW, flow_map};
+use asperity_report::words::passage;
 
 /// Names of the axes.
 const AXES: [&str; 2] = ["x", "y"];
@@ -21,7 +22,7 @@ const AXES: [&str; 2] = ["x", "y"];
 pub(crate) fn flow(arguments: &Flow) -> Outcome {
     let files = Files::new(&arguments.writing, &arguments.input.file, arguments.drawing.paper())?;
     let fluid = fluid(arguments)?;
-    let gap = passage::read(&arguments.input)?;
+    let gap = maps::read(&arguments.input)?;
     let (gap, grid) = (gap.heights(), gap.grid());
     machine::holds(flow::memory(grid.shape))?;
     let Flow { ends, sides, faces, along, .. } = *arguments;
@@ -84,7 +85,7 @@ impl Found<'_> {
         let flow = &self.flow;
         let closed = format_number(100.0 * flow.closed_share);
         let mean = format(flow.mean_gap, Dimension::Length);
-        let mut text = line("gap", &format!("{}; mean {mean}, {closed} % closed", passage::cells(self.grid)));
+        let mut text = line("gap", &format!("{}; mean {mean}, {closed} % closed", maps::cells(self.grid)));
         for (axis, along, leakage) in self.along() {
             let name = AXES[axis];
             let permeability = format(along.permeability, Dimension::Volume);

@@ -2,17 +2,13 @@
 
 mod args;
 mod check;
-mod closed_form;
 mod conductance;
-mod draw;
 mod example;
-mod figures;
 mod flow;
 mod machine;
-mod numbers;
+mod maps;
 mod page;
 mod paper;
-mod passage;
 mod place;
 mod plot;
 mod report;
@@ -28,8 +24,8 @@ use std::ffi::OsString;
 use clap::Parser;
 
 use args::{Arguments, Command};
+pub use asperity_report::page::make as write_report;
 pub use machine::{available as available_memory, name as machine_name, on_machine as memory_of_machine};
-pub use page::make as write_report;
 pub use report::{Program, print_data, report_error, report_warning};
 pub use run::text as text_of_results;
 pub use signals::survive_size_limit;

@@ -1,9 +1,9 @@
 //! `asperity plot`: the figures of a results directory, drawn again.
 
 use crate::args::Plot;
-use crate::figures::{self, FigureOptions};
 use crate::place;
 use crate::report::{Failure, Outcome, print};
+use asperity_report::figures::{self, FigureOptions};
 
 /// Draws the figures and prints their paths.
 pub(crate) fn plot(arguments: &Plot) -> Outcome {

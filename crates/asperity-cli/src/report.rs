@@ -9,7 +9,8 @@ use asperity::Error;
 use asperity::error::{CaseError, LoadLimit};
 use asperity::units::{self, Dimension};
 
-use crate::draw;
+use asperity_report::draw;
+use asperity_report::words::{MAX_CHARACTERS, MAX_LINES, clipped};
 
 /// Failure of a command.
 #[derive(Debug)]
@@ -44,6 +45,16 @@ impl From<Error> for Failure {
 impl From<draw::Error> for Failure {
     fn from(error: draw::Error) -> Self {
         Self::Figure(error)
+    }
+}
+
+impl From<asperity_report::Error> for Failure {
+    fn from(error: asperity_report::Error) -> Self {
+        match error {
+            asperity_report::Error::Results(error) => Self::Library(error),
+            asperity_report::Error::Figure(error) => Self::Figure(error),
+            asperity_report::Error::Missing { message, hint } => Self::Usage { message, hint },
+        }
     }
 }
 
@@ -213,36 +224,6 @@ pub(crate) fn message(failure: &Failure) -> String {
         Failure::Usage { message, .. } => message.clone(),
     }
 }
-
-/// Longest message that is shown in full, in characters: a few lines of a terminal.
-const MAX_CHARACTERS: usize = 600;
-
-/// Limits a message to one paragraph of bounded length; a longer message keeps its beginning and its end. Control
-/// characters are escaped.
-pub(crate) fn clipped(text: &str) -> String {
-    let shown = |text: &str| -> String {
-        let escaped = |c: char| -> String {
-            if c.is_control() && c != '\n' { c.escape_default().collect() } else { c.into() }
-        };
-        let lines: Vec<_> = text.lines().map(|line| line.chars().map(escaped).collect::<String>()).collect();
-        lines.join("\n")
-    };
-    let ends = |n: usize| {
-        let begin = text.char_indices().nth(n).map_or(text.len(), |(at, _)| at);
-        let end = text.char_indices().rev().nth(n - 1).map_or(0, |(at, _)| at);
-        [begin, end]
-    };
-    let [longest, _] = ends(MAX_CHARACTERS);
-    if longest == text.len() && text.lines().count() <= MAX_LINES {
-        return shown(text);
-    }
-    let [begin, end] = ends(MAX_CHARACTERS / 3);
-    let flat = |text: &str| shown(text).replace('\n', " ");
-    format!("{} … {}", flat(&text[..begin]), flat(&text[end.max(begin)..]))
-}
-
-/// Largest number of lines of a message that is shown in full.
-const MAX_LINES: usize = 8;
 
 /// Returns the lines of the case with the mistake, and their start in its text.
 fn lines(case: &CaseError) -> Range<usize> {

@@ -8,9 +8,11 @@ use asperity::Error;
 use asperity::study::many::{self, Computed, Folder, Queue, State, Study, Table, Tally, Task};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::report::{Failure, Outcome, clipped, note, print};
+use crate::report::{Failure, Outcome, note, print};
 use crate::signals::Stop;
-use crate::{args, machine, page};
+use crate::{args, machine};
+use asperity_report::page;
+use asperity_report::words::clipped;
 
 /// More cases than these are computed only on request.
 const MANY: usize = 5000;

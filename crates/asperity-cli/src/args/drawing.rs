@@ -2,14 +2,14 @@
 
 use clap::Args;
 
-use super::values::{Pair, factor, positive_length, range};
-use crate::draw::{Format, Paper};
+use super::values::{Pair, choice, factor, positive_length, range};
+use asperity_report::draw::{Format, Paper};
 
 /// The file type, resolution and width of figures.
 #[derive(Debug, Args)]
 pub(crate) struct Drawing {
     /// File type: pixels, or vectors with selectable text
-    #[arg(long, value_enum, default_value = "png")]
+    #[arg(long, default_value = "png", value_parser = choice::<Format>())]
     format: Format,
     /// Dots per inch
     #[arg(long, value_name = "N", default_value_t = 300.0, value_parser = dpi)]

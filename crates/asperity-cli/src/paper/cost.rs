@@ -11,7 +11,7 @@ use asperity::units::{Dimension, Second, format};
 use indicatif::ProgressBar;
 
 use super::{CUTOFF, PITCH, POISSON, SQ, YOUNG, pair};
-use crate::draw::{self, Axis, Caption, Chart, Charts, Mark, Paper, Series, Unit};
+use asperity_report::draw::{self, Axis, Caption, Chart, Charts, Mark, Paper, Series, Unit};
 
 /// Number of timings of each size. Both strategies and all sizes alternate, so that a temporarily slow machine
 /// affects all of them.

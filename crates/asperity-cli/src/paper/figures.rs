@@ -16,10 +16,12 @@ use indicatif::ProgressBar;
 use ndarray::s;
 
 use super::{CUTOFF, PITCH, SQ, pair};
-use crate::draw::{self, Caption, Colours, Figure, Map, Maps, Paper as Sheet, Quantity, Relief, Unit};
-use crate::figures::in_frame_of;
-use crate::numbers::in_column;
 use crate::report::Outcome;
+use asperity_report::draw::{
+    self, Caption, Colours, Figure, Map, Maps, Paper as Sheet, Quantity, Relief, Unit,
+};
+use asperity_report::figures::in_frame_of;
+use asperity_report::words::numbers::in_column;
 
 /// Cells of the surfaces along each side.
 const SIDE: usize = 100;

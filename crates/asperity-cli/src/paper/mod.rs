@@ -17,8 +17,8 @@ use asperity::{Grid, Result};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::Paper;
-use crate::draw::Format;
 use crate::report::{Failure, Outcome, note, print};
+use asperity_report::draw::Format;
 use cost::Costs;
 
 /// The paper's cells: squares of 1 µm.

@@ -3,7 +3,7 @@
 use asperity::study::dimension_of_column;
 use asperity::units::{CELSIUS, Dimension, Multiple, format_number};
 
-use crate::numbers::decimals;
+use asperity_report::words::numbers::decimals;
 
 /// Characters of a column, and of its part from the decimal point on. Eight columns and the count fit into a terminal
 /// of 80 characters.

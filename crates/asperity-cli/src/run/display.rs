@@ -10,9 +10,9 @@ use asperity::units::{Dimension, format};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::rows::Rows;
-use crate::page::LivePage;
 use crate::report::{self, print, report_warning};
 use crate::signals::Stop;
+use asperity_report::page::LivePage;
 
 /// Progress bar, and table that grows with each pass or point.
 pub(super) struct Display {

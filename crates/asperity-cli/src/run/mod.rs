@@ -17,7 +17,8 @@ use crate::args::Run;
 use crate::machine;
 use crate::report::{self, Failure, note, print, report_warning};
 use crate::signals::Stop;
-use crate::{example, figures, page, place};
+use crate::{example, place};
+use asperity_report::{figures, page};
 use display::Display;
 pub use record::text;
 
@@ -68,11 +69,11 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
     let (sheet, seen) = page::gathered(results, &wanted, &stopped);
     let write = || page::write_with(results, seen, &page::of(results));
     let (page, drawn) = rayon::join(write, || sheet.and_then(figures::Sheet::finish));
-    drawn.map_err(|failure| match failure {
-        Failure::Figure(error) if error.source.kind() == ErrorKind::Interrupted => {
+    drawn.map_err(|error| match error {
+        asperity_report::Error::Figure(error) if error.source.kind() == ErrorKind::Interrupted => {
             Failure::FiguresInterrupted { directory: directory.clone() }
         }
-        other => other,
+        other => other.into(),
     })?;
     page?;
     if !arguments.quiet {

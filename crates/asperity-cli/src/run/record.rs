@@ -5,8 +5,9 @@ use asperity::study::{AdhesionSummary, Case, ClosedFormRecord, Outcome, Subsurfa
 use asperity::units::{Dimension, format, format_number};
 
 use super::rows::planes;
-use crate::closed_form;
-use crate::passage::{self, line};
+use crate::maps::line;
+use asperity_report::words::closed_form;
+use asperity_report::words::passage;
 
 /// Describes a static contact and the largest stress below the surface, with a line for each number. The rows of
 /// passes and points are printed during the run.

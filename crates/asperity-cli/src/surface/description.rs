@@ -1,10 +1,11 @@
 //! Description of a topography in numbers.
 
 use asperity::surface::{
-    Axis, Bins, FeatureParameters, GreenwoodWilliamson, HybridParameters, Parameters, ProfileParameters,
+    Axis, FeatureParameters, GreenwoodWilliamson, HybridParameters, Parameters, ProfileParameters,
     SelfAffinity, SpatialParameters, SpectralMoments, Spectrum, Summits, Window,
 };
 use asperity::units::Metre;
+use asperity_report::figures::RINGS;
 use serde::Serialize;
 
 use super::{ReadSurface, line_of};
@@ -107,6 +108,3 @@ impl Statistics {
         }
     }
 }
-
-/// Rings over which spectra are averaged.
-pub(crate) const RINGS: Bins = Bins::Logarithmic { per_decade: 10 };

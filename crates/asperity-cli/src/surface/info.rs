@@ -10,8 +10,8 @@ use super::description::{Description, Law, Profiles, Statistics};
 use super::table::Table;
 use super::{ReadSurface, line_of, read_prepared, suggest_level, without_pitch};
 use crate::args::Info;
-use crate::numbers::meaning;
 use crate::report::{Outcome, print};
+use asperity_report::words::numbers::meaning;
 
 pub(super) fn info(arguments: &Info) -> Outcome {
     let file = read_prepared(&arguments.input)?;

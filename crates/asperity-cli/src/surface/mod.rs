@@ -8,8 +8,6 @@ mod output;
 mod plot;
 mod table;
 
-pub(crate) use description::RINGS;
-
 use std::path::Path;
 
 use asperity::grid::Grid;

@@ -7,8 +7,8 @@ use asperity::surface::{Format, Topography};
 use asperity::units::Metre;
 
 use super::without_pitch;
-use crate::draw::{self, Caption, Paper};
 use crate::report::{Failure, Outcome};
+use asperity_report::draw::{self, Caption, Paper};
 
 /// An output file, with the format of its name.
 pub(super) struct Output {

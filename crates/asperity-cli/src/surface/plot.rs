@@ -12,14 +12,15 @@ use asperity::surface::{
 use asperity::units::Metre;
 use serde_json::{Value, json};
 
-use super::description::{Law, RINGS};
+use super::description::Law;
 use super::{line_of, read_prepared, suggest_level, without_pitch};
 use crate::args::PlotSurface;
-use crate::draw::{
+use crate::report::{Failure, Outcome, note};
+use asperity_report::draw::{
     self, Axis, Caption, Chart, Charts, Colours, Figure, Map, Maps, Mark, Paper, Quantity, Relief, Series,
     Unit,
 };
-use crate::report::{Failure, Outcome, note};
+use asperity_report::figures::RINGS;
 
 /// Points of a sampled curve.
 const POINTS: usize = 501;

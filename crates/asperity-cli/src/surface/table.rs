@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use asperity::units::Multiple;
 
-use crate::numbers::in_column;
+use asperity_report::words::numbers::in_column;
 
 /// Rows in sections: a name, one or two numbers aligned at their decimal points, the unit, a remark.
 #[derive(Default)]

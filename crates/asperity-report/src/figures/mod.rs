@@ -1,0 +1,167 @@
+//! The figures of a results directory, drawn from what it holds and from nothing else.
+
+mod course;
+mod flow;
+mod force_distance;
+mod friction;
+mod loading;
+mod motion;
+mod pressure;
+mod profile;
+mod rest;
+mod rolling;
+mod running;
+mod sheet;
+mod sliding;
+mod stored;
+mod passage;
+mod subsurface;
+mod surfaces;
+mod sweep;
+#[cfg(test)]
+mod tests;
+
+use std::path::PathBuf;
+
+use asperity_base::units::{Dimension, format};
+use asperity_study::Results;
+use asperity_study::io::fields::Fields;
+
+use crate::draw::{Charts, Mark, Paper, Series};
+use crate::error::{Error, Result};
+
+pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, has_new_upper};
+pub(crate) use flow::{FlowSection, flow_sections, of_increments as of_flow_increments};
+pub(crate) use force_distance::curves as of_force_distance;
+pub(crate) use friction::stick;
+pub(crate) use loading::curves as of_loading;
+pub use passage::{FLOW, FLUX, flow_map, flux_map};
+pub(crate) use passage::{LEAST_FLOW, curves as passage_curves, passes_everywhere};
+pub(crate) use pressure::histogram;
+pub(crate) use rest::{HeightRange, Witness, approach, open_gap, profile as profile_at_rest};
+pub(crate) use rolling::curves as of_rolling;
+pub use sheet::Sheet;
+pub(crate) use sliding::curves as of_sliding;
+pub use stored::in_frame_of;
+pub(crate) use stored::{Cap, StoredArray, ends_with_tension};
+pub(crate) use subsurface::{columns as stress_columns, contact as contact_of_section, on_section};
+pub use surfaces::RINGS;
+pub(crate) use surfaces::{as_measured, changed, curves as of_surfaces};
+pub(crate) use sweep::curves as of_sweep;
+
+/// Writes a force with its unit. A force that pulls has a minus sign.
+fn force(value: f64) -> String {
+    format(value, Dimension::Force).replace('-', "−")
+}
+
+/// Which figures are drawn, and how.
+#[derive(Debug, Clone, Default)]
+pub struct FigureOptions {
+    /// Paper and kind of file.
+    pub paper: Paper,
+    /// Names of the figures; all if there is none.
+    pub only: Vec<String>,
+    /// Whether figures that are there stay, which is an error then.
+    pub keep: bool,
+}
+
+/// Charts under the name that `--only` knows them by.
+#[derive(Debug, Clone)]
+pub struct Curves {
+    /// The name.
+    pub name: &'static str,
+    /// The title.
+    pub title: String,
+    /// The charts.
+    pub charts: Charts,
+}
+
+impl Curves {
+    fn new(name: &'static str, title: impl Into<String>, charts: impl Into<Charts>) -> Self {
+        Self { name, title: title.into(), charts: charts.into() }
+    }
+}
+
+/// A curve: points [x, y].
+type Curve = Vec<[f64; 2]>;
+
+/// The curves of the lower and of the upper body.
+fn of_bodies(curves: [Curve; 2]) -> Vec<Series> {
+    // Broken, so that neither hides the other where they are the same.
+    let looks = [("lower body", Mark::Line), ("upper body", Mark::Dashed)].into_iter();
+    looks.zip(curves).map(|((name, mark), curve)| Series::new(name, curve, mark)).collect()
+}
+
+/// Draws the figures of `results` into its folder `figures` and returns their paths; an error of the kind `Interrupted`
+/// once `stop` says so.
+pub fn draw(
+    results: &Results,
+    wanted: &FigureOptions,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<Vec<PathBuf>> {
+    gathered(results, wanted, stop)?.finish()
+}
+
+/// The figures of `results` as PNG files in memory, with their titles.
+pub fn pictures(results: &Results, wanted: &FigureOptions) -> Result<Vec<(String, Vec<u8>)>> {
+    gathered(results, wanted, &|| false)?.pictures()
+}
+
+/// Draws the figures of `results`, and some of them on a second paper. A witness sees the arrays of a static contact, which are read
+/// from `fields`.
+pub fn gathered_with<'a>(
+    results: &Results,
+    wanted: &'a FigureOptions,
+    beside: (Paper, &'a [&'a str]),
+    stop: &'a (dyn Fn() -> bool + Sync),
+    witness: (&Fields, &mut dyn Witness),
+) -> Result<Sheet<'a>> {
+    let sheet = Sheet::new(results, wanted, stop)?.with_pictures(beside);
+    gather_on(sheet, results, Some(witness))
+}
+
+/// Draws the figures of `results`.
+pub fn gathered<'a>(
+    results: &Results,
+    wanted: &'a FigureOptions,
+    stop: &'a (dyn Fn() -> bool + Sync),
+) -> Result<Sheet<'a>> {
+    gather_on(Sheet::new(results, wanted, stop)?, results, None)
+}
+
+fn gather_on<'a>(
+    mut sheet: Sheet<'a>,
+    results: &Results,
+    witness: Option<(&Fields, &mut dyn Witness)>,
+) -> Result<Sheet<'a>> {
+    let passes = results.passes()?;
+    let of = match passes.is_empty() {
+        true if results.case()?.motion.is_some() => {
+            let message = format!("{} has no finished pass to draw", results.directory().display());
+            return Err(Error::missing(message, None));
+        }
+        true => rest::draw(results, &mut sheet, witness)?,
+        false => motion::draw(results, &passes, &mut sheet)?,
+    };
+    let updates = results.updates()?;
+    if !updates.is_empty() {
+        sliding::draw(&updates, &results.static_fields()?, &of, &mut sheet)?;
+    }
+    let points = results.sweep()?;
+    if !points.is_empty() {
+        sweep::draw(&points, &results.case()?, &mut sheet)?;
+    }
+    let case = results.case()?;
+    if case.plasticity.is_some() {
+        flow::draw(&results.flow_fields(passes.last().map(|pass| pass.pass))?, &of, &mut sheet)?;
+    }
+    if case.subsurface.is_some() {
+        let fields = results.subsurface_fields(passes.last().map(|pass| pass.pass))?;
+        subsurface::draw(&fields, &of, &mut sheet)?;
+    }
+    if case.conductance.is_some() || case.flow.is_some() {
+        let of_all = if points.is_empty() { of.clone() } else { sweep::loads_in_words(&points) };
+        passage::draw(results, &done(&passes), &of, &of_all, &mut sheet)?;
+    }
+    Ok(sheet)
+}

@@ -1,0 +1,61 @@
+//! The figure of bodies that run in: what becomes of them over the distance that they slide.
+
+use asperity_base::units::CELSIUS;
+use asperity_contact::motion::PassRecord;
+
+use super::{Curve, Curves, of_bodies};
+use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
+
+/// From such a ratio of the largest to the least distance on it is drawn by its logarithm.
+const DECADES: f64 = 100.0;
+
+/// Roughness, contact area, wear, film and temperature, each where there is any; none of bodies that do not run in.
+pub(super) fn curves(passes: &[PassRecord], sq: [f64; 2]) -> Option<Curves> {
+    let distances: Vec<f64> = passes.iter().filter_map(|p| Some(p.running?.distance)).collect();
+    let (least, most) = (distances.first()?, distances.last()?);
+    let charts = charts(passes, sq, *most > DECADES * least);
+    Some(Curves::new("running-in", "running in over the sliding distance", charts))
+}
+
+fn charts(passes: &[PassRecord], sq: [f64; 2], log: bool) -> Charts {
+    let x = match log {
+        true => Axis::log("sliding distance", Unit::Of("m")),
+        false => Axis::of("sliding distance", "distance"),
+    };
+    let over = |value: &dyn Fn(&PassRecord) -> f64| -> Curve {
+        passes.iter().filter_map(|p| Some([p.running?.distance, value(p)])).collect()
+    };
+    let from = |first: f64, curve: Curve| -> Curve { std::iter::once([0.0, first]).chain(curve).collect() };
+    let worn = |body: usize| {
+        let mut sum = 0.0;
+        let each = passes.iter().filter_map(|p| {
+            sum += p.lost("wear")[body];
+            Some([p.running?.distance, sum])
+        });
+        each.collect()
+    };
+    let film =
+        |body: usize| over(&|p| p.running.map_or(0.0, |r| [r.mean_film_lower, r.mean_film_upper][body]));
+    let alone = |name: &str, curve| vec![Series::new(name, curve, Mark::Line)];
+    let wear = Axis { log, ..Axis::of("wear volume", "wear_volume_lower") };
+    let temperature = over(&|p| p.running.map_or(f64::NAN, |r| r.max_flash_temperature - CELSIUS));
+    let shown: Vec<(Axis, Vec<Series>)> = vec![
+        (
+            Axis::of("Sq", "sq_lower"),
+            of_bodies([from(sq[0], over(&|p| p.sq_lower)), from(sq[1], over(&|p| p.sq_upper))]),
+        ),
+        (
+            Axis::of("real contact area", "mean_contact_area"),
+            alone("both bodies", over(&|p| p.mean_contact_area)),
+        ),
+        (wear, of_bodies([worn(0), worn(1)])),
+        (Axis::of("mean film", "mean_film_lower"), of_bodies([film(0), film(1)])),
+        (Axis::linear("largest temperature", Unit::Of("°C")), alone("both bodies", temperature)),
+    ];
+    let is_there = |(_, series): &(Axis, Vec<Series>)| {
+        series.iter().flat_map(|series| &series.points).any(|[_, y]| y.is_finite() && *y != 0.0)
+    };
+    let charts = shown.into_iter().filter(is_there);
+    let charts = charts.map(|(y, series)| Chart::new("", x.clone(), y, series)).collect();
+    Charts { charts, columns: 2, aspect: 0.7 }
+}

@@ -1,0 +1,75 @@
+//! Figures of a contact that slides in place: its course, and what it leaves on the bodies.
+
+use asperity_base::units::CELSIUS;
+use asperity_contact::motion::UpdateRecord;
+use asperity_study::io::fields::Fields;
+
+use super::sheet::Sheet;
+use super::stored::StoredArray;
+use super::{Curves, of_bodies};
+use crate::draw::{Axis, Chart, Charts, Colours, Maps, Mark, Series, Unit};
+use crate::error::Result;
+
+type Number = fn(&UpdateRecord) -> f64;
+
+pub(super) fn draw(updates: &[UpdateRecord], fields: &Fields, of: &str, sheet: &mut Sheet) -> Result {
+    curves(updates).into_iter().try_for_each(|curves| sheet.add_curves(curves, of))?;
+    let names = fields.names()?;
+    let given = |name: &str| names.iter().any(|given| given == name);
+    for (state, title, quantity) in
+        [("wear", "wear since the beginning", "depth"), ("film", "tribofilm", "thickness")]
+    {
+        let mut maps = Vec::new();
+        for body in ["lower", "upper"] {
+            let name = format!("{state}_{body}");
+            if given(&name) {
+                maps.push((StoredArray::read(fields, &name)?, format!("{body} body")));
+            }
+        }
+        if !maps.is_empty() {
+            sheet.add(state, title, of, || {
+                let each = maps.iter();
+                let each = each.map(|(map, of)| map.map(of, quantity, Unit::Length, Colours::Pressure));
+                Ok(Maps::new(each.collect()))
+            })?;
+        }
+    }
+    if given("temperature") {
+        let shown = StoredArray::read(fields, "temperature")?.celsius();
+        if shown.field.iter().any(|t| t.is_finite()) {
+            sheet.add("temperature", "temperature of the contact", of, || {
+                let map = shown.map("", "temperature", Unit::Of("°C"), Colours::Between);
+                Ok(Maps::new(vec![map.missing("no contact")]))
+            })?;
+        }
+    }
+    Ok(())
+}
+
+/// The curves of its course.
+pub(crate) fn curves(updates: &[UpdateRecord]) -> Vec<Curves> {
+    vec![Curves::new("sliding", "wear in place over the sliding distance", charts(updates))]
+}
+
+fn charts(updates: &[UpdateRecord]) -> Charts {
+    let over = |value: Number| updates.iter().map(|update| [update.distance, value(update)]).collect();
+    let bodies = |values: [Number; 2]| of_bodies(values.map(over));
+    let alone = |value: Number| vec![Series::new("", over(value), Mark::Line)];
+    let shown = [
+        (Axis::of("contact area", "contact_area"), alone(|u| u.contact_area)),
+        (Axis::of("largest pressure", "max_pressure"), alone(|u| u.max_pressure)),
+        (Axis::of("deepest wear", "max_wear_lower"), bodies([|u| u.max_wear_lower, |u| u.max_wear_upper])),
+        (
+            Axis::of("mean film in contact", "mean_film_lower"),
+            bodies([|u| u.mean_film_lower, |u| u.mean_film_upper]),
+        ),
+        (Axis::linear("largest temperature", Unit::Of("°C")), alone(|u| u.max_temperature - CELSIUS)),
+    ];
+    let is_there = |(_, series): &(Axis, Vec<Series>)| {
+        series.iter().flat_map(|series| &series.points).any(|[_, y]| y.is_finite() && *y != 0.0)
+    };
+    let x = Axis::of("sliding distance", "distance");
+    let charts = shown.into_iter().filter(is_there);
+    let charts = charts.map(|(y, series)| Chart::new("", x.clone(), y, series)).collect();
+    Charts { charts, columns: 2, aspect: 0.7 }
+}

@@ -1,0 +1,124 @@
+//! Figures of a sweep: what changes from point to point.
+
+use asperity_contact::motion::SweepRecord;
+use asperity_contact::solver::Friction;
+use asperity_study::Case;
+use asperity_study::case::Prescribed;
+
+use super::sheet::Sheet;
+use super::{Curves, force};
+use crate::draw::{Axis, Chart, Mark, Series, Unit};
+use crate::error::Result;
+
+type Number = fn(&SweepRecord) -> f64;
+
+/// What is drawn over it: the column, which is the name of the figure, its axis, and whether that is logarithmic beside a logarithmic
+/// one. The mean gap falls with the logarithm of the load.
+const DRAWN: [(&str, &str, bool, Number); 5] = [
+    ("contact_area", "real contact area", true, |p| p.contact_area),
+    ("mean_gap", "mean gap", false, |p| p.mean_gap),
+    ("stiffness", "normal stiffness", true, |p| p.stiffness.unwrap_or(f64::NAN)),
+    ("max_pressure", "largest pressure", true, |p| p.max_pressure),
+    ("adhesive_load", "adhesive load", false, |p| {
+        p.adhesion.map_or(f64::NAN, |adhesion| adhesion.adhesive_load)
+    }),
+];
+
+pub(super) fn draw(points: &[SweepRecord], case: &Case, sheet: &mut Sheet) -> Result {
+    let of = loads_in_words(points);
+    curves(points, case).into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))
+}
+
+/// The loads of a sweep, as subtitles tell them.
+pub(super) fn loads_in_words(points: &[SweepRecord]) -> String {
+    let [from, to] = loads(points).map(force);
+    if from == to { format!("load {from}") } else { format!("load {from} to {to}") }
+}
+
+/// All curves of a sweep of at least one point.
+pub(crate) fn curves(points: &[SweepRecord], case: &Case) -> Vec<Curves> {
+    if let Some(friction) = case.friction.as_ref().filter(|friction| !friction.creepages.is_empty()) {
+        return vec![traction(points, &friction.law)];
+    }
+    let (column, x): (_, Number) = match case.contact.prescribed {
+        Prescribed::Load(_) => ("load", |point| point.load),
+        Prescribed::MeanPressure(_) => ("mean_pressure", |point| point.mean_pressure),
+        Prescribed::Approach(_) => ("approach", |point| point.approach),
+    };
+    let swept = column.replace('_', " ");
+    // The points in the order of what is swept, whatever order they were given in.
+    let mut ordered: Vec<&SweepRecord> = points.iter().collect();
+    ordered.sort_by(|a, b| x(a).total_cmp(&x(b)));
+    let [least, most] = [f64::min, f64::max].map(|pick| points.iter().map(x).fold(f64::NAN, pick));
+    let log = least > 0.0 && most >= DECADE * least;
+    // Bodies that attract each other have no stiffness, others no adhesive load.
+    let known = DRAWN.into_iter().filter(|(.., y)| points.iter().any(|point| y(point).is_finite()));
+    let drawn = known.map(|(name, label, may_be_log, y)| {
+        let curve = ordered.iter().map(|point| [x(point), y(point)]).collect();
+        let series = vec![Series::new("", curve, Mark::LineAndPoints)];
+        let horizontal = Axis { log, ..Axis::of(swept.as_str(), column) };
+        let vertical = Axis { log: log && may_be_log, ..Axis::of(label, name) };
+        Curves::new(name, format!("{label} over {swept}"), Chart::new("", horizontal, vertical, series))
+    });
+    drawn.collect()
+}
+
+/// The smallest and the largest load.
+fn loads(points: &[SweepRecord]) -> [f64; 2] {
+    [f64::min, f64::max].map(|pick| points.iter().map(|p| p.load).fold(f64::NAN, pick))
+}
+
+/// The force ratio over the creepage, along x and along y, under what all that slides bears.
+///
+/// Over the creepage with its sign where that has one direction, over its amount elsewhere.
+fn traction(points: &[SweepRecord], friction: &Friction) -> Curves {
+    /// Component, creepage and traction coefficient along each axis.
+    const ALONG: [(&str, Number, Number); 2] = [
+        ("along x", |p| p.creepage_x, |p| p.tangential_force_x / p.load),
+        ("along y", |p| p.creepage_y, |p| p.tangential_force_y / p.load),
+    ];
+    /// What rounding leaves of a component that is not there.
+    const NOTHING: f64 = 1e-6;
+    let largest = |value: Number| points.iter().map(|p| value(p).abs()).fold(0.0, f64::max);
+    let one_direction = ALONG.iter().position(|(_, creepage, _)| largest(*creepage) == 0.0);
+    let x = |point: &SweepRecord| match one_direction {
+        Some(across) => ALONG[1 - across].1(point),
+        None => point.creepage_x.hypot(point.creepage_y),
+    };
+    let mut ordered: Vec<&SweepRecord> = points.iter().collect();
+    ordered.sort_by(|a, b| x(a).total_cmp(&x(b)));
+    let strongest = ALONG.map(|(.., ratio)| largest(ratio));
+    let shown = ALONG.iter().zip(strongest);
+    let shown: Vec<_> = shown
+        .filter(|(_, most)| *most > NOTHING * strongest[0].max(strongest[1]))
+        .map(|(of, _)| of)
+        .collect();
+    let curve = |ratio: Number| ordered.iter().map(|point| [x(point), ratio(point)]).collect::<Vec<_>>();
+    let mut series: Vec<Series> =
+        shown.iter().map(|(name, _, ratio)| Series::new(*name, curve(*ratio), Mark::LineAndPoints)).collect();
+    // Under a film's shear strength what slides bears less.
+    let coefficient = friction.coefficient;
+    if coefficient.is_finite() && friction.shear_strength.is_infinite() {
+        let signs = [1.0, -1.0].into_iter().filter(|sign| {
+            points.iter().any(|point| shown.iter().any(|(.., ratio)| sign * ratio(point) > 0.0))
+        });
+        let ends = [ordered.first(), ordered.last()].into_iter().flatten();
+        let ends: Vec<f64> = ends.map(|point| x(point)).collect();
+        series.extend(signs.enumerate().map(|(k, sign)| {
+            let name = if k == 0 { "full sliding" } else { "" };
+            let limit = ends.iter().map(|x| [*x, sign * coefficient]).collect();
+            Series::new(name, limit, Mark::Dashed)
+        }));
+    }
+    let across = match one_direction {
+        Some(0) => "creepage along y",
+        Some(_) => "creepage along x",
+        None => "creepage",
+    };
+    let [horizontal, vertical] =
+        [across, "tangential force over load"].map(|l| Axis::linear(l, Unit::Number));
+    Curves::new("traction", "tangential force over creepage", Chart::new("", horizontal, vertical, series))
+}
+
+/// From such a ratio of the largest to the least on what is swept is drawn by its logarithm.
+const DECADE: f64 = 10.0;

@@ -1,0 +1,286 @@
+//! The numbers that a reader looks for first, each with what it is.
+
+use std::fmt::Write;
+
+use asperity_base::units::{CELSIUS, Dimension, format, format_number};
+use asperity_contact::motion::{PassRecord, StaticRecord, SweepRecord};
+use asperity_study::{Outcome, column};
+
+use super::found::PageData;
+use super::html::{escaped, minus};
+use super::verdict::{differ, shaken_down, share_of_overlap};
+use crate::words::numbers::change;
+
+/// Cards on a page, at most.
+const MAX: usize = 6;
+
+/// A number under its name.
+struct Card {
+    name: String,
+    value: String,
+    /// What it is, or what stands beside it.
+    about: String,
+}
+
+impl Card {
+    fn new(name: &str, value: String, about: impl Into<String>) -> Self {
+        Self { name: name.to_owned(), value, about: about.into() }
+    }
+
+    /// A number of a column of the results with the column's meaning.
+    fn of(name: &str, column_name: &str, value: String) -> Self {
+        Self::new(name, value, column(column_name).map_or("", |column| column.text))
+    }
+}
+
+/// The cards of a run; nothing where nothing is finished.
+pub(super) fn html(found: &PageData) -> String {
+    let cards = match (&found.passes[..], &found.points[..]) {
+        ([first, .., last], _) => of_passes(found, first, last),
+        ([only], _) => of_passes(found, only, only),
+        ([], [_, ..]) => of_points(&found.points),
+        ([], []) => match found.summary.as_ref().map(|summary| &summary.outcome) {
+            Some(Outcome::Static(record)) => of_rest(found, record),
+            _ => Vec::new(),
+        },
+    };
+    if cards.is_empty() {
+        return String::new();
+    }
+    let mut html = String::from("<dl class=\"cards\">");
+    for Card { name, value, about } in cards.into_iter().take(MAX) {
+        let _ = write!(
+            html,
+            "<div><dt>{}</dt><dd>{}</dd><dd class=\"about\">{}</dd></div>",
+            escaped(&name),
+            escaped(&minus(&value)),
+            escaped(&minus(&about))
+        );
+    }
+    html + "</dl>"
+}
+
+fn of_passes(found: &PageData, first: &PassRecord, last: &PassRecord) -> Vec<Card> {
+    let length = |value| format(value, Dimension::Length);
+    let of_overlap =
+        share_of_overlap(last).map_or(String::new(), |share| format!(", {share} % of the overlap"));
+    let inside = match differ(last.mean_contact_area, last.mean_contact_area_interior) {
+        true => format!(
+            " {} of it in the interior, without the rim.",
+            format(last.mean_contact_area_interior, Dimension::Area)
+        ),
+        false => String::new(),
+    };
+    let mut cards = vec![
+        Card::new(
+            "real area of contact",
+            format(last.mean_contact_area, Dimension::Area),
+            format!("Mean over the last pass{of_overlap}.{inside}"),
+        ),
+        Card::new(
+            "largest pressure",
+            format(last.max_pressure, Dimension::Pressure),
+            "At any position of the last pass.",
+        ),
+    ];
+    if let Some(flow) = found.summary.as_ref().and_then(|summary| summary.plasticity.as_ref()) {
+        let after = shaken_down(&found.passes).map_or(String::new(), |passes| {
+            format!(
+                "The plastic work of a pass is below a thousandth of the first one's after pass {passes}."
+            )
+        });
+        let dent = length(flow.residual_displacement);
+        cards.extend([
+            Card::new("plastic flow", flow.regime.to_string(), after),
+            Card::of(
+                "plastic strain",
+                "max_plastic_strain",
+                format!("{} %", format_number(100.0 * flow.max_plastic_strain)),
+            ),
+            Card::of(
+                "residual tension",
+                "max_residual_tension",
+                format(flow.max_residual_tension, Dimension::Pressure),
+            ),
+            Card::new("depth of the dent or groove", dent, "Range of the height changes by plastic flow."),
+        ]);
+        return cards;
+    }
+    let worn: f64 = found.passes.iter().flat_map(|pass| pass.lost("wear")).sum();
+    if worn > 0.0 {
+        cards.push(Card::new(
+            "wear",
+            format(worn, Dimension::Volume),
+            "Volume that both bodies have lost so far.",
+        ));
+    }
+    let before = found.results.surfaces_after(0).map(|bodies| bodies.map(|body| body.sq())).ok();
+    let after =
+        [("lower", last.sq_lower, last.sq_lower_interior), ("upper", last.sq_upper, last.sq_upper_interior)];
+    for ((body, after, inside), before) in after.into_iter().zip(before.into_iter().flatten()) {
+        if differ(before, after) {
+            let about = match differ(after, inside) {
+                true => format!(
+                    "Before the first and after the last pass, the whole body; {} without the rim.",
+                    length(inside)
+                ),
+                false => "Before the first and after the last pass.".to_owned(),
+            };
+            cards.push(Card::new(
+                &format!("Sq of the {body} body"),
+                change([before, after], Dimension::Length),
+                about,
+            ));
+        }
+    }
+    let plastic: f64 = found.passes.iter().flat_map(|pass| pass.lost("plastic")).sum();
+    if plastic > 0.0 {
+        let all = "Volume that plastic flow has levelled in both bodies, all passes together.";
+        cards.push(Card::new("plastic volume", format(plastic, Dimension::Volume), all));
+    }
+    if let Some(running) = last.running.filter(|running| running.max_flash_temperature.is_finite()) {
+        let kelvin = running.max_flash_temperature - CELSIUS;
+        cards.push(Card::of(
+            "largest temperature",
+            "max_flash_temperature",
+            format!("{} °C", format_number(kelvin)),
+        ));
+    }
+    if let Some(adhesion) = last.adhesion.filter(|adhesion| adhesion.adhesive_drag > 0.0) {
+        cards.push(Card::of("drag", "adhesive_drag", format(adhesion.adhesive_drag, Dimension::Force)));
+    }
+    if last.mean_tangential_force != 0.0 && last.friction_coefficient.is_finite() {
+        let coefficient = format_number(last.friction_coefficient);
+        cards.push(Card::of("coefficient of friction", "friction_coefficient", coefficient));
+    }
+    let approach = match differ(first.approach, last.approach) {
+        true => change([first.approach, last.approach], Dimension::Length),
+        false => length(last.approach),
+    };
+    cards.push(Card::new("approach", approach, "Rigid-body approach in the first and in the last pass."));
+    cards
+}
+
+fn of_points(points: &[SweepRecord]) -> Vec<Card> {
+    let ends = |value: fn(&SweepRecord) -> f64, dimension| {
+        change([value(&points[0]), value(&points[points.len() - 1])], dimension)
+    };
+    let largest = |value: fn(&SweepRecord) -> f64| points.iter().map(value).fold(0.0, f64::max);
+    let pressure = format(largest(|point| point.max_pressure), Dimension::Pressure);
+    let traction = largest(|point| point.tangential_force_x.hypot(point.tangential_force_y) / point.load);
+    if traction > 0.0 {
+        let last = &points[points.len() - 1];
+        let stick = |point: &SweepRecord| format_number(100.0 * point.stick_area / point.contact_area);
+        let shear = format(largest(|point| point.max_shear), Dimension::Pressure);
+        return vec![
+            Card::new(
+                "traction coefficient",
+                format_number(traction),
+                "Largest tangential force over the load.",
+            ),
+            Card::of("largest shear", "max_shear", shear),
+            Card::of("largest pressure", "max_pressure", pressure),
+            Card::new(
+                "stick",
+                format!("{} → {} %", stick(&points[0]), stick(last)),
+                "Share of the contact, at the first and the last point.",
+            ),
+            Card::of("area of contact", "contact_area", format(last.contact_area, Dimension::Area)),
+        ];
+    }
+    let from_to = "From the first to the last point.";
+    let mut cards = vec![
+        Card::new("load", ends(|point| point.load, Dimension::Force), from_to),
+        Card::new("real area of contact", ends(|point| point.contact_area, Dimension::Area), from_to),
+        Card::new("largest pressure", pressure, "Largest pressure of all points."),
+        Card::new("approach", ends(|point| point.approach, Dimension::Length), from_to),
+        Card::new("mean gap", ends(|point| point.mean_gap, Dimension::Length), from_to),
+    ];
+    if points.iter().all(|point| point.stiffness.is_some()) {
+        let stiffness = ends(|point| point.stiffness.unwrap_or(f64::NAN), Dimension::Stiffness);
+        cards.push(Card::of("normal stiffness", "stiffness", stiffness));
+    }
+    cards
+}
+
+fn of_rest(found: &PageData, record: &StaticRecord) -> Vec<Card> {
+    let share = format_number(100.0 * record.contact_area / record.apparent_area);
+    let mean = record.load / record.contact_area;
+    let mut cards = vec![
+        Card::new(
+            "real area of contact",
+            format(record.contact_area, Dimension::Area),
+            format!("{share} % of the grid."),
+        ),
+        Card::new(
+            "largest pressure",
+            format(record.max_pressure, Dimension::Pressure),
+            "In the most loaded cell.",
+        ),
+    ];
+    if mean.is_finite() {
+        let nominal = format(record.load / record.apparent_area, Dimension::Pressure);
+        cards.push(Card::new(
+            "mean pressure",
+            format(mean, Dimension::Pressure),
+            format!("Load over the area of contact; {nominal} over the grid."),
+        ));
+    }
+    cards.push(Card::of("approach", "approach", format(record.approach, Dimension::Length)));
+    if let Some(stress) = found.summary.as_ref().and_then(|summary| summary.subsurface.first()) {
+        let depth = format(stress.position[2], Dimension::Length);
+        let stress = format(stress.max_von_mises, Dimension::Pressure);
+        cards.push(Card::new("largest von Mises stress", stress, format!("{depth} below the surface.")));
+    }
+    if let Some(shear) = &record.shear {
+        let stick = format_number(100.0 * shear.stick_area / record.contact_area);
+        let about = format!("Tangential force over load; {stick} % of the contact sticks.");
+        cards.push(Card::new("traction coefficient", format_number(shear.force_ratio), about));
+    }
+    if let Some(adhesion) = &record.adhesion {
+        let numbers = found.summary.as_ref().and_then(|summary| summary.adhesion);
+        let pull_off = numbers.and_then(|numbers| numbers.pull_off);
+        let mut of_adhesion: Vec<Card> = pull_off
+            .map(|load| Card::of("pull-off", "pull_off", format(load, Dimension::Force)))
+            .into_iter()
+            .collect();
+        if let Some(work) = numbers.and_then(|numbers| numbers.work_of_separation) {
+            of_adhesion.push(Card::of(
+                "work of separation",
+                "work_of_separation",
+                format(work, Dimension::Energy),
+            ));
+        }
+        if of_adhesion.is_empty() {
+            let load = format(adhesion.adhesive_load, Dimension::Force);
+            of_adhesion.push(Card::of("adhesive load", "adhesive_load", load));
+        }
+        if let Some(tabor) = numbers.and_then(|numbers| numbers.tabor) {
+            let about = "Below 0.1 the attraction is long, above 5 it is short beside the deformation.";
+            of_adhesion.push(Card::new("Tabor's parameter", format_number(tabor), about));
+        }
+        // The bodies may be apart at the end, where pressures say little.
+        cards.splice(0..0, of_adhesion);
+    }
+    if let Some(last) = found.updates.last() {
+        let deepest = last.max_wear_lower.max(last.max_wear_upper);
+        let distance = format(last.distance, Dimension::Length);
+        cards.push(Card::new(
+            "deepest wear",
+            format(deepest, Dimension::Length),
+            format!("After {distance} of sliding."),
+        ));
+    }
+    if let Some(flow) = record.flow.as_ref().filter(|flow| flow.max_plastic_strain > 0.0) {
+        let strain = format!("{} %", format_number(100.0 * flow.max_plastic_strain));
+        cards.insert(2, Card::of("plastic strain", "max_plastic_strain", strain));
+    }
+    if record.plastic_volume > 0.0 {
+        cards.push(Card::new(
+            "plastic volume",
+            format(record.plastic_volume, Dimension::Volume),
+            "Volume levelled at the hardness.",
+        ));
+    }
+    cards
+}

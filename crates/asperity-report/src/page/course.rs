@@ -1,0 +1,102 @@
+//! Curves over positions, passes, increments or points, and their tables.
+
+use asperity_contact::motion::StepRecord;
+use serde_json::{Value, json};
+
+use super::curves;
+use super::found::PageData;
+use super::html::details;
+use crate::figures;
+
+/// The section; none of a contact in one step.
+pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
+    let mut html = String::from(
+        "<p class=\"remark\">Drag across a plot to zoom along x, double-click to see all of it. A click on a name in a \
+         legend hides its curve and shows it again.</p>",
+    );
+    let without_curves = html.len();
+    if !found.passes.is_empty() {
+        let sq = found.results.surfaces_after(0).map(|bodies| bodies.map(|body| spread(body.heights())));
+        let sq = found.kept(sq).unwrap_or([f64::NAN; 2]);
+        let mut curves = figures::of_motion(&found.passes, &found.steps, sq);
+        // The curves over the sliding distance show them once more.
+        if curves.iter().any(|curves| curves.name == "running-in") {
+            curves.retain(|curves| !["roughness", "mean_contact_area"].contains(&curves.name));
+        }
+        if friction_follows_load(&found.steps) {
+            curves.retain(|curves| curves.name != "friction");
+        }
+        html += &curves::html(curves, charts);
+        data["passes"] = of_passes(found);
+    }
+    // The section on adhesion has the force–distance curve.
+    if found.increments.len() > 1 && figures::of_force_distance(&found.increments).is_none() {
+        html += &curves::html(figures::of_loading(&found.increments), charts);
+    }
+    if found.updates.len() > 1 {
+        html += &curves::html(figures::of_sliding(&found.updates), charts);
+    }
+    if !found.points.is_empty() {
+        html += &curves::html(figures::of_sweep(&found.points, &found.case), charts);
+    }
+    let last = found.passes.len();
+    for (file, title, key) in [
+        ("passes.csv", "passes", Some("passes")),
+        ("increments.csv", "increments", None),
+        ("sweep.csv", "points", Some("sweep")),
+        ("updates.csv", "updates", None),
+    ] {
+        if let Some(table) = found.table(file) {
+            html += &details(&format!("Table: {title}"), &table.html(title, file, key));
+        }
+    }
+    if let Some(steps) = found.table("steps.csv") {
+        let title = format!("positions of pass {}", found.done[last]);
+        html += &details(
+            &format!("Table: {title}"),
+            &steps.only("pass", last as f64).html(&title, "steps.csv", None),
+        );
+    }
+    Some(html).filter(|html| html.len() > without_curves)
+}
+
+/// Whether the force of friction is the same share of the load at each position, so that its curve is that of the load.
+fn friction_follows_load(steps: &[StepRecord]) -> bool {
+    let loaded = steps.iter().filter(|step| step.load > 0.0);
+    let mut ratios = loaded.map(|step| step.tangential_force.abs() / step.load);
+    let first = ratios.next().unwrap_or(0.0);
+    ratios.all(|ratio| (ratio - first).abs() <= 1e-6 * first)
+}
+
+/// Rms about the mean of what is defined.
+fn spread(heights: &asperity_base::Field) -> f64 {
+    let defined: Vec<f64> = heights.iter().copied().filter(|z| z.is_finite()).collect();
+    let mean = defined.iter().sum::<f64>() / defined.len() as f64;
+    (defined.iter().map(|z| (z - mean).powi(2)).sum::<f64>() / defined.len() as f64).sqrt()
+}
+
+/// What a chosen pass shows over its positions.
+fn of_passes(found: &PageData) -> Value {
+    /// Numbers of the page for this, at most.
+    const MAX: usize = 40_000;
+    let each = found.steps.len() / found.passes.len().max(1);
+    let room = (MAX / each.max(1)).max(1);
+    let passes = super::table::evenly(found.passes.len(), room);
+    let of = |index: usize| {
+        let pass = index + 1;
+        let steps: Vec<_> = found.steps.iter().filter(|step| step.pass == pass).collect();
+        let values = |value: &dyn Fn(&StepRecord) -> f64| -> Vec<f64> {
+            steps.iter().map(|step| value(step)).collect()
+        };
+        let over: serde_json::Map<String, Value> = figures::OVER_POSITIONS
+            .iter()
+            .map(|(name, .., value)| ((*name).to_owned(), json!(values(value))))
+            .collect();
+        json!({
+            "label": format!("pass {}", found.done[pass]),
+            "offset": values(&|step| step.offset),
+            "over": over,
+        })
+    };
+    passes.into_iter().map(of).collect()
+}

@@ -1,0 +1,126 @@
+//! The numbers of a study for its chart: quantities over axes, chosen on the page, and the panel of a case.
+
+use std::path::Path;
+
+use asperity_study::many::{Axis, Row, Table};
+use asperity_study::{column, dimension_of_column};
+use serde_json::{Value, json};
+
+use super::words;
+use super::{curves, table};
+use crate::draw::Unit;
+
+/// Cases on the chart, at most.
+const MAX_CASES: usize = 4000;
+
+/// A number of each case.
+pub(super) struct Quantity {
+    /// Name of its column; that of the contact fraction where it is worked out here.
+    pub(super) name: String,
+    /// In the order of the rows; NaN of cases that failed.
+    pub(super) values: Vec<f64>,
+}
+
+/// The quantities of a study in the order of `shown`: columns that say something, without those that repeat an axis, and the contact
+/// fraction.
+pub(super) fn quantities(table: &Table, shown: &[&str]) -> Vec<Quantity> {
+    let of_column = |name: &str| -> Option<Vec<f64>> {
+        let at = table.columns().iter().position(|column| column == name)?;
+        let value = |row: &Row| if row.failure.is_none() { row.numbers[at] } else { f64::NAN };
+        Some(table.rows().iter().map(value).collect())
+    };
+    let mut all: Vec<Quantity> = shown
+        .iter()
+        .filter_map(|name| Some(Quantity { name: (*name).to_owned(), values: of_column(name)? }))
+        .filter(|quantity| quantity.values.iter().any(|value| value.abs() > 0.0))
+        .filter(|quantity| !table.axes().iter().any(|axis| repeats(axis, quantity, table)))
+        .collect();
+    let ratio =
+        |over: Vec<f64>, under: Vec<f64>| over.iter().zip(under).map(|(over, under)| over / under).collect();
+    let fraction: Option<Vec<f64>> = of_column("contact_fraction")
+        .or_else(|| Some(ratio(of_column("contact_area")?, of_column("apparent_area")?)))
+        .or_else(|| {
+            let overlap: Vec<f64> = ratio(of_column("mean_load")?, of_column("mean_pressure")?);
+            Some(ratio(of_column("mean_contact_area")?, overlap))
+        });
+    if let Some(values) = fraction.filter(|values| values.iter().any(|value| *value > 0.0)) {
+        let after_the_area = all.iter().position(|quantity| quantity.name.ends_with("contact_area"));
+        let quantity = Quantity { name: "contact_fraction".to_owned(), values };
+        all.insert(after_the_area.map_or(0, |at| at + 1), quantity);
+    }
+    all
+}
+
+/// Whether a quantity is what an axis prescribes.
+fn repeats(axis: &Axis, quantity: &Quantity, table: &Table) -> bool {
+    /// Share by which a load that is reached may differ from the one that is prescribed.
+    const REACHED: f64 = 1e-3;
+    let Some(numbers) = axis.numbers() else { return false };
+    let n = table.axes().iter().position(|other| other.key() == axis.key()).unwrap_or_default();
+    let is_same_dimension =
+        axis.dimension().is_some() && axis.dimension() == dimension_of_column(&quantity.name);
+    let mut known = table.rows().iter().zip(&quantity.values).filter(|(_, value)| value.is_finite());
+    is_same_dimension
+        && known.all(|(row, value)| {
+            let prescribed = numbers[row.indices[n] as usize];
+            (value - prescribed).abs() <= REACHED * prescribed.abs()
+        })
+}
+
+/// The data of the chart and of the panels; `directory` is that of the study.
+pub(super) fn data(table: &Table, quantities: &[Quantity], directory: &Path) -> Value {
+    let shown = table::evenly(table.rows().len(), MAX_CASES);
+    let axes: Vec<Value> =
+        table.axes().iter().enumerate().map(|(n, axis)| of_axis(table, n, axis, &shown)).collect();
+    let quantities: Vec<Value> = quantities
+        .iter()
+        .map(|Quantity { name, values }| {
+            let unit = if name == "contact_fraction" { Unit::Number } else { Unit::of_column(name) };
+            let numbers: Vec<f64> = shown.iter().map(|n| values[*n]).collect();
+            json!({
+                "name": name,
+                "label": words::of_column(name),
+                "about": column(name).map(|column| column.text),
+                "unit": curves::unit(unit, largest(&numbers)),
+                "values": numbers,
+            })
+        })
+        .collect();
+    let cases: Vec<Value> = shown
+        .iter()
+        .map(|n| {
+            let row = &table.rows()[*n];
+            let page = format!("cases/{:04}/{}", row.case, super::FILE);
+            json!({
+                "case": format!("{:04}", row.case),
+                "failure": row.failure,
+                "page": Some(&page).filter(|page| directory.join(page).exists()),
+            })
+        })
+        .collect();
+    json!({
+        "folder": directory.display().to_string(),
+        "axes": axes,
+        "quantities": quantities,
+        "cases": cases,
+        "all": table.rows().len(),
+    })
+}
+
+fn of_axis(table: &Table, n: usize, axis: &Axis, shown: &[usize]) -> Value {
+    let unit = axis.dimension().map_or(Unit::Number, Unit::from);
+    let numbers = axis.numbers().filter(|_| !axis.is_seed());
+    json!({
+        "key": axis.key(),
+        "label": words::of_key(axis.key()),
+        "unit": curves::unit(unit, largest(numbers.unwrap_or_default())),
+        "numbers": numbers,
+        "texts": (0..axis.len()).map(|index| axis.text(index)).collect::<Vec<_>>(),
+        "seed": axis.is_seed(),
+        "indices": shown.iter().map(|row| table.rows()[*row].indices[n]).collect::<Vec<_>>(),
+    })
+}
+
+fn largest(numbers: &[f64]) -> f64 {
+    numbers.iter().map(|number| number.abs()).filter(|size| size.is_finite()).fold(0.0, f64::max)
+}

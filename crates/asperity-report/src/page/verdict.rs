@@ -1,0 +1,211 @@
+//! The result in a sentence or two.
+
+use asperity_base::units::{Dimension, format, format_number};
+use asperity_contact::motion::{FlowRecord, PassRecord, Regime, StaticRecord, SweepRecord};
+use asperity_study::Outcome;
+
+use super::found::PageData;
+use crate::words::closed_form;
+use crate::words::numbers::change;
+
+/// The outcome of a run, or what there is of it so far.
+pub(super) fn sentence(found: &PageData) -> String {
+    if let Some(last) = found.passes.last() {
+        return of_passes(found, last);
+    }
+    if !found.points.is_empty() {
+        return of_points(&found.points);
+    }
+    match found.summary.as_ref().map(|summary| &summary.outcome) {
+        Some(Outcome::Static(record)) => of_rest(found, record),
+        _ => match found.increments.last() {
+            Some(last) => format!("{} increments so far, load {}.", last.increment, force(last.load)),
+            None if !found.updates.is_empty() => format!("{} updates so far.", found.updates.len() - 1),
+            None => "Nothing has been finished yet.".to_owned(),
+        },
+    }
+}
+
+fn of_passes(found: &PageData, last: &PassRecord) -> String {
+    let passes = match found.done[found.passes.len()] {
+        1 => "one pass".to_owned(),
+        done => format!("{done} passes"),
+    };
+    let under = format!("After {passes} under a mean load of {}", force(last.mean_load));
+    let flow = found.summary.as_ref().and_then(|summary| summary.plasticity.as_ref());
+    if let Some(flow) = flow {
+        return format!("{under}, {}.", of_regime(flow, shaken_down(&found.passes)));
+    }
+    let area = format(last.mean_contact_area, Dimension::Area);
+    let mut text = format!("{under}, the real area of contact is {area}");
+    if let Some(share) = share_of_overlap(last) {
+        text += &format!(" ({share} % of the overlap)");
+    }
+    text += &format!(" and the largest pressure {}", format(last.max_pressure, Dimension::Pressure));
+    text += ". ";
+    let worn: f64 = found.passes.iter().flat_map(|pass| pass.lost("wear")).sum();
+    if worn > 0.0 {
+        text += &format!("Wear has taken {} from the bodies. ", format(worn, Dimension::Volume));
+    }
+    text + &of_roughness(found, last)
+}
+
+/// How the rms heights of the bodies have changed.
+fn of_roughness(found: &PageData, last: &PassRecord) -> String {
+    let Ok(before) = found.results.surfaces_after(0) else { return String::new() };
+    let before = before.map(|body| body.sq());
+    let changes = [("lower", before[0], last.sq_lower), ("upper", before[1], last.sq_upper)];
+    let changes = changes.into_iter().filter(|(_, before, after)| differ(*before, *after));
+    let changes: Vec<String> = changes
+        .map(|(body, before, after)| {
+            format!("Sq of the {body} body has changed: {}.", change([before, after], Dimension::Length))
+        })
+        .collect();
+    if changes.is_empty() { "The roughness has not changed.".to_owned() } else { changes.join(" ") }
+}
+
+/// Whether two lengths differ by more than their rounding.
+pub(super) fn differ(one: f64, other: f64) -> bool {
+    (one - other).abs() > 1e-6 * one.abs().max(other.abs())
+}
+
+/// The mean area of contact over that of the overlap, in per cent; none without load.
+pub(super) fn share_of_overlap(pass: &PassRecord) -> Option<String> {
+    let overlap = pass.mean_load / pass.mean_pressure;
+    (overlap > 0.0).then(|| format_number(100.0 * pass.mean_contact_area / overlap))
+}
+
+/// The passes after which the plastic work of a pass stays below a thousandth of the first one's.
+pub(super) fn shaken_down(passes: &[PassRecord]) -> Option<usize> {
+    let work =
+        |pass: &PassRecord| pass.flow.map_or(0.0, |flow| flow.plastic_work_lower + flow.plastic_work_upper);
+    let first = work(passes.first()?);
+    passes.iter().rposition(|pass| work(pass) >= 1e-3 * first).map(|last| last + 1).filter(|_| first > 0.0)
+}
+
+fn of_regime(flow: &FlowRecord, shaken_down: Option<usize>) -> String {
+    let strain = format!("the plastic strain is up to {} %", format_number(100.0 * flow.max_plastic_strain));
+    let tension =
+        format!("the residual tension up to {}", format(flow.max_residual_tension, Dimension::Pressure));
+    match flow.regime {
+        Regime::Elastic => "the bodies have stayed elastic below their surfaces".to_owned(),
+        Regime::ShakesDown => {
+            let after = match shaken_down {
+                Some(1) => "after one pass".to_owned(),
+                Some(passes) => format!("after {passes} passes"),
+                None => "at once".to_owned(),
+            };
+            format!("the bodies have shaken down ({after}): {strain}, {tension}")
+        }
+        Regime::Cyclic => format!("the same plastic flow comes and goes in each pass: {strain}, {tension}"),
+        Regime::Ratchets => {
+            let rate = flow
+                .strain_per_pass
+                .map_or(String::new(), |rate| format!(", by {} % a pass", format_number(100.0 * rate)));
+            format!("the plastic strain keeps growing{rate}: {strain}, {tension}")
+        }
+        _ => format!("{strain}, {tension}; more passes would show what becomes of the bodies"),
+    }
+}
+
+fn of_points(points: &[SweepRecord]) -> String {
+    let (first, last) = (&points[0], &points[points.len() - 1]);
+    let traction =
+        |point: &SweepRecord| point.tangential_force_x.hypot(point.tangential_force_y) / point.load;
+    if let Some(most) =
+        points.iter().max_by(|a, b| traction(a).total_cmp(&traction(b))).filter(|p| traction(p) > 0.0)
+    {
+        return format!(
+            "Over {} creepages under {}, the traction coefficient reaches {} at a creepage of {}.",
+            points.len(),
+            force(last.load),
+            format_number(traction(most)),
+            format_number(most.creepage_x.hypot(most.creepage_y))
+        );
+    }
+    if let [only] = points {
+        let area = format(only.contact_area, Dimension::Area);
+        return format!("Under {} the real area of contact is {area}.", force(only.load));
+    }
+    format!(
+        "Over {} points from {} to {}, the real area of contact goes from {} to {} ({} % of the grid).",
+        points.len(),
+        force(first.load),
+        force(last.load),
+        format(first.contact_area, Dimension::Area),
+        format(last.contact_area, Dimension::Area),
+        format_number(100.0 * last.contact_fraction)
+    )
+}
+
+fn of_rest(found: &PageData, record: &StaticRecord) -> String {
+    if record.contact_area == 0.0 {
+        let gap = format(record.mean_gap, Dimension::Length);
+        return format!("The bodies do not touch: their mean gap is {gap}.{}", of_adhesion(found, record));
+    }
+    let share = format_number(100.0 * record.contact_area / record.apparent_area);
+    let mut text = format!(
+        "Under {} the bodies touch on {} ({share} % of the grid), the largest pressure is {}, and they approach by {}.",
+        force(record.load),
+        format(record.contact_area, Dimension::Area),
+        format(record.max_pressure, Dimension::Pressure),
+        format(record.approach, Dimension::Length)
+    );
+    text += &of_adhesion(found, record);
+    if let Some(theory) = found.summary.as_ref().and_then(|summary| summary.closed_form.as_ref()) {
+        let (values, deviations) = (closed_form::computed(theory), closed_form::deviations(theory));
+        text += &format!(
+            " The theory of {} gives: {values}. The computed contact deviates: {deviations}.",
+            theory.theory
+        );
+    }
+    if let Some(shear) = &record.shear {
+        let stick = format_number(100.0 * shear.stick_area / record.contact_area);
+        let ratio = format_number(shear.force_ratio);
+        text += &format!(" The tangential force is {ratio} of the load; {stick} % of the contact sticks.");
+    }
+    if let Some(flow) = &record.flow {
+        text += &match flow.max_plastic_strain {
+            0.0 => " The material below the surfaces stays elastic.".to_owned(),
+            strain => format!(
+                " The plastic strain below the surfaces is up to {} %.",
+                format_number(100.0 * strain)
+            ),
+        };
+    }
+    if let Some(last) = found.updates.last() {
+        let deepest = format(last.max_wear_lower.max(last.max_wear_upper), Dimension::Length);
+        let distance = format(last.distance, Dimension::Length);
+        text += &format!(" After {distance} of sliding the wear is up to {deepest} deep.");
+    }
+    text
+}
+
+/// The attraction of the bodies, and what a retreat shows.
+fn of_adhesion(found: &PageData, record: &StaticRecord) -> String {
+    let Some(adhesion) = &record.adhesion else { return String::new() };
+    let numbers = found.summary.as_ref().and_then(|summary| summary.adhesion);
+    let mut text = format!(" They attract each other with {} across the gap.", force(adhesion.adhesive_load));
+    if let Some((pull_off, work)) =
+        numbers.and_then(|numbers| numbers.pull_off.zip(numbers.work_of_separation))
+    {
+        text += &match pull_off < 0.0 {
+            true => format!(
+                " The retreat takes a pull of up to {}, and {} of work.",
+                force(-pull_off),
+                format(work, Dimension::Energy)
+            ),
+            false => " The retreat takes no pull.".to_owned(),
+        };
+    }
+    if adhesion.jumps > 0 {
+        let jumps =
+            if adhesion.jumps == 1 { "a jump".to_owned() } else { format!("{} jumps", adhesion.jumps) };
+        text += &format!(" {} is lost in {jumps}.", format(adhesion.energy_lost, Dimension::Energy));
+    }
+    text
+}
+
+fn force(load: f64) -> String {
+    format(load, Dimension::Force)
+}

@@ -1,0 +1,8 @@
+//! Results in words, for the terminal and the page alike.
+
+mod clipped;
+pub mod closed_form;
+pub mod numbers;
+pub mod passage;
+
+pub use clipped::{MAX_CHARACTERS, MAX_LINES, clipped};
