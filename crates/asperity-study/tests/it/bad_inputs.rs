@@ -1,6 +1,8 @@
-//! Bad inputs are files that contain the expected message.
+//! Bad inputs are tables: in the files of `tests/inputs/bad`, each row is a case with the message that it must get.
 //!
-//! Below the faulty line is `#^ message`, with its caret under the faulty place, then `#= hint: …` if the error has a hint.
+//! A row begins with `### name`. Its tables take the place of those of [`BALL`] and come after the others; `#- [contact]`
+//! leaves one out. Below the faulty line is `#^ message`, with its caret under the faulty place, then `#= hint: …` if the
+//! error has a hint. A row of `studies.toml` is a study of a good case, unless it names its own.
 
 use std::path::{Path, PathBuf};
 
@@ -9,20 +11,103 @@ use asperity_base::error::CaseError;
 use asperity_study::Case;
 use asperity_study::many::Study;
 
+/// A good case, a ball on a plane.
+const BALL: [(&str, &str); 3] = [
+    (
+        "lower",
+        r#"
+young = "210 GPa"
+poisson = 0.3
+topography = { form = "flat", shape = [64, 64], pitch = "1 um" }
+"#,
+    ),
+    (
+        "upper",
+        r#"
+young = "210 GPa"
+poisson = 0.3
+topography = { form = "sphere", radius = "1 mm", shape = [64, 64], pitch = "1 um" }
+"#,
+    ),
+    ("contact", "\nload = \"2 N\"\n"),
+];
+
+const STUDIES: &str = "studies";
+
 #[test]
 fn every_bad_input_is_refused_with_the_message_it_holds() {
-    let files = files("bad");
-    assert!(files.len() > 90, "only {} bad inputs found", files.len());
-    let wrong: Vec<_> = files.iter().filter_map(|file| check(file, Case::load(file).err()).err()).collect();
-    assert!(wrong.is_empty(), "{} of {} files:\n{}", wrong.len(), files.len(), wrong.join("\n"));
+    let rows: Vec<_> = rows().into_iter().filter(|row| row.file != STUDIES).collect();
+    assert!(rows.len() > 180, "only {} bad inputs found", rows.len());
+    every_row_is_refused(&rows, |row| Case::parse(&of_ball(&row.text), &row.path(), &folder()).err());
 }
 
 #[test]
 fn every_bad_study_is_refused_with_the_message_it_holds() {
-    let files = files("bad_studies");
-    assert!(files.len() > 25, "only {} bad studies found", files.len());
-    let wrong: Vec<_> = files.iter().filter_map(|file| check(file, Study::load(file).err()).err()).collect();
-    assert!(wrong.is_empty(), "{} of {} files:\n{}", wrong.len(), files.len(), wrong.join("\n"));
+    let rows: Vec<_> = rows().into_iter().filter(|row| row.file == STUDIES).collect();
+    assert!(rows.len() > 25, "only {} bad studies found", rows.len());
+    every_row_is_refused(&rows, |row| {
+        let names_its_base = row.text.lines().any(|line| line.starts_with("base = "));
+        let base = if names_its_base { "" } else { "base = \"../good/ellipsoid.toml\"\n" };
+        Study::parse(&format!("{base}{}", row.text), &row.path()).err()
+    });
+}
+
+fn every_row_is_refused(rows: &[Row], refusal: impl Fn(&Row) -> Option<Error>) {
+    let wrong: Vec<_> = rows.iter().filter_map(|row| check(row, refusal(row)).err()).collect();
+    assert!(wrong.is_empty(), "{} of {} rows:\n{}", wrong.len(), rows.len(), wrong.join("\n"));
+}
+
+/// A case or study that is refused.
+struct Row {
+    /// Name of the file that it is in.
+    file: String,
+    name: String,
+    text: String,
+}
+
+impl Row {
+    /// The file that its error names.
+    fn path(&self) -> PathBuf {
+        folder().join(format!("{}.toml", self.file))
+    }
+}
+
+fn rows() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for path in files("bad") {
+        let file = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let text = text.strip_prefix("### ").unwrap_or_else(|| panic!("{file} does not begin with a row"));
+        for row in text.split("\n### ") {
+            let (name, text) = row.split_once('\n').unwrap();
+            rows.push(Row { file: file.clone(), name: name.to_owned(), text: text.to_owned() });
+        }
+    }
+    rows
+}
+
+/// Returns the case of a row: its keys outside tables, the tables of [`BALL`] that it does not have, its tables.
+fn of_ball(row: &str) -> String {
+    let tables = row.find("\n[").map_or(row.len(), |at| at + 1);
+    let (outside, tables) = row.split_at(if row.starts_with('[') { 0 } else { tables });
+    let mut case = outside.to_owned();
+    for (name, keys) in BALL {
+        let has = |start: &str| row.lines().any(|line| line.starts_with(start));
+        if [
+            format!("[{name}]"),
+            format!("[{name}."),
+            format!("[[{name}"),
+            format!("{name} ="),
+            format!("#- [{name}]"),
+        ]
+        .iter()
+        .all(|start| !has(start))
+        {
+            case += &format!("[{name}]{keys}\n");
+        }
+    }
+    case += tables;
+    case.lines().filter(|line| !line.starts_with("#- ")).map(|line| line.to_owned() + "\n").collect()
 }
 
 #[test]
@@ -67,8 +152,8 @@ fn a_damaged_case_never_panics() {
     });
 }
 
-fn check(file: &Path, error: Option<Error>) -> Result<(), String> {
-    let name = file.file_name().unwrap().to_string_lossy();
+fn check(row: &Row, error: Option<Error>) -> Result<(), String> {
+    let name = format!("{}: {}", row.file, row.name);
     let found = match error {
         Some(Error::Case(error)) => error,
         Some(other) => return Err(format!("{name}: {other:?}")),
@@ -84,7 +169,7 @@ fn check(file: &Path, error: Option<Error>) -> Result<(), String> {
     let CaseError { line, message, hint, .. } = &*found;
     let columns = columns(&found);
     if same {
-        assert_eq!(found.to_string(), format!("{}:{line}: {message}", file.display()));
+        assert_eq!(found.to_string(), format!("{}:{line}: {message}", row.path().display()));
         Ok(())
     } else {
         Err(format!(
@@ -120,6 +205,11 @@ impl Expected {
 fn columns(error: &CaseError) -> std::ops::RangeInclusive<usize> {
     let width = error.text[error.span.clone()].chars().count().max(1);
     error.column..=(error.column + width - 1).max(2)
+}
+
+/// Paths in rows are relative to it.
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/inputs/bad")
 }
 
 fn files(kind: &str) -> Vec<PathBuf> {
