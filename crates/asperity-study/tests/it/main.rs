@@ -14,6 +14,7 @@ mod limits;
 mod loading;
 mod passage;
 mod real_surface;
+mod resume;
 mod rolling;
 mod smooth_forms;
 mod subsurface;

@@ -1,0 +1,53 @@
+//! Messages and exit codes for bad input.
+
+use std::fs;
+use std::path::Path;
+
+use crate::support::{as_promised, folder_with, moving, run};
+use crate::support::{files, refused, stderr};
+
+/// Each case of `data/` begins with the exit code, the error and the hint that it must produce.
+#[test]
+fn every_bad_input_has_its_own_message() {
+    let folder = tempfile::tempdir().unwrap();
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
+    for entry in fs::read_dir(data).unwrap() {
+        let path = entry.unwrap().path();
+        fs::copy(&path, folder.path().join(path.file_name().unwrap())).unwrap();
+    }
+    let before = files(folder.path());
+    let cases: Vec<_> = before.iter().filter(|name| name.ends_with(".toml")).collect();
+    assert!(cases.len() >= 14, "{cases:?}");
+    for name in cases {
+        let text = fs::read_to_string(folder.path().join(name)).unwrap();
+        let promised: Vec<&str> = text.lines().map_while(|line| line.strip_prefix("# ")).collect();
+        let code: i32 = promised[0].strip_prefix("exit code ").unwrap().parse().unwrap();
+        let output = run(&folder, &format!("{name} --out out"));
+        let messages: Vec<String> = stderr(&output)
+            .lines()
+            .filter(|line| line.starts_with("error: ") || line.starts_with("hint: "))
+            .map(str::to_owned)
+            .collect();
+        let kept =
+            promised[1..].iter().zip(&messages).all(|(promised, message)| as_promised(promised, message));
+        let all = messages.len() == promised.len() - 1;
+        assert!(kept && all && output.status.code() == Some(code), "{name}: {promised:#?}\n{messages:#?}");
+        assert!(output.stdout.is_empty(), "{name}");
+        // What is wrong before anything is computed leaves no directory behind.
+        let out = folder.path().join("out");
+        assert!(code == 1 || !out.exists(), "{name}");
+        let _ = fs::remove_dir_all(out);
+    }
+    assert_eq!(files(folder.path()), before);
+}
+
+#[test]
+fn bad_usage_of_run_is_exit_code_2() {
+    let folder = folder_with("case.toml", &moving(1, 8));
+    for arguments in
+        ["", "nowhere.toml", "case.toml --threads 0", "case.toml --threads many", "case.toml --example hertz"]
+    {
+        refused(&run(&folder, arguments));
+    }
+    assert_eq!(files(folder.path()), ["case.toml".to_owned()].into());
+}

@@ -1,0 +1,224 @@
+//! Directories that are there already, pages that are made again, disks that are full.
+
+use std::fs;
+use std::time::{Duration, Instant};
+
+use asperity::io::fields::Fields;
+
+use crate::support::{BALL, PUSH, folder_with, moving, pushed, run, set};
+use crate::support::{asperity, command, files, limited, ok, refused, send, spawn, stderr, wait_for};
+
+#[test]
+fn results_are_replaced_only_on_request_and_strangers_never() {
+    let folder = folder_with("case.toml", &moving(2, 8));
+    ok(&run(&folder, "case.toml --out out"));
+    let error = refused(&run(&folder, "case.toml --out out"));
+    assert!(error.starts_with("error: out already holds results"), "{error}");
+    assert!(error.contains("hint: --overwrite replaces them, --resume goes on from them"), "{error}");
+
+    fs::write(folder.path().join("out/notes.txt"), "mine").unwrap();
+    fs::write(folder.path().join("case.toml"), BALL).unwrap();
+    ok(&run(&folder, "case.toml --out out --overwrite"));
+    let left = files(&folder.path().join("out"));
+    assert!(left.contains("notes.txt") && left.contains("fields.h5"), "{left:?}");
+    assert!(!left.contains("passes.csv") && !left.contains("fields/pass-0001.h5"), "{left:?}");
+}
+
+#[test]
+fn a_directory_of_something_else_is_left_alone() {
+    let folder = folder_with("case.toml", &moving(1, 8));
+    fs::create_dir(folder.path().join("photos")).unwrap();
+    fs::write(folder.path().join("photos/passes.csv"), "mine").unwrap();
+    for flag in ["", " --overwrite", " --resume"] {
+        let error = refused(&run(&folder, &format!("case.toml --out photos{flag}")));
+        assert!(error.contains("photos is not empty, and holds no results of asperity"), "{flag}: {error}");
+        assert!(error.contains("hint: --out names another directory"), "{error}");
+        assert_eq!(files(&folder.path().join("photos")), ["passes.csv".to_owned()].into());
+    }
+    assert_eq!(fs::read(folder.path().join("photos/passes.csv")).unwrap(), b"mine");
+    fs::create_dir(folder.path().join("empty")).unwrap();
+    ok(&run(&folder, "case.toml --out empty"));
+}
+
+#[test]
+fn results_do_not_lie_within_others_and_leave_no_empty_folder() {
+    let folder = folder_with("ball.toml", &pushed(PUSH));
+    ok(&run(&folder, "ball.toml --out out"));
+    let out = folder.path().join("out");
+    assert!(!out.join("fields").exists());
+    let before = files(&out);
+    for within in ["out/second", "out/fields/deep/er"] {
+        let error = refused(&run(&folder, &format!("ball.toml --out {within}")));
+        assert!(error.contains(&format!("{within} lies within the results in ")), "{error}");
+        assert!(error.contains("hint: --out names another directory"), "{error}");
+    }
+    assert_eq!(files(&out), before);
+    assert!(!out.join("second").exists() && !out.join("fields").exists());
+}
+
+#[test]
+fn a_place_where_nothing_can_be_written_is_named() {
+    let folder = folder_with("case.toml", &moving(1, 8));
+    fs::write(folder.path().join("file"), "mine").unwrap();
+    let error = refused(&run(&folder, "case.toml --out file"));
+    assert!(error.starts_with("error: file: not a directory"), "{error}");
+    let error = refused(&run(&folder, "case.toml --out file/inside"));
+    assert!(error.starts_with("error: file/inside: Not a directory"), "{error}");
+    assert_eq!(fs::read(folder.path().join("file")).unwrap(), b"mine");
+    if cfg!(target_os = "linux") {
+        // Nobody, root neither, makes a directory there.
+        let error = refused(&run(&folder, "case.toml --out /proc/asperity"));
+        assert!(error.starts_with("error: /proc/asperity: No such file or directory"), "{error}");
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn a_page_is_made_again_from_the_results_alone_and_replaced_whole_or_not_at_all() {
+    let folder = folder_with("case.toml", &moving(1, 8));
+    ok(&run(&folder, "case.toml --out out"));
+    let page = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    let written = page("out/report.html");
+    fs::remove_file(folder.path().join("case.toml")).unwrap();
+    assert_eq!(ok(&asperity(&folder, "report out --out page.html")), "page.html\n");
+    assert!(page("page.html") == written, "it shows something else than the results");
+
+    let output = limited(&folder, "-f 16", "report out");
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("out/report.html: File too large"), "{}", stderr(&output));
+    assert!(page("out/report.html") == written, "the page that was there is gone");
+
+    assert!(refused(&asperity(&folder, "report nowhere")).contains("no case.json"));
+    assert!(
+        refused(&asperity(&folder, "report out --out no/such.html")).contains("its directory does not exist")
+    );
+}
+
+#[test]
+#[cfg(unix)]
+fn the_page_of_an_interrupted_run_shows_what_is_done() {
+    let folder = folder_with("case.toml", &moving(100_000, 4));
+    let out = folder.path().join("out");
+    let page = out.join("report.html");
+    let mut child = spawn(&folder, "run case.toml --out out");
+    wait_for(&mut child, &out.join("passes.csv"));
+    send("INT", &child);
+    assert_eq!(child.wait_with_output().unwrap().status.code(), Some(130));
+    let text = fs::read_to_string(&page).unwrap();
+    assert!(text.contains("of 100000 passes are there") && text.contains("--resume"));
+
+    // What is computed anew has no page of what was there before.
+    let mut child = spawn(&folder, "run case.toml --out out --overwrite");
+    let began = Instant::now();
+    while page.exists() {
+        assert!(began.elapsed() < Duration::from_secs(120) && child.try_wait().unwrap().is_none());
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+}
+
+#[test]
+fn an_animation_is_an_apng_where_it_is_named() {
+    // Its numbers are so long that they break the line over some of the frames.
+    let title = format!("title = \"{}\"\n", "contact ".repeat(9));
+    let folder = folder_with("case.toml", &format!("{title}{}", moving(1, 8)));
+    ok(&run(&folder, "case.toml --out out"));
+    let gif = fs::read(folder.path().join("out/figures/pressure.gif")).unwrap();
+    assert!(gif.starts_with(b"GIF89a") && !folder.path().join("out/figures/pressure.apng").exists());
+    assert_eq!(ok(&asperity(&folder, "plot out --only pressure.apng")), "out/figures/pressure.apng\n");
+    let bytes = fs::read(folder.path().join("out/figures/pressure.apng")).unwrap();
+    let names = Fields::open(&folder.path().join("out/fields/pass-0001.h5")).unwrap().names().unwrap();
+    let kept = names.iter().filter(|name| name.starts_with("pressure_")).count() as u32;
+
+    let number = |at: usize| u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap());
+    assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n");
+    let (mut at, mut frames, mut sequence, mut last) = (8, 0, 0, Vec::new());
+    while at < bytes.len() {
+        let (length, content) = (number(at) as usize, at + 8);
+        last = bytes[at + 4..content].to_vec();
+        match &*last {
+            // As many frames as positions, without end.
+            b"acTL" => assert_eq!((number(content), number(content + 4)), (kept, 0)),
+            b"fcTL" => {
+                assert_eq!(number(content), sequence);
+                assert_eq!(bytes[content + 20..content + 24], [0, 12, 0, 100], "not 0.12 s");
+                (frames, sequence) = (frames + 1, sequence + 1);
+            }
+            b"fdAT" => {
+                assert_eq!(number(content), sequence);
+                sequence += 1;
+            }
+            _ => {}
+        }
+        at = content + length + 4;
+    }
+    assert!(kept > 1 && frames == kept && at == bytes.len() && last == b"IEND", "{frames} frames of {kept}");
+}
+
+#[test]
+#[cfg(unix)]
+fn an_animation_is_an_mp4_where_there_is_ffmpeg() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let folder = folder_with("case.toml", &moving(1, 8));
+    ok(&run(&folder, "case.toml --out out"));
+    let drawn = folder.path().join("out/figures/pressure.mp4");
+    let plot =
+        |path: &str| command(&folder, "plot out --only pressure.mp4").env("PATH", path).output().unwrap();
+    assert!(refused(&plot("nowhere")).contains("`apt-get install ffmpeg`") && !drawn.exists());
+
+    let programs = format!("{}:/usr/bin:/bin", folder.path().display());
+    let program = folder.path().join("ffmpeg");
+    let put = |script: &str| {
+        fs::write(&program, script).unwrap();
+        fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
+    };
+    put("#!/bin/sh\necho \"$@\" > arguments; wc -c > bytes; printf film\n");
+    ok(&plot(&programs));
+    assert_eq!(fs::read(&drawn).unwrap(), b"film");
+    let arguments = fs::read_to_string(folder.path().join("arguments")).unwrap();
+    let after = |name: &str| arguments.split_once(name).unwrap().1.split(' ').next().unwrap().to_owned();
+    assert_eq!((after("-framerate ").as_str(), after("-pix_fmt ").as_str()), ("100/12", "rgb24"));
+    let size = after("-video_size ");
+    let (width, height) = size.split_once('x').unwrap();
+    let frame = 3 * width.parse::<usize>().unwrap() * height.parse::<usize>().unwrap();
+    let bytes: usize = fs::read_to_string(folder.path().join("bytes")).unwrap().trim().parse().unwrap();
+    assert!(bytes > frame && bytes.is_multiple_of(frame), "{bytes} bytes in frames of {frame}");
+
+    assert!(refused(&plot(&programs)).contains("--overwrite replaces the figures that are there"));
+    put("#!/bin/sh\ncat > /dev/null; echo no codec >&2; exit 3\n");
+    let again = "plot out --only pressure.mp4 --overwrite";
+    let output = command(&folder, again).env("PATH", &programs).output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("no codec") && fs::read(&drawn).unwrap() == b"film");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_is_an_error_that_leaves_no_half_written_file() {
+    let folder = folder_with("case.toml", &moving(1, 8));
+    let out = folder.path().join("out");
+    // The first file that is larger than so many KiB is not there.
+    let limited = |limit: usize, arguments: &str| {
+        let output = limited(&folder, &format!("-f {limit}"), arguments);
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        stderr(&output)
+    };
+    let error = limited(8, "run case.toml --out out");
+    assert_eq!(error, "error: out/fields/initial.h5: File too large (os error 27)\n");
+    assert_eq!(files(&out), set([".lock", "case.json"]));
+
+    let error = limited(48, "run case.toml --out out --overwrite");
+    assert_eq!(error, "error: out/fields/pass-0001.h5: File too large (os error 27)\n");
+    assert_eq!(files(&out), set([".lock", "case.json", "fields/initial.h5"]));
+
+    // With room again, the run goes on.
+    ok(&run(&folder, "case.toml --out out --resume"));
+    let map = fs::read(out.join("figures/topographies.png")).unwrap();
+    let before = files(&out);
+    let error = limited(16, "plot out --overwrite");
+    assert_eq!(error, "error: cannot draw `out/figures/topographies.png`: File too large (os error 27)\n");
+    assert!(fs::read(out.join("figures/topographies.png")).unwrap() == map, "the older figure is whole");
+    assert_eq!(files(&out), before);
+}
