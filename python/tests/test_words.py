@@ -51,7 +51,7 @@ def test_a_page_is_in_plain_english(page):
 @pytest.mark.parametrize("crate", sorted({source.relative_to(ROOT).parts[1] for source in SOURCES}))
 def test_a_comment_stands_alone(crate):
     # Pages and figures of the command are still to be rewritten.
-    later = [ROOT / "crates/asperity-cli/src" / part for part in ("page", "figures", "draw")]
+    later = [ROOT / "crates/asperity-report/src" / part for part in ("page", "figures", "draw")]
     found = [
         f"{source.relative_to(ROOT)}: {match.group().strip()} …"
         for source in SOURCES

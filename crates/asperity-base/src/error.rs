@@ -693,7 +693,7 @@ impl Defect {
         })
     }
 
-    /// Returns the option of [`ReadOptions`](crate::surface::ReadOptions) that its hint asks for, and the value.
+    /// Returns the option of `asperity_surface::ReadOptions` that its hint asks for, and the value.
     pub fn option(&self) -> Option<(&'static str, String)> {
         match self {
             Self::Preamble { first, .. } => Some(("skip", (first - 1).to_string())),

@@ -7,11 +7,11 @@
 //! | module | content |
 //! |---|---|
 //! | [`units`] | aliases of SI quantities; texts such as `"2.4 GPa"`, read and written |
-//! | [`choice`] | [`Choice`]: the words of an option |
+//! | [`choice`](mod@choice) | [`Choice`]: the words of an option |
 //! | [`error`] | [`Error`] and [`Result`] |
 //! | [`record`] | [`columns!`]: the fields of a record are the columns of its table |
 //! | [`grid`] | [`Grid`], [`Field`], [`CellValues`], the placement of a grid on another |
-//! | [`io`] | atomic writing, reading of regular files |
+//! | `io`, a feature | atomic writing, reading of regular files |
 //! | [`ranks`] | processes that share the rows of one grid |
 //! | [`math`] | transforms of real fields, work in bands of rows, quadrature, sums |
 

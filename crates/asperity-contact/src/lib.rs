@@ -15,12 +15,11 @@
 //!
 //! # Where to begin
 //!
-//! Start with [`motion::press`] for a static contact, [`motion::Simulation`] for a motion, [`study::run()`] for a case
-//! file, or [`solver::solve_normal`] for a contact given only by its gap.
+//! Start with [`motion::press`] for a static contact, [`motion::Simulation`] for a motion, or [`solver::solve_normal`] for a
+//! contact given only by its gap. Topographies are in [`asperity_surface`]; case files and results on disk are in `asperity-study`.
 //!
 //! | you have | use | you get |
 //! |---|---|---|
-//! | a file of heights | [`Topography::read`](surface::Topography::read), [`ReadOptions`](surface::ReadOptions) | [`surface::Topography`] |
 //! | statistics or a shape | [`surface::Generator`], [`surface::Form`] | [`surface::Topography`] |
 //! | a topography | [`surface::Preparation`], [`surface::Parameters`] | a topography ready for a contact; its roughness parameters (ISO 25178) |
 //! | constants of two bodies | [`material::Material`], [`material::Compliances`] | E*, Dundurs' β |
@@ -33,7 +32,6 @@
 //! | the deformed gap of a contact | [`flow::solve()`] | its permeability, leakage and critical constriction |
 //! | tractions | [`subsurface::Subsurface`] | [`stress::Stress`] plane by plane, and its maximum |
 //! | plastic strain below a surface | [`plasticity::Volume`], [`plasticity::J2`] | its residual stress and displacement, and its growth |
-//! | a case file | [`study::Case`], [`study::estimate()`], [`study::run()`] | [`study::Results`], [`study::Summary`] |
 //! | a result to check | [`reference`](mod@reference), [`verification`] | closed forms, and the order of convergence to each |
 //!
 //! ```
@@ -67,18 +65,6 @@
 //! - Nothing depends on time or on temperature: there is no inertia, no creep of the material, no lubricant.
 //!   [`temperature`] computes the frictional heating of half-spaces with constant properties at a given bulk temperature.
 //! - A grid has at most 2³² cells. Roughness shorter than about eight cells is not resolved.
-//!
-//! [`study::estimate()`] and the results of [`study::run()`] warn if a case comes near one of these limits.
-//!
-//! # Features
-//!
-//! | feature | gives | depends on |
-//! |---|---|---|
-//! | `formats` | [`io`] and the files of [`surface`]: [`Topography::read`](surface::Topography::read), [`ReadOptions`](surface::ReadOptions), [`Format`](surface::Format) | HDF5, zip, tiff, csv, XML, digests |
-//! | `study`, the default | `formats` and [`study`]: case files, runs, results | toml, JSON |
-//!
-//! Without them (`default-features = false`), generated surfaces, closed forms, operators, solvers, stress and motion
-//! remain.
 //!
 //! # References
 //!

@@ -73,8 +73,13 @@
 //!
 //! | feature | gives | depends on |
 //! |---|---|---|
-//! | `formats` | [`io`] and the files of [`surface`]: [`Topography::read`](surface::Topography::read), [`ReadOptions`](surface::ReadOptions), [`Format`](surface::Format) | HDF5, zip, tiff, csv, XML, digests |
-//! | `study`, the default | `formats` and [`study`]: case files, runs, results | toml, JSON |
+//! | `formats` | the files of [`surface`]: [`Topography::read`](surface::Topography::read), [`ReadOptions`](surface::ReadOptions), [`Format`](surface::Format) | HDF5, zip, tiff, csv, XML, digests |
+//! | `study`, the default | `formats`, [`study`] and [`io`]: case files, runs, results | toml, JSON |
+//!
+//! # Crates
+//!
+//! This crate re-exports four others, which can be used alone: [`asperity-surface`](surface) for topographies,
+//! `asperity-contact` for mechanics, `asperity-study` for case files and results, and `asperity-base` below them.
 //!
 //! Without them (`default-features = false`), generated surfaces, closed forms, operators, solvers, stress and motion
 //! remain.

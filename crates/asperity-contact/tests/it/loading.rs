@@ -268,7 +268,7 @@ fn what_flows_bears_its_cap_and_never_flows_back() {
     (100..112).for_each(keeps_the_law);
 }
 
-/// `cargo test -p asperity --test it loading -- --ignored`
+/// `cargo test -p asperity-contact --test it loading -- --ignored`
 #[test]
 #[ignore = "some minutes"]
 fn many_loadings() {

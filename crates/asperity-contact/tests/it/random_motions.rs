@@ -1,6 +1,6 @@
 //! Motions with random combinations of options; each position is solved again by an independent method.
 //!
-//! `CASES=1000 cargo test -p asperity --test it random_motions` tries this number, starting from the seed `SEED`.
+//! `CASES=1000 cargo test -p asperity-contact --test it random_motions` tries this number, starting from the seed `SEED`.
 
 use asperity_base::error::LoadLimit;
 use asperity_base::{Error, Field, Grid};

@@ -1,7 +1,7 @@
 //! Steady rolling with random combinations of options; each solution is checked against the conditions of friction cell by
 //! cell.
 //!
-//! `CASES=1000 cargo test -p asperity --test it random_rolling` tries this number, starting from the seed `SEED`.
+//! `CASES=1000 cargo test -p asperity-contact --test it random_rolling` tries this number, starting from the seed `SEED`.
 
 use asperity_base::{Error, Field, Grid};
 use asperity_contact::material::{Compliances, Material};

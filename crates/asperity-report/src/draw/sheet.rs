@@ -245,7 +245,7 @@ pub(crate) fn range_of_heights<'a>(
     Some((all, None))
 }
 
-/// Heights on their grid, in the colours of [`range_of_heights`].
+/// Heights on their grid, in colours over their range.
 pub fn heights<'a>(field: &'a asperity_base::Field, grid: &asperity_base::Grid) -> Maps<'a> {
     let quantity = Quantity::new("height", Unit::Length);
     let map = Map::new("", field, grid, quantity, Colours::Heights);

@@ -1,7 +1,7 @@
 //! A results directory as one HTML page, made from what it holds and from nothing else.
 //!
 //! A section is HTML, which reads and prints by itself, and data, which the page's own programs draw: maps in levels
-//! ([`packed`]) and curves, those of the figures ([`curves`]). Nothing on the page asks for anything from outside.
+//! and curves, those of the figures. Nothing on the page asks for anything from outside.
 
 mod adhesion;
 mod below;
@@ -74,7 +74,7 @@ pub fn write(results: &Results, path: &Path) -> asperity_base::Result<Vec<String
     write_with(results, witness::seen(results), path)
 }
 
-/// [`write`] with the parts of the page that have been made already.
+/// [`write()`] with the parts of the page that have been made already.
 pub fn write_with(results: &Results, seen: Option<Seen>, path: &Path) -> asperity_base::Result<Vec<String>> {
     let (page, missing) = page(results, seen)?;
     // What killed processes have left beside it.

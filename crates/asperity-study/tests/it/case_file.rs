@@ -1,6 +1,6 @@
 //! The tables of docs/input.md and docs/input/ equal the declarations in the program: keys, and rules for combinations.
 //!
-//! `UPDATE_DOCS=1 cargo test -p asperity --test it case_file::` rewrites them. Above each table is a comment with its name:
+//! `UPDATE_DOCS=1 cargo test -p asperity-study --test it case_file::` rewrites them. Above each table is a comment with its name:
 //! `<!-- keys: lower.wear -->`, `<!-- keys: lower.topography with file -->`, `<!-- rules -->`.
 
 use std::collections::BTreeMap;
