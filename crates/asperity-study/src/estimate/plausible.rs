@@ -5,12 +5,14 @@ use toml::Value;
 use super::Estimate;
 use crate::case::schema::tables::declaration;
 use crate::case::schema::{Exists, Key};
-use crate::case::{Body, Case, Hardness, Source};
+use crate::case::{Body, Case, Hardness, Source, TopographySpec};
 use asperity_base::grid::Grid;
-use asperity_base::units::{self, Dimension, Metre, format_number};
+use asperity_base::units::{self, Dimension, Metre, Pascal, format_number};
 
 /// Cells of this size do not resolve roughness.
 const WIDE: Metre = 1e-3;
+/// Composite modulus of the softest rubbers. Gels are softer, and rarely meant.
+const SOFT: Pascal = 1e6;
 /// Hardness over E*: glass and the hardest ceramics come near this value, and metals stay below a fifth of it.
 const HARD: f64 = 0.1;
 
@@ -20,6 +22,9 @@ pub(super) fn implausible(case: &Case, grid: &Grid, estimate: &Estimate, warning
     warnings.extend(given.filter_map(|(path, text)| unheard_of(declaration(path)?, path, &text)));
     if grid.pitch.iter().any(|pitch| *pitch > WIDE) {
         warnings.extend(wide(case, grid));
+    }
+    if estimate.modulus < SOFT && !case.is_coated() {
+        warnings.extend(soft(case, estimate));
     }
     if estimate.hardness > HARD * estimate.modulus && !case.is_coated() && estimate.hardness.is_finite() {
         warnings.push(hard(case, estimate));
@@ -74,13 +79,27 @@ fn quantities(value: &Value, dimension: Option<Dimension>) -> Vec<(f64, String)>
     }
 }
 
-/// Warns of the wide cells of a file; a `pitch` is judged as a key.
+/// Warns of the wide cells of a file, that of the body whose cells the contact has; a `pitch` is judged as a key.
 fn wide(case: &Case, grid: &Grid) -> Option<String> {
-    let spec = &case.lower.topography;
-    let Source::File { path, .. } = &spec.source else { return None };
+    let path = [&case.lower, &case.upper].into_iter().find_map(|body| match &body.topography {
+        TopographySpec { source: Source::File { path, .. }, pitch: None, .. } => Some(path),
+        _ => None,
+    })?;
     let [x, y] = grid.pitch.map(|pitch| units::format(pitch, Dimension::Length));
-    spec.pitch.is_none().then(|| {
-        format!("cells of {x} × {y} see no roughness: check the unit of the lengths in {}", path.display())
+    Some(format!("cells of {x} × {y} see no roughness: check the unit of the lengths in {}", path.display()))
+}
+
+/// Warns of a pair that is softer than rubber, unless its modulus is told as one that does not exist.
+fn soft(case: &Case, estimate: &Estimate) -> Option<String> {
+    let [lower, upper] = [&case.lower, &case.upper].map(|body| body.material.young);
+    let Exists::Within { least, .. } = declaration("lower.young")?.exists else { return None };
+    let body = softer(lower, upper);
+    (lower.min(upper) >= least).then(|| {
+        format!(
+            "E* is {}, softer than any rubber: check the unit of `young = {}` of the {body} body",
+            units::format(estimate.modulus, Dimension::Pressure),
+            case.written(&format!("{body}.young"))
+        )
     })
 }
 
@@ -132,6 +151,13 @@ mod tests {
         assert_eq!(warnings("\"210 GPa\"", "hardness = \"4 GPa\"", "\"0.5 um\""), [""; 0]);
         // Rubber on cells of a millimetre.
         assert_eq!(warnings("\"2 MPa\"", "", "\"1 mm\""), [""; 0]);
+    }
+
+    #[test]
+    fn a_modulus_below_that_of_rubber_is_told() {
+        let found = warnings("\"0.5 MPa\"", "", "\"1 um\"");
+        let words = "E* is 549.5 kPa, softer than any rubber: check the unit of `young = \"0.5 MPa\"` of the lower body";
+        assert_eq!(found, [words]);
     }
 
     #[test]

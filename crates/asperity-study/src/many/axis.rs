@@ -7,7 +7,7 @@ use toml::Value;
 
 use crate::case::cursor::{Entry, Table};
 use crate::case::document::join;
-use crate::case::schema::list::points;
+use crate::case::schema::list::points_entry;
 use crate::case::schema::tables::dimension;
 use asperity_base::error::Result;
 use asperity_base::units::{self, Dimension};
@@ -243,7 +243,7 @@ fn ranged(key: &str, entry: &Entry<'_>) -> Result<Vec<ValueInFile>> {
         let message = format!("the axis '{key}' is from {} to {}", from.literal()?, to.literal()?);
         return Err(to.error(message, Some("give both ends in one unit".to_owned())));
     }
-    let number = points(&table)?;
+    let number = points_entry(&table)?.count(2)?;
     let spacing = table.get("spacing").map_or(Ok(Spacing::Linear), |word| {
         word.word(&[("linear", Spacing::Linear), ("log", Spacing::Log)])
     })?;

@@ -1,6 +1,6 @@
 //! Keys of a table that replaces a list of values.
 
-use super::super::cursor::Table;
+use super::super::cursor::{Entry, Table};
 use super::typed::{Optional, Typed, Value, choice as word, count_to, optional, other, required, section};
 use asperity_base::choice::choice;
 use asperity_base::error::Result;
@@ -31,12 +31,20 @@ section! { &["contact.loads", "contact.mean_pressures", "contact.approaches", "f
     );
 }
 
-/// Returns the number of values that `table` gives, by either word.
+/// Returns the number of values that the `table` of a sweep gives, by either word.
 pub(crate) fn points(table: &Table<'_>) -> Result<usize> {
+    points_entry(table)?;
     let [points, count] = [POINTS.of(table)?, COUNT.of(table)?];
-    if let (Some(_), Some(other)) = (points, table.get(COUNT.key.name)) {
-        return Err(other.error("'count' is another word for 'points': give one of them".to_owned(), None));
+    Ok(points.or(count).expect("one of them is given"))
+}
+
+/// Returns the entry that says how many values `table` has: `points`, or `count`.
+pub(crate) fn points_entry<'a>(table: &Table<'a>) -> Result<Entry<'a>> {
+    match [&POINTS, &COUNT].map(|word| table.get(word.key.name)) {
+        [Some(_), Some(count)] => {
+            Err(count.error("'count' is another word for 'points': give one of them".to_owned(), None))
+        }
+        [None, Some(count)] => Ok(count),
+        [_, None] => table.required(POINTS.key.name, POINTS.key.example),
     }
-    let missing = || table.required(POINTS.key.name, POINTS.key.example).err();
-    points.or(count).ok_or_else(|| missing().expect("it is not given"))
 }
