@@ -8,10 +8,11 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
 
-use asperity::Error;
-use asperity::ranks::Ranks;
-use asperity::study::{Case, Existing, Results, Summary, collect, run_on_ranks};
+use asperity_base::Error;
+use asperity_base::ranks::Ranks;
 use asperity_cli::{Program, print_data, report_error, report_warning, text_of_results};
+use asperity_mpi::{collect, run_on_ranks};
+use asperity_study::{Case, Existing, Results, Summary};
 use clap::{Parser, Subcommand};
 use mpi::Threading;
 use mpi::topology::SimpleCommunicator;

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use asperity::Error;
-use asperity::ranks::Ranks;
-use asperity::study::{Case, DemandOfRank, demand_of_collecting, demand_on_ranks};
+use asperity_base::Error;
+use asperity_base::ranks::Ranks;
 use asperity_cli::{available_memory, machine_name, memory_of_machine};
+use asperity_mpi::{DemandOfRank, demand_of_collecting, demand_on_ranks};
+use asperity_study::Case;
 
 /// Returns an error on all ranks if a machine has too little memory for its ranks, or a rank for itself. If the fields are
 /// `collected` at the end, the first rank needs the memory of all of them.

@@ -1,6 +1,6 @@
 //! The processes started by `mpirun`, as ranks of the library.
 
-use asperity::ranks::Ranks;
+use asperity_base::ranks::Ranks;
 use mpi::Count;
 use mpi::datatype::PartitionMut;
 use mpi::request;

@@ -6,8 +6,9 @@ use std::process::{Child, Command, Output, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use asperity::Field;
-use asperity::study::{Case, Existing, Outcome, Results, SurfaceInput, demand_on_ranks, run};
+use asperity_base::Field;
+use asperity_mpi::demand_on_ranks;
+use asperity_study::{Case, Existing, Outcome, Results, SurfaceInput, run};
 use tempfile::TempDir;
 
 /// Two rough bodies of 256 × 256 cells.

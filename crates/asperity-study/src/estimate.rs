@@ -4,7 +4,8 @@ mod contact;
 mod demand;
 mod plausible;
 
-pub(super) use contact::{CELLS_ACROSS, attraction_cut_off, cut_off, spot, too_few_cells};
+pub(super) use contact::{CELLS_ACROSS, attraction_cut_off};
+pub use contact::{cut_off, spot, too_few_cells};
 pub use demand::{Demand, demand};
 
 use super::adhesion::AdhesionSummary;

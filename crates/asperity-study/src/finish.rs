@@ -17,7 +17,7 @@ use asperity_contact::motion::{FlowRecord, Pair, UpdateRecord};
 use asperity_contact::solver::{Control, Params};
 
 /// Results of a run for its summary.
-pub(super) struct Computed {
+pub struct Computed {
     pub(super) outcome: Outcome,
     pub(super) subsurface: Vec<SubsurfaceRecord>,
     /// The last update of a contact that wears in place.
@@ -35,8 +35,13 @@ pub(super) struct Computed {
 }
 
 impl Computed {
+    /// Adds the closed form of the contact.
+    pub fn with_closed_form(self, closed_form: Option<ClosedFormRecord>) -> Self {
+        Self { closed_form, ..self }
+    }
+
     /// Creates results with an outcome and nothing else.
-    pub(super) fn of(outcome: Outcome) -> Self {
+    pub fn of(outcome: Outcome) -> Self {
         Self {
             outcome,
             subsurface: Vec::new(),
@@ -51,7 +56,7 @@ impl Computed {
 }
 
 /// Writes the results at the end of every run.
-pub(super) fn conclude(
+pub fn conclude(
     case: &Case,
     writer: &Writer,
     resolved: Value,
@@ -89,7 +94,7 @@ pub(super) fn conclude(
 
 /// Returns the closed form beside the computed contact of `case` on a grid of this extent, for a sweep at its last point. `None`
 /// if there is none, or if cells have yielded or worn, which no closed form here describes.
-pub(super) fn closed_form(case: &Case, extent: [Metre; 2], outcome: &Outcome) -> Option<ClosedFormRecord> {
+pub fn closed_form(case: &Case, extent: [Metre; 2], outcome: &Outcome) -> Option<ClosedFormRecord> {
     let computed: ElasticContact = match outcome {
         Outcome::Static(record) => {
             let yields = record.flow.as_ref().is_some_and(|flow| flow.max_plastic_strain > 0.0);
@@ -114,7 +119,7 @@ pub(super) fn pair(case: &Case, bodies: Bodies) -> Result<Pair> {
 }
 
 /// Returns the solver parameters of `case`.
-pub(super) fn params(case: &Case) -> Params {
+pub fn params(case: &Case) -> Params {
     let mut params = Params::default();
     params.method = case.contact.method;
     params.tolerance = case.contact.tolerance;

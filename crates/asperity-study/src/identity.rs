@@ -28,14 +28,17 @@ pub fn resolved(case: &Case, bodies: &Bodies) -> Value {
 }
 
 /// Data of a body that its case does not contain.
-pub(super) struct BodyData<'a> {
-    pub(super) grid: Grid,
-    pub(super) origin: Option<&'a Origin>,
-    pub(super) hardness_sha256: Option<&'a String>,
+pub struct BodyData<'a> {
+    /// The grid of the whole surface.
+    pub grid: Grid,
+    /// The file that it was read from.
+    pub origin: Option<&'a Origin>,
+    /// The SHA-256 of the file of its hardness.
+    pub hardness_sha256: Option<&'a String>,
 }
 
 /// [`resolved`] for bodies given only by these data.
-pub(super) fn resolved_of(case: &Case, bodies: [BodyData<'_>; 2]) -> Value {
+pub fn resolved_of(case: &Case, bodies: [BodyData<'_>; 2]) -> Value {
     let mut resolved = serde_json::to_value(case).expect("a case can be written as JSON");
     let specs = [&case.lower.topography, &case.upper.topography];
     let grids = [&bodies[0], &bodies[1]].map(|body| body.grid);
@@ -59,7 +62,7 @@ pub(super) fn resolved_of(case: &Case, bodies: [BodyData<'_>; 2]) -> Value {
 
 /// Returns the digest in all files of a run. Runs with equal results have the same digest, so that their files are
 /// interchangeable.
-pub(super) fn of(case: &Value) -> String {
+pub fn of(case: &Value) -> String {
     sha256(&serde_json::to_vec(&deciding(case)).expect("a JSON value can be written"))
 }
 

@@ -96,10 +96,19 @@ mod rest; // a static contact
 mod results; // the results directory
 mod review; // warnings about a result
 mod run; // from a case to its results
-mod slabs; // a static contact distributed over ranks
 mod subsurface; // the stress under the surface: plan and file
 mod summary; // summary.json
 mod tables; // steps.csv, passes.csv, increments.csv, sweep.csv
+
+/// Parts of [`run()`], for programs that run a case in another way, such as on the ranks of MPI.
+pub mod parts {
+    pub use crate::estimate::{cut_off, spot, too_few_cells};
+    pub use crate::finish::{Computed, closed_form, conclude, params};
+    pub use crate::identity::{BodyData, of as identity_of, resolved_of};
+    pub use crate::prepare::{Fit, Place, grids, hardness, topography_of};
+    pub use crate::rest::pressed;
+    pub use crate::summary::write as write_summary;
+}
 
 pub use adhesion::AdhesionSummary;
 pub use case::Case;
@@ -126,6 +135,5 @@ pub use results::{
     Existing, Results, StepWriter, Writer, cap_name, pressure_name, temperature_name, traction_name,
 };
 pub use run::run;
-pub use slabs::{DemandOfRank, collect, demand_of_collecting, demand_on_ranks, run_on_ranks};
 pub use subsurface::{Plan, SubsurfaceRecord};
 pub use summary::{Outcome, RunningIn, Summary};

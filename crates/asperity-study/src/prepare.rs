@@ -1,7 +1,5 @@
 //! From a case to its two surfaces: reads or generates them, prepares them, and turns the upper one over.
 
-mod slab;
-
 use std::path::Path;
 
 use ndarray::s;
@@ -19,7 +17,6 @@ use asperity_contact::motion::Strategy;
 use asperity_surface::{
     self, Findings, LengthUnit, NEVER, Preparation, ReadOptions, Resample, Scan, Stop, Topography,
 };
-pub(super) use slab::{SlabBodies, made_by_slabs, slab_bodies};
 
 /// Largest relative difference of two equal pitches.
 const SAME_PITCH: f64 = 1e-9;
@@ -288,7 +285,7 @@ fn grid(
 }
 
 /// Name of the table of a body's topography.
-fn topography_of(body: &str) -> String {
+pub fn topography_of(body: &str) -> String {
     format!("{body}.topography")
 }
 
@@ -376,7 +373,7 @@ fn prepare_topography(
 }
 
 /// Returns the hardness of a body on `grid`, and the digest of its file.
-fn hardness(
+pub fn hardness(
     case: &Case,
     name: &str,
     body: &Body,
@@ -509,13 +506,20 @@ fn with_pitch(at: Place<'_>, carried: [Metre; 2]) -> Result<Preparation> {
 
 /// The place of a topography in the case, for error messages.
 #[derive(Clone, Copy)]
-struct Place<'a> {
+pub struct Place<'a> {
     document: &'a Document,
     /// The dotted name of the topography's table.
     table: &'a str,
     spec: &'a TopographySpec,
     /// The pitch of the common grid; `None` if the surface keeps its own.
     pitch: Option<[Metre; 2]>,
+}
+
+impl<'a> Place<'a> {
+    /// A topography that keeps its own pitch, described in the table of this dotted name.
+    pub fn new(case: &'a Case, table: &'a str, spec: &'a TopographySpec) -> Self {
+        Self { document: case.document(), table, spec, pitch: None }
+    }
 }
 
 impl Place<'_> {
@@ -569,7 +573,7 @@ impl Place<'_> {
     }
 
     /// Returns an error for heights outside the accepted lengths.
-    fn measurable(&self, topography: &Topography) -> Result<()> {
+    pub fn measurable(&self, topography: &Topography) -> Result<()> {
         let range = Dimension::Length.range();
         let highest = topography.heights().iter().fold(0.0, |highest: f64, z| highest.max(z.abs()));
         if highest <= range.most {
@@ -607,13 +611,13 @@ impl Place<'_> {
     }
 
     /// Error for a parameter that is invalid on this grid, at its key.
-    fn parameter(&self, error: Error) -> Error {
+    pub fn parameter(&self, error: Error) -> Error {
         self.parameter_of("", error)
     }
 
     /// Error for a parameter that is invalid on this grid, at its key in a `table` within that of the topography,
     /// `"plus.0."`.
-    fn parameter_of(&self, table: &str, error: Error) -> Error {
+    pub fn parameter_of(&self, table: &str, error: Error) -> Error {
         match error {
             Error::OutOfRange { quantity, value, dimension, expected } => {
                 let value =
@@ -627,7 +631,7 @@ impl Place<'_> {
 }
 
 /// Two surfaces that must fit together, and advice on how to make them fit.
-struct Fit<'a> {
+pub struct Fit<'a> {
     case: &'a Case,
     grids: [Grid; 2],
     /// The source files.
@@ -637,9 +641,16 @@ struct Fit<'a> {
 /// Names of the bodies in messages.
 const NAMES: [&str; 2] = ["lower", "upper"];
 
+impl<'a> Fit<'a> {
+    /// The surfaces of a case on these grids, not read from files.
+    pub fn new(case: &'a Case, grids: [Grid; 2]) -> Self {
+        Self { case, grids, origins: [None; 2] }
+    }
+}
+
 impl Fit<'_> {
     /// Returns an error if the surfaces differ in pitch, or in the number of cells along one of these axes.
-    fn check(&self, axes: &[usize]) -> Result<()> {
+    pub fn check(&self, axes: &[usize]) -> Result<()> {
         self.check_pitches()?;
         axes.iter().try_for_each(|&axis| self.check_shapes(axis))
     }

@@ -336,7 +336,7 @@ impl From<StaticRecord> for Outcome {
 }
 
 /// Creates the fields of a contact of the `pair` in one step without friction.
-pub(super) fn pressed(pair: Pair, solution: Solution) -> RestFields {
+pub fn pressed(pair: Pair, solution: Solution) -> RestFields {
     let plastic = solution.plastic_interference();
     fields(pair, Equilibrium::Frictionless(Box::new(solution)), plastic, None)
 }

@@ -146,7 +146,7 @@ fn with_converged<S: Serializer>(
 ///
 /// # Errors
 /// [`Error::File`].
-pub(super) fn write(path: &Path, summary: &Summary) -> Result<()> {
+pub fn write(path: &Path, summary: &Summary) -> Result<()> {
     atomic::write_with(path, |file| {
         json::write_pretty(&mut *file, summary)?;
         file.write_all(b"\n")

@@ -3,11 +3,12 @@
 use serde::Serialize;
 
 use crate::Topography;
+use std::ops::Range;
+
 use asperity_base::choice::choice;
 use asperity_base::error::{Result, check_in};
 use asperity_base::grid::{Field, Grid};
 use asperity_base::math::parallel;
-use asperity_base::ranks::Slab;
 use asperity_base::units::{Dimension, Metre};
 
 /// An ideal form, material's side up, with its apex in the centre of the grid at height 0.
@@ -95,18 +96,17 @@ impl Form {
     /// # Errors
     /// [`asperity_base::Error::OutOfRange`] if a parameter is invalid, or if a wavelength is below two pitches.
     pub fn on(&self, grid: &Grid) -> Result<Topography> {
-        Topography::new(*grid, self.on_slab(&Slab::whole(*grid), false)?)
+        Topography::new(*grid, self.rows_on(grid, 0..grid.shape[0], false)?)
     }
 
-    /// Creates the heights of [`Form::on`] on a `slab`; those of its underside, if it is turned over.
+    /// Creates some rows of the heights of [`Form::on`]; those of its underside, if it is turned over.
     ///
     /// # Errors
     /// The errors of [`Form::on`].
-    pub fn on_slab(&self, slab: &Slab, turned_over: bool) -> Result<Field> {
-        let (grid, rows) = (slab.whole_grid(), slab.rows());
-        self.check(&grid)?;
+    pub fn rows_on(&self, grid: &Grid, rows: Range<usize>, turned_over: bool) -> Result<Field> {
+        self.check(grid)?;
         let extent = grid.extent();
-        Ok(parallel::field(slab.grid().shape, |i, iy| {
+        Ok(parallel::field([rows.len(), grid.shape[1]], |i, iy| {
             let at =
                 |ix| self.height(grid.centre(0, ix) - 0.5 * extent[0], grid.centre(1, iy) - 0.5 * extent[1]);
             let ix = rows.start + i;

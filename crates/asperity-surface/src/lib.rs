@@ -29,7 +29,8 @@ pub use form::{Axis, Form, Groove};
 pub use formats::{Format, LengthUnit, ReadOptions, Scan, UNDERSIDE, contents};
 pub use fractal::SelfAffinity;
 pub use generate::{
-    Amplitude, Autocorrelation, Band, Decay, Generator, HeightDistribution, LowPass, SelfAffine,
+    Amplitude, Autocorrelation, Band, Decay, Generator, HeightDistribution, LowPass, SelfAffine, check_cells,
+    white_noise,
 };
 pub use moments::SpectralMoments;
 pub use parameters::{

@@ -5,12 +5,9 @@ pub mod good_size;
 pub mod parallel;
 pub mod plans;
 mod quadrature;
-mod slab_transform;
 pub mod sum;
-pub mod transposition;
 
 pub use fft::RealFft2;
 pub use good_size::good_size;
 pub use parallel::Bands;
 pub use quadrature::{gauss_legendre, integrate};
-pub use slab_transform::SlabTransform;

@@ -10,7 +10,6 @@ pub(crate) mod mixed;
 mod near_copy;
 mod planes;
 mod skew_convolution;
-mod slab_convolution;
 mod sparse_inverse;
 pub(crate) mod tensor_convolution;
 
@@ -26,6 +25,5 @@ pub(crate) use mixed::{MixedConvolution, MixedKernel, MixedTensorConvolution, Mi
 pub(crate) use near_copy::{NearConvolution, NearKernel};
 pub(crate) use planes::{Planes, together};
 pub(crate) use skew_convolution::{SkewConvolution, SkewKernel};
-pub(crate) use slab_convolution::SlabConvolution;
 pub(crate) use sparse_inverse::{ROWS_ABOVE, SparseInverse};
 pub(crate) use tensor_convolution::{TensorConvolution, TensorKernel};

@@ -11,11 +11,8 @@ use crate::motion::record::{AdhesionRecord, StaticRecord, StepRecord};
 use crate::motion::rim::Interior;
 use crate::motion::spot::largest_spot;
 use crate::motion::watch::{OneOfMany, StaticWatch, Watch};
-use crate::operator::{Boundary, Operators, SlabFft};
-use crate::ranks::{Largest, Slab};
-use crate::solver::{
-    Control, Params, Sliding, Solution, Stats, solve_normal, solve_normal_watched, solve_sliding,
-};
+use crate::operator::{Boundary, Operators};
+use crate::solver::{Control, Params, Sliding, Solution, Stats, solve_normal_watched, solve_sliding};
 use crate::units::{CubicMetre, Kelvin, Metre, Newton, Pascal};
 
 /// The solution at one position: only the cells in contact.
@@ -281,30 +278,6 @@ pub fn press(
     Ok(StaticContact { record: StaticRecord::new(&solution).attracted(pair, &solution), solution })
 }
 
-/// Presses a pair like [`press`], with the rows of one `slab` on each rank. All ranks call it together. The record
-/// describes the whole contact, the solution the rows of the slab.
-///
-/// # Errors
-/// The errors of [`crate::solver::solve_normal`]. If one rank fails, the others keep waiting for it.
-///
-/// # Panics
-/// If the shape of the bodies differs from that of the slab.
-pub fn press_slab(
-    pair: &Pair,
-    slab: &Slab,
-    boundary: Boundary,
-    control: Control,
-    params: &Params,
-) -> Result<StaticContact> {
-    pair.check_no_adhesion()?;
-    pair.check_line(&slab.whole_grid(), boundary)?;
-    let position = pair.at_rest();
-    let (gap, bounds) = (pair.initial_gap(&position), pair.bounds(&position, None));
-    let mut operator = SlabFft::new(slab.clone(), pair.response().clone(), boundary);
-    let solution = solve_normal(&mut operator, &gap, &bounds, control, None, params)?;
-    Ok(StaticContact { record: StaticRecord::of_slab(&solution, slab), solution })
-}
-
 /// Returns the operators of a pair at full overlap, and the gap between the bodies.
 pub(super) fn facing(pair: &Pair, boundary: Boundary) -> Result<(Operators, Field)> {
     assert_eq!(pair.lower.heights.dim(), pair.upper.heights.dim(), "shapes of the bodies");
@@ -313,7 +286,7 @@ pub(super) fn facing(pair: &Pair, boundary: Boundary) -> Result<(Operators, Fiel
 
 impl StaticRecord {
     /// Returns the record of a contact without friction.
-    pub(super) fn new(solution: &Solution) -> Self {
+    pub fn new(solution: &Solution) -> Self {
         Self {
             load: solution.load(),
             approach: solution.approach,
@@ -337,31 +310,5 @@ impl StaticRecord {
     pub(super) fn attracted(self, pair: &Pair, solution: &Solution) -> Self {
         let adhesion = pair.adhesion().map(|adhesion| AdhesionRecord::of(adhesion, solution));
         Self { adhesion, ..self }
-    }
-
-    /// Returns the record of a contact without friction whose solution is distributed over the slabs of the ranks.
-    fn of_slab(solution: &Solution, slab: &Slab) -> Self {
-        let own = Self::new(solution);
-        let [load, contact_area, gaps, elastic_energy, plastic_cells, plastic_volume] = slab.merged([
-            own.load,
-            own.contact_area,
-            own.mean_gap * own.apparent_area,
-            own.elastic_energy,
-            own.plastic_cells as f64,
-            own.plastic_volume,
-        ]);
-        let Largest(max_pressure) = slab.merged(Largest(own.max_pressure));
-        let apparent_area = slab.whole_grid().area();
-        Self {
-            load,
-            contact_area,
-            apparent_area,
-            max_pressure,
-            mean_gap: gaps / apparent_area,
-            elastic_energy,
-            plastic_cells: plastic_cells as usize,
-            plastic_volume,
-            ..own
-        }
     }
 }

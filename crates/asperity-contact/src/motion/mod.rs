@@ -37,7 +37,7 @@ mod worn_away;
 pub use adhesive::AdhesionHistory;
 pub use asperity_base::record::{Column, Presence};
 pub use body::{Body, State};
-pub use contact::{Contact, StaticContact, press, press_slab};
+pub use contact::{Contact, StaticContact, press};
 pub use course::{Output, Step};
 pub use elasto_plastic::{ElastoPlasticContact, FlowPath, FlowResult, press_elasto_plastic};
 pub use extrapolation::{Acceleration, LastExtrapolation};

@@ -141,7 +141,7 @@ impl Pair {
     }
 
     /// Returns [`Error::Unsupported`] if the bodies attract each other.
-    pub(super) fn check_no_adhesion(&self) -> Result<()> {
+    pub fn check_no_adhesion(&self) -> Result<()> {
         match self.adhesion {
             Some(_) => Err(Error::Unsupported(
                 "adhesion is not solved together with coupled friction, rolling, wear in place, plastic flow or ranks",
@@ -159,7 +159,7 @@ impl Pair {
 
     /// Returns [`Error::Unsupported`] if the boundary is periodic along one axis of a grid and the response to a line of
     /// cells is unknown.
-    pub(super) fn check_line(&self, largest: &Grid, boundary: Boundary) -> Result<()> {
+    pub fn check_line(&self, largest: &Grid, boundary: Boundary) -> Result<()> {
         let line = boundary.line(largest, boundary.datum(largest));
         if line.is_some_and(|line| self.response.line_influence(&line, self.pitch).is_none()) {
             return Err(Error::Unsupported(

@@ -60,12 +60,12 @@ impl Boundary {
     }
 
     /// Returns the r₀ of operators on grids up to this one: its length along the free axis.
-    pub(crate) fn datum(self, largest: &Grid) -> Metre {
+    pub fn datum(self, largest: &Grid) -> Metre {
         self.single_period().map_or(0.0, |axis| largest.extent()[1 - axis])
     }
 
     /// Returns the line of the periodic images of a cell of `grid`, for a given r₀.
-    pub(crate) fn line(self, grid: &Grid, datum: Metre) -> Option<Line> {
+    pub fn line(self, grid: &Grid, datum: Metre) -> Option<Line> {
         self.single_period().map(|axis| Line { axis, period: grid.extent()[axis], datum })
     }
 
@@ -78,7 +78,7 @@ impl Boundary {
     /// Returns the grid of about half as many cells along each axis. Along a free axis a coarse cell is two cells
     /// of `grid`, and the last coarse cell extends beyond an odd number of cells. Along a periodic axis the
     /// period is preserved.
-    pub(super) fn coarse(self, grid: &Grid) -> Grid {
+    pub fn coarse(self, grid: &Grid) -> Grid {
         let shape = grid.shape.map(|n| n.div_ceil(2));
         let pitch = [0, 1].map(|axis| {
             if self.repeats(axis) { grid.extent()[axis] / shape[axis] as f64 } else { 2.0 * grid.pitch[axis] }

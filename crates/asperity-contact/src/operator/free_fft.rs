@@ -39,7 +39,8 @@ impl FreeFamily {
         Self::with_datum(largest.pitch, response.into(), boundary, boundary.datum(largest))
     }
 
-    pub(super) fn with_datum(
+    /// Creates the operator whose displacements along a periodic axis are relative to those at `datum`.
+    pub fn with_datum(
         pitch: [Metre; 2],
         response: SharedResponse,
         boundary: Boundary,

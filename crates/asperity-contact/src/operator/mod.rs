@@ -8,7 +8,6 @@ mod family;
 mod free_fft;
 mod periodic_fft;
 mod shared;
-mod slab_fft;
 
 pub use boundary::{Boundary, Edge};
 pub use compliant::Compliant;
@@ -17,7 +16,6 @@ pub use direct_sum::DirectSum;
 pub use family::Operators;
 pub use free_fft::{FreeFamily, FreeFft};
 pub use periodic_fft::{PeriodicFft, PeriodicKernel};
-pub use slab_fft::SlabFft;
 
 use crate::grid::{CellValues, Field, Grid, SingleField};
 use crate::ranks::Slab;

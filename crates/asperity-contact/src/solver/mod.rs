@@ -16,8 +16,6 @@ mod preconditioner;
 mod residual;
 mod sets;
 mod site;
-#[cfg(test)]
-mod slabs;
 mod stiffness;
 mod together;
 mod uniform;

@@ -267,7 +267,7 @@ pub(super) fn no_contact(approach: Metre, touch: Metre) -> String {
 }
 
 /// Warns if the largest contact spot has too few cells.
-pub(crate) fn too_few_cells(across: usize) -> Option<String> {
+pub fn too_few_cells(across: usize) -> Option<String> {
     match across {
         1 => Some(format!(
             "the mesh is coarse for the contact: its largest spot is a single cell across, {CELLS_ACROSS} or more are \
@@ -286,7 +286,7 @@ pub(crate) fn too_few_cells(across: usize) -> Option<String> {
 ///
 /// If the Hertzian contact of a sphere or an ellipsoid extends slightly beyond the side, its largest pressure is still
 /// accurate to 1 %. Once the pressure at the side exceeds it, the error soon exceeds 5 %.
-pub(crate) fn cut_off(
+pub fn cut_off(
     pressure: &Field,
     gap: impl FnOnce() -> Field,
     pitch: [Metre; 2],
@@ -374,7 +374,7 @@ impl Sides {
 }
 
 /// Number of cells across the largest contact spot of a pressure field.
-pub(crate) fn spot(pressure: &Field, boundary: Boundary) -> usize {
+pub fn spot(pressure: &Field, boundary: Boundary) -> usize {
     let touching = pressure.iter().enumerate().filter(|(_, p)| **p > 0.0).map(|(cell, _)| cell);
     largest_spot(touching, [pressure.nrows(), pressure.ncols()], boundary.wraps())
 }

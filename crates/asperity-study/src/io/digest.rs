@@ -6,12 +6,12 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 /// The SHA-256 of `bytes`, hexadecimal.
-pub(crate) fn sha256(bytes: &[u8]) -> String {
+pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The SHA-256 of the bytes of `numbers`, little-endian, hexadecimal.
-pub(crate) fn sha256_of(numbers: impl Iterator<Item = f64>) -> String {
+pub fn sha256_of(numbers: impl Iterator<Item = f64>) -> String {
     let mut digest = Sha256::new();
     let mut buffer = Vec::with_capacity(1 << 16);
     for number in numbers {
@@ -26,7 +26,7 @@ pub(crate) fn sha256_of(numbers: impl Iterator<Item = f64>) -> String {
 }
 
 /// The SHA-256 of the content of a regular file, hexadecimal.
-pub(crate) fn sha256_of_file(path: &Path) -> io::Result<String> {
+pub fn sha256_of_file(path: &Path) -> io::Result<String> {
     let mut file = super::regular::open(path, "a topography file")?;
     let mut digest = Sha256::new();
     let mut buffer = vec![0; 1 << 20];

@@ -81,7 +81,7 @@ impl FieldFile {
 
     /// Creates a file for `path` with the identity of a run. [`FieldFile::write`] rejects a value that is not finite with
     /// [`Error::NotFinite`], unless its field may contain such values.
-    pub(crate) fn of_run(identity: &str, path: &Path) -> Self {
+    pub fn of_run(identity: &str, path: &Path) -> Self {
         let mut file = Self { finite: true, ..Self::new(path) };
         file.set("version", env!("CARGO_PKG_VERSION")).set("identity", identity);
         file

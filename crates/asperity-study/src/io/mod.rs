@@ -8,4 +8,4 @@ mod packing; // chunks of arrays, deflated
 pub mod vti; // fields for ParaView
 
 pub use asperity_base::io::{atomic, read_regular, regular, replace, sweep};
-pub(crate) use digest::{sha256, sha256_of, sha256_of_file};
+pub use digest::{sha256, sha256_of, sha256_of_file};

@@ -300,7 +300,8 @@ impl Results {
         self.directory.join("case.json")
     }
 
-    pub(crate) fn summary_path(&self) -> PathBuf {
+    /// The file of the summary.
+    pub fn summary_path(&self) -> PathBuf {
         self.directory.join("summary.json")
     }
 
@@ -387,7 +388,8 @@ impl Results {
         self.fields_folder().join(format!("point-{point:04}.h5"))
     }
 
-    pub(crate) fn static_path(&self) -> PathBuf {
+    /// The file of the fields of a static contact.
+    pub fn static_path(&self) -> PathBuf {
         self.directory.join("fields.h5")
     }
 

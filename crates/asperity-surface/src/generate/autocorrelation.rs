@@ -84,7 +84,7 @@ impl Autocorrelation {
     }
 
     /// Returns the shape of the noise that is filtered to a topography on `grid`, if every parameter is valid there.
-    pub(super) fn shape(&self, grid: &Grid) -> Result<[usize; 2]> {
+    pub fn shape(&self, grid: &Grid) -> Result<[usize; 2]> {
         check_sq(self.sq)?;
         check_in(Dimension::Angle, "lay", self.lay, self.lay.is_finite(), "an angle")?;
         let (distance, reach) = (self.distance(), self.reach());
@@ -121,7 +121,7 @@ impl Autocorrelation {
 
     /// Returns the autocorrelation, with variance 1, of samples `[i, j]` apart on a period of `shape`, i at most half of
     /// it.
-    pub(super) fn covariance(&self, [_, ny]: [usize; 2], pitch: [Metre; 2]) -> impl Fn(usize, usize) -> f64 {
+    pub fn covariance(&self, [_, ny]: [usize; 2], pitch: [Metre; 2]) -> impl Fn(usize, usize) -> f64 {
         let (distance, decay) = (self.distance(), self.decay);
         move |i, j| {
             let j = if 2 * j > ny { j as f64 - ny as f64 } else { j as f64 };

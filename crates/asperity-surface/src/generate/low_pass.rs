@@ -77,7 +77,7 @@ impl LowPass {
     }
 
     /// Returns the shape of the noise that is filtered to a topography on `grid`, if every parameter is valid there.
-    pub(super) fn shape(&self, grid: &Grid) -> Result<[usize; 2]> {
+    pub fn shape(&self, grid: &Grid) -> Result<[usize; 2]> {
         check_sq(self.sq)?;
         for axis in 0..2 {
             let length = self.cutoff[axis];
@@ -116,7 +116,7 @@ impl LowPass {
     }
 
     /// Returns the spectrum of the filter at some frequencies l, `[l, k]` of a transform of `shape`: its squared response.
-    pub(super) fn spectrum(&self, shape: [usize; 2], pitch: [Metre; 2], l: Range<usize>) -> Field {
+    pub fn spectrum(&self, shape: [usize; 2], pitch: [Metre; 2], l: Range<usize>) -> Field {
         let [x, y] = std::array::from_fn(|axis| {
             let part = |bin| {
                 let frequency = angular_frequency(bin, shape[axis], pitch[axis]);

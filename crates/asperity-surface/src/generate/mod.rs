@@ -6,13 +6,13 @@ mod johnson;
 mod low_pass;
 mod noise;
 mod self_affine;
-mod slab;
 #[cfg(test)]
 mod statistics;
 
 pub use autocorrelation::{Autocorrelation, Decay};
 pub use heights::HeightDistribution;
 pub use low_pass::{Band, LowPass};
+pub use noise::{check_cells, white_noise};
 pub use self_affine::{Amplitude, SelfAffine};
 
 use serde::Serialize;

@@ -12,7 +12,7 @@ use asperity_base::math::{RealFft2, good_size};
 use asperity_base::units::Metre;
 
 /// Independent Gaussian numbers with mean 0 and variance 1: the ChaCha8 stream for `seed`.
-pub(super) fn white_noise(seed: u64) -> impl Iterator<Item = f64> {
+pub fn white_noise(seed: u64) -> impl Iterator<Item = f64> {
     StandardNormal.sample_iter(ChaCha8Rng::seed_from_u64(seed))
 }
 
@@ -61,7 +61,7 @@ pub(super) fn stationary(
 }
 
 /// Returns an error for a grid of a single cell, whose heights cannot differ.
-pub(super) fn check_cells(grid: &Grid) -> Result<()> {
+pub fn check_cells(grid: &Grid) -> Result<()> {
     check("shape", grid.cells() as f64, grid.cells() > 1, "at least two cells, for heights to differ")
 }
 

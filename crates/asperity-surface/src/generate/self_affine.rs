@@ -67,7 +67,7 @@ impl SelfAffine {
 
     /// Returns the unscaled transform `[l, k]` of a topography at the frequencies `among` along y, and the contributions of
     /// these waves to the squares of height and slope. [`Self::scale`] gives the factor.
-    pub(super) fn spectrum(
+    pub fn spectrum(
         &self,
         grid: &Grid,
         seed: u64,
@@ -115,7 +115,7 @@ impl SelfAffine {
     }
 
     /// Returns the scale of a transform whose waves contribute these squares of height and slope.
-    pub(super) fn scale(&self, grid: &Grid, [height, slope]: [f64; 2]) -> Result<f64> {
+    pub fn scale(&self, grid: &Grid, [height, slope]: [f64; 2]) -> Result<f64> {
         if height == 0.0 {
             return Err(Error::OutOfRange {
                 quantity: "shortest",

@@ -8,27 +8,31 @@ use asperity_transforms::num_complex::Complex;
 use asperity_transforms::num_traits::Zero;
 use ndarray::Array2;
 
-use super::convolution::{Kernel, Parity, largest, multiply};
-use super::mixed::{LastUsed, MixedKernel};
-use crate::grid::{Field, SingleField};
-use crate::ranks::{Largest, Number, Parts, Ranks, Slab};
+use crate::transposition::Transposition;
+use asperity_base::grid::{Field, SingleField};
 use asperity_base::math::plans::{Plans, real};
-use asperity_base::math::transposition::Transposition;
+use asperity_base::ranks::{Largest, Number, Parts, Ranks, Slab};
 
 /// Number of rows that are transposed at a time.
 const BLOCK: usize = 8;
 
 /// Convolution in either precision of fields with rows on each rank. The kernel has at least their size, and values
-/// beyond the fields are zero. The result has the bits of [`super::MixedConvolution`].
+/// beyond the fields are zero. The result has the bits of the convolution of one process.
 ///
 /// Each rank transforms its rows. After a transposition each rank has some columns, which it transforms, multiplies
 /// by the kernel and transforms back. A second transposition returns the rows.
 pub(crate) struct SlabConvolution {
     ranks: Arc<dyn Ranks>,
     rows: Parts,
-    /// The kernel at the frequencies along y of this rank.
-    kernel: Arc<MixedKernel>,
-    latest: LastUsed<Workspace<f64>, Workspace<f32>>,
+    /// The size of the kernel.
+    shape: [usize; 2],
+    /// Its real and even spectrum over its largest value: `[ky, kx]` at the frequencies along y of this rank, for `kx ≤ Mx/2`.
+    spectrum: Arc<Field>,
+    /// The largest of the spectrum, divided by Mx My.
+    unit: f64,
+    /// The scratch memory of the precision used last.
+    double: Option<Workspace<f64>>,
+    single: Option<Workspace<f32>>,
 }
 
 impl SlabConvolution {
@@ -39,18 +43,17 @@ impl SlabConvolution {
         shape: [usize; 2],
         transform: impl Fn(usize, usize) -> f64,
     ) -> Self {
-        let plans = Plans::new(shape);
-        let columns = columns_of(&**slab.ranks(), plans.half());
+        let columns = columns_of(&**slab.ranks(), shape[1] / 2 + 1);
         let spectrum = Field::from_shape_fn([columns.len(), shape[0] / 2 + 1], |(ky, kx)| {
             transform(kx, columns.start + ky)
         });
-        Self::new(slab, plans, spectrum)
+        Self::new(slab, shape, spectrum)
     }
 
     /// Creates the convolution of the fields of a `slab` with the kernel of `shape` and the values `at(i, j)` at
     /// the offsets ±i, ±j, for `i ≤ Mx/2`, `j ≤ My/2`.
     pub(crate) fn from_values(slab: &Slab, shape: [usize; 2], at: impl Fn(usize, usize) -> f64) -> Self {
-        let plans = Plans::new(shape);
+        let plans = Plans::<f64>::new(shape);
         let ranks = slab.ranks();
         let (half, rows) = (plans.half(), Parts::even(shape[0] / 2 + 1, ranks.count()));
         let columns = Parts::even(half, ranks.count());
@@ -61,7 +64,7 @@ impl SlabConvolution {
         for (n, ix) in rows.of(ranks.rank()).enumerate() {
             values.iter_mut().enumerate().for_each(|(iy, value)| *value = at(ix, iy));
             for (iy, value) in row.iter_mut().enumerate() {
-                *value = Parity::Even.extend(iy, shape[1], |iy| values[iy]);
+                *value = values[iy.min(shape[1] - iy)];
             }
             let forward = plans.along_y.process_with_scratch(&mut row, &mut spectrum, &mut scratch);
             forward.expect("lengths come from the plan");
@@ -74,41 +77,54 @@ impl SlabConvolution {
         for (n, mut spectrum) in spectrum.outer_iter_mut().enumerate() {
             transposition.column(n, &mut front);
             for (ix, value) in column.iter_mut().enumerate() {
-                *value = Complex::from(Parity::Even.extend(ix, shape[0], |ix| front[ix].re));
+                *value = Complex::from(front[ix.min(shape[0] - ix)].re);
             }
             plans.along_x.process_with_scratch(&mut column, &mut scratch);
             spectrum.iter_mut().zip(&column).for_each(|(s, c)| *s = c.re);
         }
-        Self::new(slab, plans, spectrum)
+        Self::new(slab, shape, spectrum)
     }
 
-    fn new(slab: &Slab, plans: Plans<f64>, spectrum: Field) -> Self {
+    fn new(slab: &Slab, shape: [usize; 2], mut spectrum: Field) -> Self {
         let [rows, columns] = slab.whole_grid().shape;
-        assert!(rows <= plans.shape[0] && columns <= plans.shape[1], "kernel smaller than the field");
-        let Largest(largest) = slab.merged(Largest(largest(&spectrum)));
+        assert!(rows <= shape[0] && columns <= shape[1], "kernel smaller than the field");
+        let own = spectrum.iter().fold(0.0, |largest: f64, s| s.abs().max(largest));
+        let Largest(largest) = slab.merged(Largest(own));
+        if largest > 0.0 {
+            spectrum /= largest;
+        }
         Self {
             ranks: Arc::clone(slab.ranks()),
             rows: slab.parts().clone(),
-            kernel: MixedKernel::new(Kernel::scaled(plans, spectrum, largest)),
-            latest: LastUsed::None,
+            shape,
+            spectrum: Arc::new(spectrum),
+            unit: largest / (shape[0] * shape[1]) as f64,
+            double: None,
+            single: None,
         }
     }
 
     /// Computes the convolution `output` of `input`, to 1e-15 of the largest output.
     pub(crate) fn apply(&mut self, input: &Field, output: &mut Field) {
-        let Self { ranks, rows, kernel, latest } = self;
-        latest.double(|| Workspace::new(ranks, rows, kernel.double())).apply(input, output);
+        self.single = None;
+        let Self { ranks, rows, shape, spectrum, unit, double, .. } = self;
+        let workspace =
+            double.get_or_insert_with(|| Workspace::new(ranks, rows, *shape, Arc::clone(spectrum)));
+        workspace.apply(input, *unit, output);
     }
 
     /// Computes the convolution `output` of `input` in half the time, to 3e-7 of the largest output.
     pub(crate) fn apply_single(&mut self, input: &SingleField, output: &mut SingleField) {
-        let Self { ranks, rows, kernel, latest } = self;
-        latest.single(|| Workspace::new(ranks, rows, kernel.single(Kernel::to_single))).apply(input, output);
+        self.double = None;
+        let Self { ranks, rows, shape, spectrum, unit, single, .. } = self;
+        let workspace =
+            single.get_or_insert_with(|| Workspace::new(ranks, rows, *shape, Arc::clone(spectrum)));
+        workspace.apply(input, *unit, output);
     }
 
     /// Releases the scratch memory.
     pub(crate) fn release(&mut self) {
-        self.latest = LastUsed::None;
+        (self.double, self.single) = (None, None);
     }
 }
 
@@ -119,7 +135,8 @@ fn columns_of(ranks: &dyn Ranks, frequencies: usize) -> Range<usize> {
 
 /// A field during its transforms.
 struct Workspace<T> {
-    kernel: Arc<Kernel<T>>,
+    plans: Plans<T>,
+    spectrum: Arc<Field>,
     transposition: Transposition<T>,
     row: Vec<T>,
     /// A few transformed rows.
@@ -129,8 +146,8 @@ struct Workspace<T> {
 }
 
 impl<T: Precision + Number> Workspace<T> {
-    fn new(ranks: &Arc<dyn Ranks>, rows: &Parts, kernel: Arc<Kernel<T>>) -> Self {
-        let (plans, [mx, my]) = (&kernel.plans, kernel.plans.shape);
+    fn new(ranks: &Arc<dyn Ranks>, rows: &Parts, shape: [usize; 2], spectrum: Arc<Field>) -> Self {
+        let (plans, [mx, my]) = (Plans::new(shape), shape);
         let columns = Parts::even(plans.half(), ranks.count());
         Self {
             transposition: Transposition::new(Arc::clone(ranks), rows.clone(), columns),
@@ -138,13 +155,14 @@ impl<T: Precision + Number> Workspace<T> {
             block: vec![Complex::zero(); BLOCK * plans.half()],
             column: vec![Complex::zero(); mx],
             plan: plans.scratch(),
-            kernel,
+            plans,
+            spectrum,
         }
     }
 
-    fn apply(&mut self, input: &Array2<T>, output: &mut Array2<T>) {
-        let Self { kernel, transposition, row, block, column, plan } = self;
-        let (plans, half) = (&kernel.plans, kernel.plans.half());
+    fn apply(&mut self, input: &Array2<T>, unit: f64, output: &mut Array2<T>) {
+        let Self { plans, spectrum, transposition, row, block, column, plan } = self;
+        let half = plans.half();
         for first in (0..input.nrows()).step_by(BLOCK) {
             let count = BLOCK.min(input.nrows() - first);
             let block = &mut block[..count * half];
@@ -154,7 +172,7 @@ impl<T: Precision + Number> Workspace<T> {
             transposition.set_rows(first, block);
         }
         transposition.make_columns();
-        for (n, spectrum) in kernel.spectrum.outer_iter().enumerate() {
+        for (n, spectrum) in spectrum.outer_iter().enumerate() {
             let rows = transposition.all_rows();
             let (field, beyond) = column.split_at_mut(rows);
             transposition.column(n, field);
@@ -170,8 +188,15 @@ impl<T: Precision + Number> Workspace<T> {
             let block = &mut block[..count * half];
             transposition.rows(first, block);
             for (n, half) in block.chunks_exact_mut(half).enumerate() {
-                plans.row_back(half, real(kernel.unit), output.row_mut(first + n), row, plan);
+                plans.row_back(half, real(unit), output.row_mut(first + n), row, plan);
             }
         }
     }
+}
+
+/// Multiplies a column of a transform by the even `spectrum`.
+fn multiply<T: Precision>(column: &mut [Complex<T>], spectrum: &[f64]) {
+    let (front, back) = column.split_at_mut(column.len() / 2 + 1);
+    front.iter_mut().zip(spectrum).for_each(|(v, k)| *v = v.scale(real(*k)));
+    back.iter_mut().rev().zip(&spectrum[1..]).for_each(|(v, k)| *v = v.scale(real(*k)));
 }

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use asperity_transforms::num_complex::Complex;
 
-use crate::ranks::{Number, Parts, Ranks};
+use asperity_base::ranks::{Number, Parts, Ranks};
 
 /// Complex numbers `[row, column]` with rows, or columns, on each rank.
 ///
 /// Two ranks exchange the cells in the rows of one and the columns of the other, column by column. The memory is two
 /// real numbers per cell in each of the two forms.
-pub struct Transposition<T> {
+pub(crate) struct Transposition<T> {
     ranks: Arc<dyn Ranks>,
     rows: Parts,
     columns: Parts,
@@ -24,7 +24,7 @@ pub struct Transposition<T> {
 
 impl<T: Number> Transposition<T> {
     /// Creates zeros with these `rows`, and these `columns`, on each of the `ranks`.
-    pub fn new(ranks: Arc<dyn Ranks>, rows: Parts, columns: Parts) -> Self {
+    pub(crate) fn new(ranks: Arc<dyn Ranks>, rows: Parts, columns: Parts) -> Self {
         let (own_rows, own_columns) = (rows.of(ranks.rank()).len(), columns.of(ranks.rank()).len());
         let row_counts: Vec<usize> = columns.all().map(|part| 2 * own_rows * part.len()).collect();
         let column_counts: Vec<usize> = rows.all().map(|part| 2 * part.len() * own_columns).collect();
@@ -40,7 +40,7 @@ impl<T: Number> Transposition<T> {
     }
 
     /// Sets consecutive rows of this rank from its row `first` on, from `values` row by row.
-    pub fn set_rows(&mut self, first: usize, values: &[Complex<T>]) {
+    pub(crate) fn set_rows(&mut self, first: usize, values: &[Complex<T>]) {
         let (width, own) = (self.columns.lines(), self.own_rows());
         let count = values.len() / width;
         for (column, cells) in self.by_rows.chunks_exact_mut(2 * own).enumerate() {
@@ -52,7 +52,7 @@ impl<T: Number> Transposition<T> {
     }
 
     /// Reads consecutive rows, the inverse of [`Self::set_rows`].
-    pub fn rows(&self, first: usize, values: &mut [Complex<T>]) {
+    pub(crate) fn rows(&self, first: usize, values: &mut [Complex<T>]) {
         let (width, own) = (self.columns.lines(), self.own_rows());
         let count = values.len() / width;
         for (column, cells) in self.by_rows.chunks_exact(2 * own).enumerate() {
@@ -64,7 +64,7 @@ impl<T: Number> Transposition<T> {
     }
 
     /// Sets a column of this rank, counted from its first column, with a value for each row of the grid.
-    pub fn set_column(&mut self, column: usize, values: &[Complex<T>]) {
+    pub(crate) fn set_column(&mut self, column: usize, values: &[Complex<T>]) {
         let width = self.own_columns();
         for part in self.rows.all() {
             let cells = &mut self.by_columns[2 * (part.start * width + column * part.len())..];
@@ -75,7 +75,7 @@ impl<T: Number> Transposition<T> {
     }
 
     /// Reads a column, the inverse of [`Self::set_column`].
-    pub fn column(&self, column: usize, values: &mut [Complex<T>]) {
+    pub(crate) fn column(&self, column: usize, values: &mut [Complex<T>]) {
         let width = self.own_columns();
         for part in self.rows.all() {
             let cells = &self.by_columns[2 * (part.start * width + column * part.len())..];
@@ -86,24 +86,24 @@ impl<T: Number> Transposition<T> {
     }
 
     /// Transposes the rows of all ranks to columns.
-    pub fn make_columns(&mut self) {
+    pub(crate) fn make_columns(&mut self) {
         let Self { ranks, by_rows, by_columns, row_counts, column_counts, .. } = self;
         T::exchange(&**ranks, by_rows, row_counts, by_columns, column_counts);
     }
 
     /// Transposes the columns of all ranks to rows.
-    pub fn make_rows(&mut self) {
+    pub(crate) fn make_rows(&mut self) {
         let Self { ranks, by_rows, by_columns, row_counts, column_counts, .. } = self;
         T::exchange(&**ranks, by_columns, column_counts, by_rows, row_counts);
     }
 
     /// Number of columns of this rank.
-    pub fn own_columns(&self) -> usize {
+    pub(crate) fn own_columns(&self) -> usize {
         self.columns.of(self.ranks.rank()).len()
     }
 
     /// Number of rows of all ranks.
-    pub fn all_rows(&self) -> usize {
+    pub(crate) fn all_rows(&self) -> usize {
         self.rows.lines()
     }
 
@@ -115,7 +115,7 @@ impl<T: Number> Transposition<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ranks::threads::on_ranks;
+    use asperity_base::ranks::threads::on_ranks;
 
     #[test]
     fn rows_become_columns_and_columns_rows() {

@@ -2,12 +2,13 @@
 
 use ndarray::s;
 
-use super::{Bounds, Control, Method, Params, Solution, solve_normal};
-use crate::error::Error;
-use crate::grid::{CellValues, Field, Grid};
-use crate::operator::{Boundary, Edge, FreeFamily, Operator, PeriodicFft, SlabFft};
-use crate::ranks::Slab;
-use crate::ranks::threads::on_ranks;
+use asperity_base::error::Error;
+use asperity_base::grid::{CellValues, Field, Grid};
+use asperity_base::ranks::Slab;
+use asperity_base::ranks::threads::on_ranks;
+use asperity_contact::operator::{Boundary, Edge, FreeFamily, Operator, PeriodicFft};
+use asperity_contact::solver::{Bounds, Control, Method, Params, Solution, solve_normal};
+use asperity_mpi::operator::SlabFft;
 
 const MODULUS: f64 = 110e9;
 

@@ -7,34 +7,34 @@ use asperity_transforms::num_complex::Complex64;
 use asperity_transforms::num_traits::Zero;
 use ndarray::{Array2, ArrayView1};
 
-use super::plans::Plans;
-use super::transposition::Transposition;
-use crate::grid::Field;
-use crate::ranks::{Parts, Ranks, Slab};
+use crate::transposition::Transposition;
+use asperity_base::grid::Field;
+use asperity_base::math::plans::Plans;
+use asperity_base::ranks::{Parts, Ranks, Slab};
 
 /// Number of rows that are transposed at a time.
 const BLOCK: usize = 8;
 
-/// Transforms of real fields of one shape, like [`super::RealFft2`]. Each rank has its rows of the field, and its
+/// Transforms of real fields of one shape, like [`asperity_base::math::RealFft2`]. Each rank has its rows of the field, and its
 /// frequencies along y of the transform.
-pub struct SlabTransform {
+pub(crate) struct SlabTransform {
     ranks: Arc<dyn Ranks>,
     plans: Plans<f64>,
 }
 
 impl SlabTransform {
     /// Plans the transforms of fields of `shape`.
-    pub fn new(ranks: &Arc<dyn Ranks>, shape: [usize; 2]) -> Self {
+    pub(crate) fn new(ranks: &Arc<dyn Ranks>, shape: [usize; 2]) -> Self {
         Self { ranks: Arc::clone(ranks), plans: Plans::new(shape) }
     }
 
     /// The rows of this rank.
-    pub fn rows(&self) -> Range<usize> {
+    pub(crate) fn rows(&self) -> Range<usize> {
         self.row_parts().of(self.ranks.rank())
     }
 
     /// The frequencies along y of this rank.
-    pub fn frequencies(&self) -> Range<usize> {
+    pub(crate) fn frequencies(&self) -> Range<usize> {
         self.column_parts().of(self.ranks.rank())
     }
 
@@ -48,7 +48,7 @@ impl SlabTransform {
 
     /// Computes the unnormalised transform of a field. `row` sets its rows and is called in order for the rows of
     /// this rank. Returns `[l, k]` for the frequencies l of this rank along y.
-    pub fn forward(&self, mut row: impl FnMut(usize, &mut [f64])) -> Array2<Complex64> {
+    pub(crate) fn forward(&self, mut row: impl FnMut(usize, &mut [f64])) -> Array2<Complex64> {
         let Self { ranks, plans } = self;
         let [nx, ny] = plans.shape;
         let mut transposition = Transposition::new(Arc::clone(ranks), self.row_parts(), self.column_parts());
@@ -76,7 +76,7 @@ impl SlabTransform {
 
     /// Computes the rows of a `slab` of the field with the transform `columns`, cropped to its grid. If
     /// `mirrored`, the last row becomes the first.
-    pub fn inverse(&self, mut columns: Array2<Complex64>, slab: &Slab, mirrored: bool) -> Field {
+    pub(crate) fn inverse(&self, mut columns: Array2<Complex64>, slab: &Slab, mirrored: bool) -> Field {
         let Self { ranks, plans } = self;
         let [nx, ny] = plans.shape;
         let rows = slab.parts();
@@ -112,9 +112,9 @@ impl SlabTransform {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grid::Grid;
-    use crate::math::RealFft2;
-    use crate::ranks::threads::on_ranks;
+    use asperity_base::grid::Grid;
+    use asperity_base::math::RealFft2;
+    use asperity_base::ranks::threads::on_ranks;
     use ndarray::s;
 
     #[test]

@@ -8,36 +8,36 @@ use ndarray::s;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::fields::{NamedField, RestFields};
-use crate::identity;
-use crate::io::fields::{Attribute, FieldFile, Fields, StoredField};
-use crate::io::sha256;
-use crate::io::{atomic, regular};
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::{Field, Grid};
+use asperity_base::io::{atomic, regular};
 use asperity_base::ranks::Slab;
 use asperity_base::units::{Metre, Pascal};
 use asperity_contact::operator::Boundary;
+use asperity_study::io::fields::{Attribute, FieldFile, Fields, StoredField};
+use asperity_study::io::sha256;
+use asperity_study::parts::identity_of;
+use asperity_study::{NamedField, RestFields};
 
 /// The rows of the fields in each file of a run on ranks.
 #[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Index {
+pub(crate) struct Index {
     version: String,
-    pub(super) identity: String,
+    pub(crate) identity: String,
     shape: [usize; 2],
     pitch: [Metre; 2],
-    pub(super) periodic: [bool; 2],
-    pub(super) approach: Metre,
+    pub(crate) periodic: [bool; 2],
+    pub(crate) approach: Metre,
     /// `None` if it is infinite.
-    pub(super) hardness: Option<Pascal>,
-    pub(super) fields: Vec<Named>,
+    pub(crate) hardness: Option<Pascal>,
+    pub(crate) fields: Vec<Named>,
     parts: Vec<Part>,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Named {
-    pub(super) name: String,
-    pub(super) unit: String,
+pub(crate) struct Named {
+    pub(crate) name: String,
+    pub(crate) unit: String,
 }
 
 /// The rows of one rank.
@@ -61,7 +61,7 @@ const INDEX: &str = "ranks.json";
 const DIGEST: &str = "digest";
 
 /// Adds to an index the digest of its other keys.
-pub(super) fn sign(index: &mut Value) {
+pub(crate) fn sign(index: &mut Value) {
     index[DIGEST] = Value::Null;
     let text = serde_json::to_vec(index).expect("a JSON value can be written");
     index[DIGEST] = sha256(&text).into();
@@ -71,7 +71,7 @@ pub(super) fn sign(index: &mut Value) {
 const NEEDED: [&str; 3] = ["pressure", "lower", "upper"];
 
 impl Index {
-    pub(super) fn new(
+    pub(crate) fn new(
         slab: &Slab,
         boundary: Boundary,
         fields: &RestFields,
@@ -102,7 +102,7 @@ impl Index {
     ///
     /// # Errors
     /// [`Error::File`] if it is missing or damaged, [`Error::NotResumable`] if it belongs to another case.
-    pub(super) fn read(directory: &Path, case: &Value) -> Result<Self> {
+    pub(crate) fn read(directory: &Path, case: &Value) -> Result<Self> {
         let path = directory.join("fields").join(INDEX);
         let failed = |source| Error::File { path: path.clone(), source };
         let text = regular::read(&path, "an index of parts", u64::MAX).map_err(failed)?;
@@ -117,7 +117,7 @@ impl Index {
         }
         let index: Self = serde_json::from_value(value).map_err(|error| failed(error.into()))?;
         index.check().map_err(|reason| damaged(&path, reason))?;
-        if index.identity == identity::of(case) {
+        if index.identity == identity_of(case) {
             Ok(index)
         } else {
             Err(Error::NotResumable { path, reason: OF_ANOTHER_RUN })
@@ -152,7 +152,7 @@ impl Index {
         Ok(())
     }
 
-    pub(super) fn write(&self, directory: &Path) -> Result<()> {
+    pub(crate) fn write(&self, directory: &Path) -> Result<()> {
         let mut value = serde_json::to_value(self).expect("an index can be written as JSON");
         sign(&mut value);
         let text = serde_json::to_vec_pretty(&value).expect("a JSON value can be written");
@@ -160,17 +160,17 @@ impl Index {
     }
 
     /// The grid of all rows.
-    pub(super) fn grid(&self) -> Grid {
+    pub(crate) fn grid(&self) -> Grid {
         Grid { shape: self.shape, pitch: self.pitch }
     }
 
     /// Writes the fields on the rows of this rank.
-    pub(super) fn write_part(&self, directory: &Path, slab: &Slab, fields: RestFields) -> Result<()> {
+    pub(crate) fn write_part(&self, directory: &Path, slab: &Slab, fields: RestFields) -> Result<()> {
         let Part { file: name, first_row, rows } = &self.parts[slab.ranks().rank()];
         let mut file = FieldFile::of_run(&self.identity, &directory.join("fields").join(name));
         file.set("first_row", *first_row).set("rows", *rows).set("ranks", self.parts.len());
         let origin = [*first_row as f64 * self.pitch[0], 0.0];
-        for NamedField { name, unit, values } in fields.fields {
+        for NamedField { name, unit, values, .. } in fields.fields {
             file.add_field(name, unit, &slab.grid(), origin, &values);
         }
         file.write()
@@ -181,7 +181,7 @@ impl Index {
     ///
     /// # Errors
     /// [`Error::File`], [`Error::NotResumable`], [`Error::OtherRows`], each with the name of the file.
-    pub(super) fn open_parts(&self, directory: &Path) -> Result<Vec<RankFile>> {
+    pub(crate) fn open_parts(&self, directory: &Path) -> Result<Vec<RankFile>> {
         let open = |part: &Part| {
             let path = directory.join("fields").join(&part.file);
             let fields = Fields::open(&path)?;
@@ -217,7 +217,7 @@ impl Index {
     ///
     /// # Errors
     /// [`Error::NoField`]; [`Error::File`] if the field in a file has another grid or another unit.
-    pub(super) fn whole(&self, files: &[RankFile], Named { name, unit }: &Named) -> Result<Field> {
+    pub(crate) fn whole(&self, files: &[RankFile], Named { name, unit }: &Named) -> Result<Field> {
         let mut whole = Field::zeros(self.shape);
         for (part, file) in self.parts.iter().zip(files) {
             whole.slice_mut(s![part.rows(), ..]).assign(&file.read(name, unit)?);
@@ -227,7 +227,7 @@ impl Index {
 }
 
 /// The file of a rank, open for reading.
-pub(super) struct RankFile {
+pub(crate) struct RankFile {
     path: PathBuf,
     fields: Fields,
     /// Number of its rows, and of the cells of each.

@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
-use crate::grid::{Field, Grid, SingleField};
-use crate::kernel::{Influence, SharedResponse};
-use crate::math::{SlabConvolution, fft::angular_frequency};
-use crate::operator::{Boundary, FreeFamily, Operator, PeriodicFft};
-use crate::ranks::Slab;
-use crate::units::Metre;
+use asperity_base::grid::{Field, Grid, SingleField};
+use asperity_base::math::fft::angular_frequency;
+use asperity_contact::kernel::{Influence, SharedResponse};
+
+use crate::convolution::SlabConvolution;
+use asperity_base::ranks::Slab;
+use asperity_base::units::Metre;
+use asperity_contact::operator::{Boundary, FreeFamily, Operator, PeriodicFft};
 
 /// A pair loaded on a grid with a slab on each rank. Its results have the bits of [`super::FreeFft`] or
 /// [`PeriodicFft`].
@@ -168,8 +170,8 @@ impl Operator for SlabFft {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::operator::Edge;
-    use crate::ranks::threads::on_ranks;
+    use asperity_base::ranks::threads::on_ranks;
+    use asperity_contact::operator::Edge;
     use ndarray::s;
 
     /// Result of one process for a grid.

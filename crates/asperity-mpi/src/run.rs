@@ -7,8 +7,6 @@
 //!     fields.h5                all rows, after collection
 //! ```
 
-mod index; // the rows of the fields in each file
-
 use std::path::Path;
 use std::sync::Arc;
 use std::thread;
@@ -16,24 +14,26 @@ use std::time::Duration;
 
 use web_time::Instant;
 
-use super::case::Case;
-use super::estimate::{Demand, cut_off, demand, spot, too_few_cells};
-use super::finish::{Computed, closed_form, conclude, params};
-use super::given::SurfaceInput;
-use super::identity::{self, BodyData};
-use super::prepare::{SlabBodies, grids, made_by_slabs, slab_bodies};
-use super::rest::pressed;
-use super::results::{Existing, Results, Writer};
-use super::summary::{self, Outcome, Summary};
-use crate::io::atomic::Token;
-use crate::io::fields::FieldFile;
+use crate::index::{Index, Named};
+use crate::prepare::{SlabBodies, made_by_slabs, slab_bodies};
+use crate::press::press_slab;
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::Grid;
+use asperity_base::io::atomic::Token;
 use asperity_base::ranks::{Largest, Ranks};
-use asperity_contact::motion::{Pair, press_slab};
+use asperity_contact::motion::Pair;
 use asperity_contact::operator::{Boundary, Edge};
 use asperity_contact::solver::Method;
-use index::{Index, Named};
+use asperity_study::SurfaceInput;
+use asperity_study::case::Case;
+use asperity_study::io::fields::FieldFile;
+use asperity_study::parts::{
+    BodyData, Computed, closed_form, conclude, cut_off, grids, identity_of, params, pressed, resolved_of,
+    spot, too_few_cells,
+};
+use asperity_study::{Demand, demand};
+use asperity_study::{Existing, Results, Writer};
+use asperity_study::{Outcome, Summary};
 
 /// The memory that a rank needs for a contact, bytes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -113,7 +113,7 @@ pub fn run_on_ranks(
     check_same(&**ranks, "version of asperity", env!("CARGO_PKG_VERSION"))?;
     check(case)?;
     let SlabBodies { slab, bodies } = slab_bodies(case, Arc::clone(ranks))?;
-    let resolved = identity::resolved_of(
+    let resolved = resolved_of(
         case,
         [&bodies[0], &bodies[1]].map(|body| BodyData {
             grid: slab.whole_grid(),
@@ -121,7 +121,7 @@ pub fn run_on_ranks(
             hardness_sha256: body.hardness_sha256.as_ref(),
         }),
     );
-    let identity = identity::of(&resolved);
+    let identity = identity_of(&resolved);
     check_same(&**ranks, "case", &identity)?;
     let [lower, upper] = bodies;
     let materials = [&case.lower.material, &case.upper.material];
@@ -145,7 +145,7 @@ pub fn run_on_ranks(
     let Some(writer) = writer else { return Ok(None) };
     index.write(directory)?;
     let closed_form = closed_form(case, slab.whole_grid().extent(), &outcome);
-    let computed = Computed { closed_form, ..Computed::of(outcome) };
+    let computed = Computed::of(outcome).with_closed_form(closed_form);
     conclude(case, &writer, resolved, began, computed, Vec::new()).map(Some)
 }
 
@@ -182,7 +182,7 @@ pub fn collect(directory: &Path) -> Result<()> {
             summary.warnings.push(warning);
         }
     }
-    summary::write(&results.summary_path(), &summary)
+    asperity_study::parts::write_summary(&results.summary_path(), &summary)
 }
 
 /// Rejects input that is not supported on ranks, at its place in the case.
@@ -224,7 +224,7 @@ fn check(case: &Case) -> Result<()> {
 /// Returns an error if the ranks differ in their `text`.
 fn check_same(ranks: &dyn Ranks, what: &'static str, text: &str) -> Result<()> {
     // As many digits as a number represents exactly.
-    let digest = crate::io::sha256(text.as_bytes());
+    let digest = asperity_study::io::sha256(text.as_bytes());
     let number = u64::from_str_radix(&digest[..12], 16).expect("hexadecimal") as f64;
     let numbers = ranks.gather(&[number], &vec![1; ranks.count()]);
     match numbers.iter().position(|other| *other != numbers[0]) {
@@ -266,9 +266,9 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::{SurfaceInput, run};
     use asperity_base::grid::Field;
     use asperity_base::ranks::threads::on_ranks;
+    use asperity_study::{SurfaceInput, run};
 
     /// Two bodies: a ball with roughness below, a measured or generated surface above.
     fn case(upper: &str, contact: &str) -> Case {
@@ -491,7 +491,7 @@ mod tests {
         ] {
             let mut changed = index.clone();
             *changed.pointer_mut(pointer).unwrap() = value;
-            index::sign(&mut changed);
+            crate::index::sign(&mut changed);
             fs::write(&path, changed.to_string()).unwrap();
             let message = collect(folder.path()).unwrap_err().to_string();
             assert!(message.contains(said), "{pointer}: {message}");

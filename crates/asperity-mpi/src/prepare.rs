@@ -4,12 +4,14 @@ use std::sync::Arc;
 
 use ndarray::s;
 
-use super::{Bodies, Fit, MountedSurface, Origin, Place, bodies, grids, hardness, topography_of};
-use crate::case::{Body, Case, GridMatch, Layer, Mount, Source, TopographySpec};
-use crate::given::SurfaceInput;
+use crate::generate::{generate_slab, makes_slabs};
 use asperity_base::error::Result;
 use asperity_base::grid::{CellValues, Grid};
 use asperity_base::ranks::{Ranks, Slab};
+use asperity_study::SurfaceInput;
+use asperity_study::case::{Body, Case, GridMatch, Layer, Mount, Source, TopographySpec};
+use asperity_study::parts::{Fit, Place, grids, hardness, topography_of};
+use asperity_study::{Bodies, MountedSurface, Origin, bodies};
 use asperity_surface::{Form, Generator, Preparation, Topography};
 
 /// The rows of this rank of the two surfaces of a case.
@@ -32,17 +34,17 @@ pub(crate) struct SlabBody {
 /// each rank reads or generates and prepares them in full, and keeps only its own rows.
 ///
 /// # Errors
-/// The errors of [`super::bodies`]; [`asperity_base::Error::TooManyRanks`].
+/// The errors of [`bodies`]; [`asperity_base::Error::TooManyRanks`].
 pub(crate) fn slab_bodies(case: &Case, ranks: Arc<dyn Ranks>) -> Result<SlabBodies> {
     let specs = [&case.lower.topography, &case.upper.topography];
     if !specs.into_iter().all(made_by_slabs) || case.contact.grid == GridMatch::Common {
-        let Bodies { lower, upper } = bodies(case, SurfaceInput::default())?;
+        let Bodies { lower, upper, .. } = bodies(case, SurfaceInput::default())?;
         let slab = Slab::new(ranks, *upper.topography.grid())?;
         let bodies = [cut(lower, &slab)?, cut(upper, &slab)?];
         return Ok(SlabBodies { slab, bodies });
     }
     let both = grids(case, &SurfaceInput::default())?;
-    Fit { case, grids: both, origins: [None; 2] }.check(&[1, 0])?;
+    Fit::new(case, both).check(&[1, 0])?;
     let slab = Slab::new(ranks, Grid::new(both[1].shape, both[0].pitch)?)?;
     let bodies = [generate(case, "lower", &case.lower, &slab)?, generate(case, "upper", &case.upper, &slab)?];
     Ok(SlabBodies { slab, bodies })
@@ -51,12 +53,12 @@ pub(crate) fn slab_bodies(case: &Case, ranks: Arc<dyn Ranks>) -> Result<SlabBodi
 /// Whether each rank generates only its own rows of a topography.
 pub(crate) fn made_by_slabs(spec: &TopographySpec) -> bool {
     let source = match &spec.source {
-        Source::Generate { generate, .. } => generate.makes_slabs(),
+        Source::Generate { generate, .. } => makes_slabs(generate),
         Source::Form { .. } => true,
         Source::File { .. } | Source::Given { .. } => false,
     };
     let layer = |layer: &Layer| match layer {
-        Layer::Generate { generate, .. } => generate.makes_slabs(),
+        Layer::Generate { generate, .. } => makes_slabs(generate),
         Layer::Form { .. } => true,
     };
     source && spec.preparation == Preparation::default() && spec.plus.iter().all(layer)
@@ -65,11 +67,11 @@ pub(crate) fn made_by_slabs(spec: &TopographySpec) -> bool {
 /// Generates the rows of a body on this rank.
 fn generate(case: &Case, name: &str, body: &Body, slab: &Slab) -> Result<SlabBody> {
     let (table, spec) = (topography_of(name), &body.topography);
-    let at = Place { document: case.document(), table: &table, spec, pitch: None };
+    let at = Place::new(case, &table, spec);
     let mount = body.mount.unwrap_or(Mount::TurnedOver);
     let turned_over = mount == Mount::TurnedOver;
-    let generated = |generate: &Generator, seed| generate.generate_slab(slab, seed, turned_over);
-    let formed = |form: &Form| form.on_slab(slab, turned_over);
+    let generated = |generate: &Generator, seed| generate_slab(generate, slab, seed, turned_over);
+    let formed = |form: &Form| form.rows_on(&slab.whole_grid(), slab.rows(), turned_over);
     let mut heights = match &spec.source {
         Source::Generate { generate, seed, .. } => generated(generate, *seed),
         Source::Form { form, .. } => formed(form),
