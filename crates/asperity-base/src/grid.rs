@@ -20,11 +20,13 @@ pub type Field = ndarray::Array2<f64>;
 pub type SingleField = ndarray::Array2<f32>;
 
 /// Returns the values of a field by flat index.
+#[inline]
 pub fn flat<T>(field: &ndarray::Array2<T>) -> &[T] {
     field.as_slice().expect("standard layout")
 }
 
 /// Returns a field in standard layout, in which [`flat`] reads it; a copy of one whose memory has another order.
+#[inline]
 pub fn in_rows<T: Clone>(field: &ndarray::Array2<T>) -> Cow<'_, ndarray::Array2<T>> {
     if field.is_standard_layout() {
         Cow::Borrowed(field)
@@ -34,6 +36,7 @@ pub fn in_rows<T: Clone>(field: &ndarray::Array2<T>) -> Cow<'_, ndarray::Array2<
 }
 
 /// Returns the mutable values of a field by flat index.
+#[inline]
 pub fn flat_mut<T>(field: &mut ndarray::Array2<T>) -> &mut [T] {
     field.as_slice_mut().expect("standard layout")
 }
@@ -49,6 +52,7 @@ pub enum CellValues {
 
 impl CellValues {
     /// Returns the values with a field in standard layout.
+    #[inline]
     pub fn in_rows(self) -> Self {
         match self {
             Self::Field(field) if !field.is_standard_layout() => {
@@ -59,6 +63,7 @@ impl CellValues {
     }
 
     /// Returns the common value of all cells; `None` if they are given as a field.
+    #[inline]
     pub fn uniform(&self) -> Option<f64> {
         match self {
             Self::Uniform(value) => Some(*value),
@@ -79,16 +84,19 @@ impl CellValues {
     }
 
     /// Returns the smallest value.
+    #[inline]
     pub fn min(&self) -> f64 {
         self.fold(f64::INFINITY, f64::min)
     }
 
     /// Returns the largest value.
+    #[inline]
     pub fn max(&self) -> f64 {
         self.fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Returns the sum over `cells` cells.
+    #[inline]
     pub fn sum(&self, cells: usize) -> f64 {
         match self {
             Self::Uniform(value) => *value * cells as f64,
@@ -97,6 +105,7 @@ impl CellValues {
     }
 
     /// Returns whether the values fit a grid of shape `shape`.
+    #[inline]
     pub fn fits(&self, shape: [usize; 2]) -> bool {
         match self {
             Self::Uniform(_) => true,
@@ -105,6 +114,7 @@ impl CellValues {
     }
 
     /// Applies `change` to each value.
+    #[inline]
     pub fn map(&self, change: impl Fn(f64) -> f64) -> Self {
         match self {
             Self::Uniform(value) => Self::Uniform(change(*value)),
@@ -113,6 +123,7 @@ impl CellValues {
     }
 
     /// Returns the mean over `cells` cells.
+    #[inline]
     pub fn mean(&self, cells: usize) -> f64 {
         match self {
             Self::Uniform(value) => *value,
@@ -122,6 +133,7 @@ impl CellValues {
 
     /// Returns the values on a grid of about half as many cells along each axis, as means over the fine cells of each
     /// coarse one.
+    #[inline]
     pub fn coarse(&self) -> Self {
         match self {
             Self::Uniform(value) => Self::Uniform(*value),
@@ -150,6 +162,7 @@ impl From<Field> for CellValues {
 }
 
 /// Means of 2 × 2 cells, or of the cells left at the end of an odd number.
+#[inline]
 pub fn coarse_means(fine: &Field) -> Field {
     let (nx, ny) = fine.dim();
     let cells = fine.as_slice().expect("standard layout");
@@ -211,31 +224,37 @@ impl Grid {
     }
 
     /// Number of cells.
+    #[inline]
     pub fn cells(&self) -> usize {
         self.shape[0] * self.shape[1]
     }
 
     /// Area ΔA of one cell.
+    #[inline]
     pub fn cell_area(&self) -> SquareMetre {
         self.pitch[0] * self.pitch[1]
     }
 
     /// Area of the whole grid: the apparent area of a contact on it.
+    #[inline]
     pub fn area(&self) -> SquareMetre {
         self.cell_area() * self.cells() as f64
     }
 
     /// Lengths of the grid along x and y.
+    #[inline]
     pub fn extent(&self) -> [Metre; 2] {
         [self.pitch[0] * self.shape[0] as f64, self.pitch[1] * self.shape[1] as f64]
     }
 
     /// Position of the centre of cell `index` along `axis`, from the grid's corner.
+    #[inline]
     pub fn centre(&self, axis: usize, index: usize) -> Metre {
         (index as f64 + 0.5) * self.pitch[axis]
     }
 
     /// Creates a field of zeros on this grid.
+    #[inline]
     pub fn zeros(&self) -> Field {
         Field::zeros(self.shape)
     }

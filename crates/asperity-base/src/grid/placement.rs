@@ -24,6 +24,7 @@ impl Placement {
     ///
     /// # Panics
     /// If the cell is not one of the body, or if the fraction is out of range.
+    #[inline]
     pub fn new(shape: [usize; 2], [first, row]: [usize; 2], fraction: f64) -> Self {
         assert!(first < shape[0] && row < shape[1], "a cell of the body");
         assert!((0.0..1.0).contains(&fraction), "a fraction of a column");
@@ -31,16 +32,19 @@ impl Placement {
     }
 
     /// Creates the placement of a contact that covers all cells of a body of shape `shape`.
+    #[inline]
     pub fn flush(shape: [usize; 2]) -> Self {
         Self::new(shape, [0; 2], 0.0)
     }
 
     /// Shape of the body's grid.
+    #[inline]
     pub fn shape(&self) -> [usize; 2] {
         self.shape
     }
 
     /// Gathers the part of a body field under a contact `columns` wide.
+    #[inline]
     pub fn under(&self, field: &Field, columns: usize) -> Field {
         let mut under = Field::zeros([columns, self.shape[1]]);
         for (j, mut row) in under.outer_iter_mut().enumerate() {
@@ -50,6 +54,7 @@ impl Placement {
     }
 
     /// Scatters a field on the contact to the body, 0 beside it. The sum is preserved.
+    #[inline]
     pub fn onto(&self, field: &Field) -> Field {
         let mut onto = Field::zeros(self.shape);
         let cells = onto.as_slice_mut().expect("standard layout");
@@ -60,6 +65,7 @@ impl Placement {
     }
 
     /// Flat cell of the body under a flat cell of the contact; the first one if the contact cell lies between two.
+    #[inline]
     pub fn cell(&self, cell: usize) -> usize {
         let [columns, width] = self.shape;
         let across = cell % width + width - self.across;
@@ -67,11 +73,13 @@ impl Placement {
     }
 
     /// Fraction of a column by which the contact is displaced from the columns of the body.
+    #[inline]
     pub fn fraction(&self) -> f64 {
         self.fraction
     }
 
     /// Iterates over the one or two flat cells of the body under a cell of the contact, with their weights.
+    #[inline]
     pub fn parts(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
         let count = if self.fraction == 0.0 { 1 } else { 2 };
         [(cell, 1.0 - self.fraction), (self.next(cell), self.fraction)].into_iter().take(count)
@@ -84,6 +92,7 @@ impl Placement {
     }
 
     /// Gathers the value of a body under a flat cell of the contact.
+    #[inline]
     pub fn value(&self, values: &CellValues, cell: usize) -> f64 {
         match values {
             CellValues::Uniform(value) => *value,
@@ -93,6 +102,7 @@ impl Placement {
     }
 
     /// Gathers the values of a body under all cells of the contact in its column `j`.
+    #[inline]
     pub fn fill(&self, values: &CellValues, j: usize, row: &mut [f64]) {
         match values {
             CellValues::Uniform(value) => row.fill(*value),

@@ -12,6 +12,7 @@ use crate::ranks::Merged;
 /// Performs a `task` on each of some [`Bands`]. Returns the results in their order.
 ///
 /// The result does not depend on the threads if sums over the bands use this order.
+#[inline]
 pub fn map<T: Send, R: Send>(
     bands: impl ExactSizeIterator<Item = T>,
     task: impl Fn(T) -> R + Sync,
@@ -20,6 +21,7 @@ pub fn map<T: Send, R: Send>(
 }
 
 /// Merges the results of a function of the rows of each band of a grid of `shape`, in their order.
+#[inline]
 pub fn merged<M: Merged + Send>(shape: [usize; 2], of_rows: impl Fn(Range<usize>) -> M + Sync) -> M {
     M::of_parts(map(Bands::of(shape).rows(), of_rows))
 }
@@ -32,6 +34,7 @@ pub const BANDS_AT_ONCE: usize = 2;
 ///
 /// A thread takes at least `at_once` parts. The present thread performs all parts if they are few, or if its own
 /// tasks wait for other threads. Such tasks, for example the other positions of a pass, are larger and have priority.
+#[inline]
 pub fn each<T: Send, S: Send, R: Send>(
     parts: impl ExactSizeIterator<Item = T>,
     at_once: usize,
@@ -48,6 +51,7 @@ pub fn each<T: Send, S: Send, R: Send>(
 }
 
 /// Performs a `task` on each of some parts, each large enough for a thread. Returns the results in their order.
+#[inline]
 pub fn tasks<T: Send, R: Send>(parts: impl IntoIterator<Item = T>, task: impl Fn(T) -> R + Sync) -> Vec<R> {
     let parts = parts.into_iter();
     if rayon::current_num_threads() == 1 {
@@ -171,38 +175,45 @@ const MIN_ROWS: usize = 32;
 
 impl Bands {
     /// Creates the bands of a grid of `shape`.
+    #[inline]
     pub fn of(shape: [usize; 2]) -> Self {
         let [all, columns] = shape;
         Self { rows: MIN_CELLS.div_ceil(columns).max(MIN_ROWS), columns, all }
     }
 
     /// Cells in a row.
+    #[inline]
     pub fn columns(&self) -> usize {
         self.columns
     }
 
     /// Returns the band of a row, and the number of the row in the band.
+    #[inline]
     pub fn place(&self, row: usize) -> [usize; 2] {
         [row / self.rows, row % self.rows]
     }
 
     /// Iterates over the rows of each band.
+    #[inline]
     pub fn rows(&self) -> impl ExactSizeIterator<Item = Range<usize>> + use<> {
         let Self { rows, all, .. } = *self;
         (0..all.div_ceil(rows)).map(move |band| band * rows..(band * rows + rows).min(all))
     }
 
     /// Splits the values of all cells by band.
+    #[inline]
     pub fn cut<'a, T>(&self, values: &'a [T]) -> Chunks<'a, T> {
         values.chunks(self.rows * self.columns)
     }
 
     /// Splits the mutable values of all cells by band.
+    #[inline]
     pub fn cut_mut<'a, T>(&self, values: &'a mut [T]) -> ChunksMut<'a, T> {
         values.chunks_mut(self.rows * self.columns)
     }
 
     /// Returns the first cell of a band.
+    #[inline]
     pub fn first(&self, band: usize) -> usize {
         band * self.rows * self.columns
     }

@@ -25,6 +25,7 @@ pub struct Plans<T> {
 
 impl<T: Precision> Plans<T> {
     /// Creates the plans of a grid of `shape`.
+    #[inline]
     pub fn new(shape: [usize; 2]) -> Self {
         let [mx, my] = shape;
         Self {
@@ -37,16 +38,19 @@ impl<T: Precision> Plans<T> {
     }
 
     /// Number of frequencies along y.
+    #[inline]
     pub fn half(&self) -> usize {
         self.shape[1] / 2 + 1
     }
 
     /// Smallest number of rows per thread.
+    #[inline]
     pub fn rows_at_once(&self) -> usize {
         SHARE.div_ceil(self.shape[1])
     }
 
     /// Creates scratch memory for any of the plans.
+    #[inline]
     pub fn scratch(&self) -> Vec<Complex<T>> {
         let lengths = [
             self.along_y.get_scratch_len(),
@@ -58,6 +62,7 @@ impl<T: Precision> Plans<T> {
     }
 
     /// Transforms a zero-padded row into `half`; `row` and `scratch` are scratch memory.
+    #[inline]
     pub fn row_forward(
         &self,
         values: ArrayView1<'_, T>,

@@ -23,6 +23,7 @@ pub struct Halo {
 
 impl Slab {
     /// Creates the halo of this rank's rows with `reach` more on either side.
+    #[inline]
     pub fn halo(&self, reach: usize) -> Halo {
         Halo::new(self, reach)
     }
@@ -61,16 +62,19 @@ impl Halo {
     }
 
     /// Number of rows and columns, halo included.
+    #[inline]
     pub fn shape(&self) -> [usize; 2] {
         [self.rows, self.columns]
     }
 
     /// The cells of this rank among those of the halo.
+    #[inline]
     pub fn own(&self) -> Range<usize> {
         self.own.start * self.columns..self.own.end * self.columns
     }
 
     /// Returns the `values` of this rank's rows together with those of the neighbours on either side.
+    #[inline]
     pub fn around<'a, T: Number>(&self, values: &'a [T]) -> Cow<'a, [T]> {
         if self.ranks.count() == 1 {
             return Cow::Borrowed(values);
@@ -82,6 +86,7 @@ impl Halo {
     }
 
     /// The own rows, relative to the first row of the halo.
+    #[inline]
     pub fn own_rows(&self) -> Range<usize> {
         self.own.clone()
     }

@@ -11,6 +11,7 @@ pub struct Parts {
 
 impl Parts {
     /// Divides `lines` lines as evenly as possible.
+    #[inline]
     pub fn even(lines: usize, ranks: usize) -> Self {
         Self::in_units(lines, 1, ranks)
     }
@@ -31,16 +32,19 @@ impl Parts {
     }
 
     /// Lines of a rank.
+    #[inline]
     pub fn of(&self, rank: usize) -> Range<usize> {
         self.first[rank]..self.first[rank + 1]
     }
 
     /// Iterates over the lines of each rank.
+    #[inline]
     pub fn all(&self) -> impl ExactSizeIterator<Item = Range<usize>> {
         self.first.windows(2).map(|ends| ends[0]..ends[1])
     }
 
     /// Number of all lines.
+    #[inline]
     pub fn lines(&self) -> usize {
         *self.first.last().expect("one more than ranks")
     }

@@ -41,43 +41,51 @@ impl Slab {
     }
 
     /// Creates the slab of a single process with the whole grid.
+    #[inline]
     pub fn whole(grid: Grid) -> Self {
         Self { ranks: Arc::new(SingleProcess), whole: grid, rows: Parts::even(grid.shape[0], 1) }
     }
 
     /// The ranks.
+    #[inline]
     pub fn ranks(&self) -> &Arc<dyn Ranks> {
         &self.ranks
     }
 
     /// The grid of all rows.
+    #[inline]
     pub fn whole_grid(&self) -> Grid {
         self.whole
     }
 
     /// The grid of the rows of this rank.
+    #[inline]
     pub fn grid(&self) -> Grid {
         let [_, columns] = self.whole.shape;
         Grid { shape: [self.rows().len(), columns], pitch: self.whole.pitch }
     }
 
     /// The rows of this rank.
+    #[inline]
     pub fn rows(&self) -> Range<usize> {
         self.rows.of(self.ranks.rank())
     }
 
     /// The rows of each rank.
+    #[inline]
     pub fn parts(&self) -> &Parts {
         &self.rows
     }
 
     /// Whether one process has all rows.
+    #[inline]
     pub fn is_whole(&self) -> bool {
         self.ranks.count() == 1
     }
 
     /// Returns the slab of a coarse `grid` with half as many rows. It is the whole grid if that is small, or if the rows of
     /// a rank do not match its coarse ones.
+    #[inline]
     pub fn coarse(&self, grid: Grid) -> Self {
         match self.rows.halved() {
             Some(rows) if !self.is_whole() && grid.cells() > MAX_WHOLE => {
@@ -88,6 +96,7 @@ impl Slab {
     }
 
     /// Merges the parts of all ranks in rank order; the result is the same on each of them.
+    #[inline]
     pub fn merged<M: Merged>(&self, part: M) -> M {
         if self.is_whole() {
             return part;
