@@ -50,7 +50,7 @@ impl Display {
             (None, false, None) => "increment",
         };
         let table = Table { rows: Rows::new(case), printed: Ok(()), began: Instant::now(), finished: None };
-        let (directory, page) = (directory.to_owned(), Mutex::new(LivePage::new()));
+        let (directory, page) = (directory.to_owned(), Mutex::new(LivePage::begin()));
         let warned = Mutex::default();
         Self { bar, quiet, step, stop, table: Mutex::new(table), directory, page, warned }
     }

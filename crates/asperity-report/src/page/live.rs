@@ -19,7 +19,7 @@ pub struct LivePage {
 
 impl LivePage {
     /// The page of a run that begins now.
-    pub fn new() -> Self {
+    pub fn begin() -> Self {
         Self { began: Instant::now(), spent: Duration::ZERO, last: FIRST }
     }
 
@@ -52,7 +52,7 @@ mod tests {
 
     #[test]
     fn pages_keep_to_their_share_of_a_run_whatever_they_cost() {
-        let mut page = LivePage::new();
+        let mut page = LivePage::begin();
         let (mut written, mut cost) = (0, 0.05);
         for second in 1..=4000 {
             let elapsed = Duration::from_secs(second);

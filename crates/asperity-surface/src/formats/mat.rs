@@ -11,12 +11,14 @@
 
 use std::io::Read;
 
+#[cfg(feature = "hdf5")]
 use hdf5_pure::{AttrValue, Dataset};
 
 use super::binary::{Cursor, Number, Order, Raster, text};
+#[cfg(feature = "hdf5")]
+use super::hdf5;
 use super::words::excerpt;
-use super::{Decoded, Fault, LengthUnit, Scan, cells, choose_among, hdf5};
-use crate::Axis;
+use super::{Decoded, Fault, Scan, cells, choose_among};
 use asperity_base::error::Defect;
 use asperity_base::grid::Field;
 
@@ -41,18 +43,16 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let channels = super::distinct(variables.iter().map(|variable| variable.name.clone()));
     let chosen = choose_among(&channels, channel)?;
     let heights = variables[chosen].heights().map_err(fault)?;
-    Ok(Scan {
-        format: "mat",
-        channel: channels[chosen].clone(),
-        channels,
-        pitch: None,
-        heights,
-        unit: LengthUnit::Metres,
-        lines: Some(Axis::Y),
-    })
+    Ok(Scan::of_matrix("mat", channels, chosen, heights))
+}
+
+#[cfg(not(feature = "hdf5"))]
+fn hierarchical(_: &[u8], _: Option<&str>) -> Decoded {
+    Err(Fault::NotATopography("it is HDF5 by MATLAB 7.3, and the feature `hdf5` is left out"))
 }
 
 /// Reads version 7.3.
+#[cfg(feature = "hdf5")]
 fn hierarchical(bytes: &[u8], channel: Option<&str>) -> Decoded {
     const BLOCK: usize = 512;
     if !bytes.get(BLOCK..).is_some_and(|file| file.starts_with(hdf5::MAGIC)) {

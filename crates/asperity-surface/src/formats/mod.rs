@@ -20,18 +20,21 @@ mod csv;
 mod frt;
 mod gsf;
 mod gwy;
+#[cfg(feature = "hdf5")]
 mod hdf5;
 mod headed;
 mod ibw;
 mod mat;
 mod metropro;
 mod mi;
+#[cfg(feature = "compound")]
 mod mnt;
 mod nanoscope;
 mod netcdf;
 mod nid;
 mod nms;
 mod npy;
+#[cfg(feature = "zip")]
 mod npz;
 mod opd;
 mod opdx;
@@ -39,17 +42,24 @@ mod plu;
 mod sdf;
 mod sur;
 mod text;
+#[cfg(feature = "tiff")]
 mod tiff;
 mod tmd;
 mod vk;
 mod vtk;
 mod wsxm;
+#[cfg(feature = "zip")]
 mod x3p;
+
+#[cfg(not(feature = "formats"))]
+mod left_out;
 
 use std::collections::HashSet;
 use std::io::Read;
 use std::path::Path;
 
+#[cfg(not(feature = "formats"))]
+use left_out::*;
 pub use write::Format;
 
 use crate::{Axis, Topography};
@@ -202,6 +212,19 @@ impl Topography {
 }
 
 impl Scan {
+    /// The chosen matrix of a file whose matrices have neither unit nor pitch.
+    fn of_matrix(format: &'static str, channels: Vec<String>, chosen: usize, heights: Field) -> Self {
+        Self {
+            format,
+            channel: channels[chosen].clone(),
+            channels,
+            pitch: None,
+            heights,
+            unit: LengthUnit::Metres,
+            lines: Some(Axis::Y),
+        }
+    }
+
     /// Whether the heights describe an underside, as mounted: that of the upper body in asperity's results.
     pub fn is_underside(&self) -> bool {
         (self.format, self.channel.as_str()) == (hdf5::RESULTS, UNDERSIDE)
@@ -358,6 +381,7 @@ fn refuse_binary(bytes: &[u8]) -> std::result::Result<(), Fault> {
     }
 }
 
+#[cfg(feature = "zip")]
 fn decode_archive(bytes: &[u8], channel: Option<&str>) -> Decoded {
     if npz::is_one(bytes) { npz::decode(bytes, channel) } else { x3p::decode(bytes, channel) }
 }
@@ -571,5 +595,5 @@ fn x_fastest(shape: [usize; 2], heights: impl Fn(usize, &mut [f64])) -> Field {
     field
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "formats"))]
 mod tests;

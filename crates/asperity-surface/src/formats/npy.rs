@@ -72,10 +72,12 @@ pub(super) struct Matrix {
 
 impl Matrix {
     /// Reads the header at the start of `bytes`, an array that may be truncated.
+    #[cfg(feature = "zip")]
     pub(super) fn at_start(bytes: &[u8]) -> std::result::Result<Self, Defect> {
         Self::of(&split(bytes)?.0)
     }
 
+    #[cfg(feature = "zip")]
     /// Number of bytes of the numbers.
     pub(super) fn bytes(&self) -> u64 {
         (self.shape[0] * self.shape[1] * self.number.bytes()) as u64

@@ -8,8 +8,7 @@ use std::io::{Cursor, Read};
 use zip::ZipArchive;
 
 use super::npy::{self, Matrix};
-use super::{Decoded, Fault, LengthUnit, Scan, choose_among};
-use crate::Axis;
+use super::{Decoded, Fault, Scan, choose_among};
 use asperity_base::error::Defect;
 
 type Archive<'a> = ZipArchive<Cursor<&'a [u8]>>;
@@ -53,15 +52,7 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let most = MAX_HEADER + matrices[chosen].bytes();
     let array = entry(&mut archive, &channels[chosen], most).map_err(fault)?;
     let heights = npy::array(&array).map_err(fault)?;
-    Ok(Scan {
-        format: "npz",
-        channel: channels[chosen].clone(),
-        channels,
-        pitch: None,
-        heights,
-        unit: LengthUnit::Metres,
-        lines: Some(Axis::Y),
-    })
+    Ok(Scan::of_matrix("npz", channels, chosen, heights))
 }
 
 /// Unpacks at most so many bytes of an array.

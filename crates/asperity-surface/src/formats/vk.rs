@@ -8,11 +8,16 @@
 //! heights: sizes along x and y, bits (8, 16, 32), compression, bytes, 2 more, a palette of 768 bytes, numbers, x fastest
 //! ```
 
+#[cfg(feature = "zip")]
 use std::io::Cursor as File;
 
 use super::binary::{Cursor, Number, Order, Raster, shape};
-use super::x3p::{Archive, entry};
-use super::{Channel, Decoded, Fault, LengthUnit, MAX_UNPACKED, ONLY_CHANNEL, several};
+use super::{Channel, Decoded, Fault, LengthUnit, ONLY_CHANNEL, several};
+#[cfg(feature = "zip")]
+use super::{
+    MAX_UNPACKED,
+    x3p::{Archive, entry},
+};
 use asperity_base::error::Defect;
 
 /// Possible first bytes of the file.
@@ -26,6 +31,12 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     several("vk", channel, channels(&unpacked))
 }
 
+#[cfg(not(feature = "zip"))]
+fn unpacked(_: &[u8]) -> Result<Vec<u8>, Defect> {
+    Err(Defect::Container("it is a zip archive, and the feature `zip` is left out".to_owned()))
+}
+
+#[cfg(feature = "zip")]
 fn unpacked(bytes: &[u8]) -> Result<Vec<u8>, Defect> {
     let archive = Archive::new(File::new(bytes));
     let mut archive = archive.map_err(|error| Defect::Container(error.to_string()))?;

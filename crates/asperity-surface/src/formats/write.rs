@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use super::{gwy, npy, sdf, vtk, x3p};
+#[cfg(feature = "zip")]
+use super::x3p;
+use super::{gwy, npy, sdf, vtk};
 use crate::Topography;
 use asperity_base::error::{Error, Result};
 
@@ -13,6 +15,7 @@ pub enum Format {
     /// NumPy's `.npy`: the heights without their pitch.
     Npy,
     /// `.x3p` of ISO 25178-72.
+    #[cfg(feature = "zip")]
     X3p,
     /// `.sdf` of ISO 25178-71, in text.
     Sdf,
@@ -27,6 +30,7 @@ impl Format {
     pub fn of(path: impl AsRef<Path>) -> Option<Self> {
         Some(match path.as_ref().extension()?.to_string_lossy().to_lowercase().as_str() {
             "npy" => Self::Npy,
+            #[cfg(feature = "zip")]
             "x3p" => Self::X3p,
             "sdf" => Self::Sdf,
             "gwy" => Self::Gwy,
@@ -52,6 +56,7 @@ impl Topography {
         let (grid, heights) = (self.grid(), self.heights());
         match Format::of(path).ok_or_else(|| Error::NoFormat { path: path.to_owned() })? {
             Format::Npy => npy::write(path, heights),
+            #[cfg(feature = "zip")]
             Format::X3p => x3p::write(path, grid, heights),
             Format::Sdf => sdf::write(path, grid, heights),
             Format::Gwy => gwy::write(path, grid, heights),
