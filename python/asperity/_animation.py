@@ -15,8 +15,7 @@ from .errors import bad_input
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
 
-    from ._run import Run
-    from .fields import Field
+    from ._viewed import Field, Run
 
 
 def animation(run: Run, number: int, interval: float = 100.0, **options: Any) -> FuncAnimation:

@@ -19,7 +19,7 @@ from .errors import bad_input
 if TYPE_CHECKING:
     from xarray import DataArray
 
-    from ._contact import Contact
+    from ._viewed import Contact
 
 Kind = Literal["thermal", "electrical"]
 """Whether heat or current passes."""

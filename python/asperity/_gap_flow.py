@@ -14,7 +14,7 @@ from ._units import Pair, Quantity, lengths, quantity, written
 from .errors import bad_input
 
 if TYPE_CHECKING:
-    from ._contact import Contact
+    from ._viewed import Contact
 
 Ends = Literal["periodic", "reservoirs"]
 """What lies beyond the ends of the gap along the pressure gradient."""

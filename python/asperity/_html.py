@@ -16,11 +16,7 @@ from ._show import largest, look, scale, unit_of, words
 from .errors import AsperityError
 
 if TYPE_CHECKING:
-    from ._contact import Contact
-    from ._run import Run
-    from ._study import Study
-    from .fields import Field
-    from .surface import Surface
+    from ._viewed import Contact, Field, Run, Study, Surface
 
 _COLOURS = {
     "viridis": "440154 472d7b 3b528b 2c728e 21918c 28ae80 5ec962 addc30 fde725",

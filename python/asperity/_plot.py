@@ -14,9 +14,7 @@ from .errors import bad_input
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ._run import Run
-    from ._table import Table
-    from .fields import Field
+    from ._viewed import Field, Run
 
 MISSING = "0.75"
 """The grey of cells without a value."""
@@ -137,7 +135,7 @@ _OVER = {
 """By the column that numbers the records: the columns over which curves are drawn, the first that varies."""
 
 
-def curve(table: Table, quantity: str, x: str | None = None, ax: Axes | None = None, **options: Any) -> Axes:
+def curve(table: NDArray[np.void], quantity: str, x: str | None = None, ax: Axes | None = None, **options: Any) -> Axes:
     """Draws a column of a table over another one; returns the axes."""
     column(table, quantity, "quantity", "table")
     over = _over(table, quantity) if x is None else column(table, x, "x", "table")
@@ -148,7 +146,7 @@ def curve(table: Table, quantity: str, x: str | None = None, ax: Axes | None = N
     return ax
 
 
-def _over(table: Table, quantity: str) -> str:
+def _over(table: NDArray[np.void], quantity: str) -> str:
     names = table.dtype.names or ()
     index = next((name for name in _OVER if name in names), names[0])
     # A load that is held varies by the tolerance of the solver.

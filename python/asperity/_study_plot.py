@@ -15,7 +15,7 @@ from .errors import bad_input
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ._study import Study
+    from ._viewed import Study
 
 
 def study(study: Study, quantity: str, x: str | None, color: str | None, ax: Axes | None, **options: Any) -> Axes:

@@ -13,10 +13,8 @@ PACKAGE = pathlib.Path(asp.__file__).parent
 
 
 def imports(tree: ast.AST) -> Iterator[str]:
-    """Names of the package's own modules that a module imports when it runs, also within its functions."""
+    """Names of the package's own modules that a module imports, also within its functions and for its types alone."""
     for node in ast.iter_child_nodes(tree):
-        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
-            continue
         if isinstance(node, ast.ImportFrom) and node.level == 1:
             yield from [node.module] if node.module else [name.name for name in node.names]
         yield from imports(node)
