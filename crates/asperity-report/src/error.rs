@@ -13,9 +13,9 @@ pub enum Error {
     Figure(draw::Error),
     /// The results do not have what was asked for.
     Missing {
-        /// What is missing.
+        /// The thing that the results lack.
         message: String,
-        /// What to ask for instead.
+        /// Advice: something to ask for instead.
         hint: Option<String>,
     },
 }

@@ -1,4 +1,4 @@
-//! What is shown of results: figures, and a page that opens without a network.
+//! Views of results: figures, and a page that opens without a network.
 //!
 //! Both are made from a results directory and from nothing else, so that they can be made again.
 //!
