@@ -10,6 +10,8 @@ use ndarray::Array2;
 
 use crate::transposition::Transposition;
 use asperity_base::grid::{Field, SingleField};
+use asperity_base::math::kernel::{Kernel, largest, multiply};
+use asperity_base::math::mixed::{LastUsed, Mixed};
 use asperity_base::math::plans::{Plans, real};
 use asperity_base::ranks::{Largest, Number, Parts, Ranks, Slab};
 
@@ -24,15 +26,9 @@ const BLOCK: usize = 8;
 pub(crate) struct SlabConvolution {
     ranks: Arc<dyn Ranks>,
     rows: Parts,
-    /// The size of the kernel.
-    shape: [usize; 2],
-    /// Its real and even spectrum over its largest value: `[ky, kx]` at the frequencies along y of this rank, for `kx ≤ Mx/2`.
-    spectrum: Arc<Field>,
-    /// The largest of the spectrum, divided by Mx My.
-    unit: f64,
-    /// The scratch memory of the precision used last.
-    double: Option<Workspace<f64>>,
-    single: Option<Workspace<f32>>,
+    /// The kernel at the frequencies along y of this rank.
+    kernel: Mixed<Kernel<f64>, Kernel<f32>>,
+    latest: LastUsed<Workspace<f64>, Workspace<f32>>,
 }
 
 impl SlabConvolution {
@@ -43,17 +39,18 @@ impl SlabConvolution {
         shape: [usize; 2],
         transform: impl Fn(usize, usize) -> f64,
     ) -> Self {
-        let columns = columns_of(&**slab.ranks(), shape[1] / 2 + 1);
+        let plans = Plans::new(shape);
+        let columns = columns_of(&**slab.ranks(), plans.half());
         let spectrum = Field::from_shape_fn([columns.len(), shape[0] / 2 + 1], |(ky, kx)| {
             transform(kx, columns.start + ky)
         });
-        Self::new(slab, shape, spectrum)
+        Self::new(slab, plans, spectrum)
     }
 
     /// Creates the convolution of the fields of a `slab` with the kernel of `shape` and the values `at(i, j)` at
     /// the offsets ±i, ±j, for `i ≤ Mx/2`, `j ≤ My/2`.
     pub(crate) fn from_values(slab: &Slab, shape: [usize; 2], at: impl Fn(usize, usize) -> f64) -> Self {
-        let plans = Plans::<f64>::new(shape);
+        let plans = Plans::new(shape);
         let ranks = slab.ranks();
         let (half, rows) = (plans.half(), Parts::even(shape[0] / 2 + 1, ranks.count()));
         let columns = Parts::even(half, ranks.count());
@@ -82,49 +79,36 @@ impl SlabConvolution {
             plans.along_x.process_with_scratch(&mut column, &mut scratch);
             spectrum.iter_mut().zip(&column).for_each(|(s, c)| *s = c.re);
         }
-        Self::new(slab, shape, spectrum)
+        Self::new(slab, plans, spectrum)
     }
 
-    fn new(slab: &Slab, shape: [usize; 2], mut spectrum: Field) -> Self {
+    fn new(slab: &Slab, plans: Plans<f64>, spectrum: Field) -> Self {
         let [rows, columns] = slab.whole_grid().shape;
-        assert!(rows <= shape[0] && columns <= shape[1], "kernel smaller than the field");
-        let own = spectrum.iter().fold(0.0, |largest: f64, s| s.abs().max(largest));
-        let Largest(largest) = slab.merged(Largest(own));
-        if largest > 0.0 {
-            spectrum /= largest;
-        }
+        assert!(rows <= plans.shape[0] && columns <= plans.shape[1], "kernel smaller than the field");
+        let Largest(largest) = slab.merged(Largest(largest(&spectrum)));
         Self {
             ranks: Arc::clone(slab.ranks()),
             rows: slab.parts().clone(),
-            shape,
-            spectrum: Arc::new(spectrum),
-            unit: largest / (shape[0] * shape[1]) as f64,
-            double: None,
-            single: None,
+            kernel: Mixed::new(Kernel::scaled(plans, spectrum, largest)),
+            latest: LastUsed::None,
         }
     }
 
     /// Computes the convolution `output` of `input`, to 1e-15 of the largest output.
     pub(crate) fn apply(&mut self, input: &Field, output: &mut Field) {
-        self.single = None;
-        let Self { ranks, rows, shape, spectrum, unit, double, .. } = self;
-        let workspace =
-            double.get_or_insert_with(|| Workspace::new(ranks, rows, *shape, Arc::clone(spectrum)));
-        workspace.apply(input, *unit, output);
+        let Self { ranks, rows, kernel, latest } = self;
+        latest.double(|| Workspace::new(ranks, rows, kernel.double())).apply(input, output);
     }
 
     /// Computes the convolution `output` of `input` in half the time, to 3e-7 of the largest output.
     pub(crate) fn apply_single(&mut self, input: &SingleField, output: &mut SingleField) {
-        self.double = None;
-        let Self { ranks, rows, shape, spectrum, unit, single, .. } = self;
-        let workspace =
-            single.get_or_insert_with(|| Workspace::new(ranks, rows, *shape, Arc::clone(spectrum)));
-        workspace.apply(input, *unit, output);
+        let Self { ranks, rows, kernel, latest } = self;
+        latest.single(|| Workspace::new(ranks, rows, kernel.single(Kernel::to_single))).apply(input, output);
     }
 
     /// Releases the scratch memory.
     pub(crate) fn release(&mut self) {
-        (self.double, self.single) = (None, None);
+        self.latest = LastUsed::None;
     }
 }
 
@@ -135,8 +119,7 @@ fn columns_of(ranks: &dyn Ranks, frequencies: usize) -> Range<usize> {
 
 /// A field during its transforms.
 struct Workspace<T> {
-    plans: Plans<T>,
-    spectrum: Arc<Field>,
+    kernel: Arc<Kernel<T>>,
     transposition: Transposition<T>,
     row: Vec<T>,
     /// A few transformed rows.
@@ -146,8 +129,8 @@ struct Workspace<T> {
 }
 
 impl<T: Precision + Number> Workspace<T> {
-    fn new(ranks: &Arc<dyn Ranks>, rows: &Parts, shape: [usize; 2], spectrum: Arc<Field>) -> Self {
-        let (plans, [mx, my]) = (Plans::new(shape), shape);
+    fn new(ranks: &Arc<dyn Ranks>, rows: &Parts, kernel: Arc<Kernel<T>>) -> Self {
+        let (plans, [mx, my]) = (&kernel.plans, kernel.plans.shape);
         let columns = Parts::even(plans.half(), ranks.count());
         Self {
             transposition: Transposition::new(Arc::clone(ranks), rows.clone(), columns),
@@ -155,14 +138,13 @@ impl<T: Precision + Number> Workspace<T> {
             block: vec![Complex::zero(); BLOCK * plans.half()],
             column: vec![Complex::zero(); mx],
             plan: plans.scratch(),
-            plans,
-            spectrum,
+            kernel,
         }
     }
 
-    fn apply(&mut self, input: &Array2<T>, unit: f64, output: &mut Array2<T>) {
-        let Self { plans, spectrum, transposition, row, block, column, plan } = self;
-        let half = plans.half();
+    fn apply(&mut self, input: &Array2<T>, output: &mut Array2<T>) {
+        let Self { kernel, transposition, row, block, column, plan } = self;
+        let (plans, half) = (&kernel.plans, kernel.plans.half());
         for first in (0..input.nrows()).step_by(BLOCK) {
             let count = BLOCK.min(input.nrows() - first);
             let block = &mut block[..count * half];
@@ -172,7 +154,7 @@ impl<T: Precision + Number> Workspace<T> {
             transposition.set_rows(first, block);
         }
         transposition.make_columns();
-        for (n, spectrum) in spectrum.outer_iter().enumerate() {
+        for (n, spectrum) in kernel.spectrum.outer_iter().enumerate() {
             let rows = transposition.all_rows();
             let (field, beyond) = column.split_at_mut(rows);
             transposition.column(n, field);
@@ -188,15 +170,8 @@ impl<T: Precision + Number> Workspace<T> {
             let block = &mut block[..count * half];
             transposition.rows(first, block);
             for (n, half) in block.chunks_exact_mut(half).enumerate() {
-                plans.row_back(half, real(unit), output.row_mut(first + n), row, plan);
+                plans.row_back(half, real(kernel.unit), output.row_mut(first + n), row, plan);
             }
         }
     }
-}
-
-/// Multiplies a column of a transform by the even `spectrum`.
-fn multiply<T: Precision>(column: &mut [Complex<T>], spectrum: &[f64]) {
-    let (front, back) = column.split_at_mut(column.len() / 2 + 1);
-    front.iter_mut().zip(spectrum).for_each(|(v, k)| *v = v.scale(real(*k)));
-    back.iter_mut().rev().zip(&spectrum[1..]).for_each(|(v, k)| *v = v.scale(real(*k)));
 }

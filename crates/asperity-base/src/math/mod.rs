@@ -2,6 +2,8 @@
 
 pub mod fft;
 pub mod good_size;
+pub mod kernel;
+pub mod mixed;
 pub mod parallel;
 pub mod plans;
 mod quadrature;
@@ -9,5 +11,6 @@ pub mod sum;
 
 pub use fft::RealFft2;
 pub use good_size::good_size;
+pub use kernel::Kernel;
 pub use parallel::Bands;
 pub use quadrature::{gauss_legendre, integrate};

@@ -10,6 +10,7 @@ use ndarray::{Array2, ArrayViewMut2, Axis};
 use crate::grid::Field;
 use crate::math::parallel::{self, Pool};
 use asperity_base::math::fft::SHARE;
+use asperity_base::math::kernel::{Kernel, multiply};
 use asperity_base::math::plans::{Plans, real};
 
 /// Number of columns that are transformed together: one or two cache lines of a row.
@@ -105,59 +106,12 @@ pub(crate) fn spectrum(plans: &Plans<f64>, table: &Field, parity: [Parity; 2]) -
     spectrum
 }
 
-/// A cyclic kernel that is even along both axes, in Fourier space, with the plans of its size, for transforms in the
-/// precision of `T`.
-pub(crate) struct Kernel<T> {
-    pub(super) plans: Plans<T>,
-    /// The real and even spectrum over its largest value: `[ky, kx]` for `ky ≤ My/2`, or for the ky of one rank,
-    /// and `kx ≤ Mx/2`. Kernels of both precisions share it.
-    pub(super) spectrum: Arc<Field>,
-    /// The largest of the spectrum, divided by Mx My.
-    pub(super) unit: f64,
-}
-
-impl Kernel<f64> {
-    /// Creates the kernel on a cyclic grid of `shape` with the transform `spectrum[[ky, kx]]` at the bins `(kx,
-    /// ky)`, for `ky ≤ My/2`, `kx ≤ Mx/2`.
-    ///
-    /// # Panics
-    /// If the spectrum has another shape.
-    pub(crate) fn from_spectrum(shape: [usize; 2], spectrum: Field) -> Self {
-        assert_eq!(spectrum.dim(), (shape[1] / 2 + 1, shape[0] / 2 + 1), "shape of the spectrum");
-        Self::of_spectrum(Plans::new(shape), spectrum)
-    }
-
-    /// Creates the kernel on a cyclic grid of `shape` with the values `table[[i, j]]` at the offsets ±i, ±j, for
-    /// `i ≤ Mx/2`, `j ≤ My/2`.
-    pub(crate) fn from_values(shape: [usize; 2], table: &Field) -> Self {
-        let plans = Plans::new(shape);
-        let spectrum = spectrum(&plans, table, [Parity::Even; 2]);
-        Self::of_spectrum(plans, spectrum)
-    }
-
-    fn of_spectrum(plans: Plans<f64>, spectrum: Field) -> Self {
-        let largest = largest(&spectrum);
-        Self::scaled(plans, spectrum, largest)
-    }
-
-    /// Creates the kernel with this `spectrum`, or part of a spectrum, and its `largest` magnitude.
-    pub(super) fn scaled(plans: Plans<f64>, mut spectrum: Field, largest: f64) -> Self {
-        if largest > 0.0 {
-            spectrum /= largest;
-        }
-        let unit = largest / (plans.shape[0] * plans.shape[1]) as f64;
-        Self { plans, spectrum: Arc::new(spectrum), unit }
-    }
-
-    /// Returns the kernel for transforms in single precision.
-    pub(crate) fn to_single(&self) -> Kernel<f32> {
-        Kernel { plans: Plans::new(self.plans.shape), spectrum: Arc::clone(&self.spectrum), unit: self.unit }
-    }
-}
-
-/// Returns the largest magnitude in a spectrum.
-pub(super) fn largest(spectrum: &Field) -> f64 {
-    spectrum.iter().fold(0.0, |largest, s| s.abs().max(largest))
+/// Creates the kernel on a cyclic grid of `shape` with the values `table[[i, j]]` at the offsets ±i, ±j, for
+/// `i ≤ Mx/2`, `j ≤ My/2`.
+pub(crate) fn kernel_of_values(shape: [usize; 2], table: &Field) -> Kernel<f64> {
+    let plans = Plans::new(shape);
+    let spectrum = spectrum(&plans, table, [Parity::Even; 2]);
+    Kernel::new(plans, spectrum)
 }
 
 /// Convolution of fields of one shape with a [`Kernel`] of at least this shape. Values beyond the field are zero.
@@ -333,13 +287,6 @@ impl<T: Precision> Strip<'_, T> {
     }
 }
 
-/// Multiplies the transform of a column by the transform of an even kernel, whose first half is `spectrum`.
-pub(super) fn multiply<T: Precision>(column: &mut [Complex<T>], spectrum: &[f64]) {
-    let (front, back) = column.split_at_mut(column.len() / 2 + 1);
-    front.iter_mut().zip(spectrum).for_each(|(v, k)| *v = v.scale(real(*k)));
-    back.iter_mut().rev().zip(&spectrum[1..]).for_each(|(v, k)| *v = v.scale(real(*k)));
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -352,7 +299,7 @@ mod tests {
                 Field::from_shape_fn([nx / 2 + 1, ny / 2 + 1], |(i, j)| 1.0 / (1 + 2 * i + j * j) as f64);
             let input = Field::from_shape_fn(shape, |(i, j)| ((5 * i + 3 * j * j) % 7) as f64 - 2.0);
             let mut output = Field::zeros(shape);
-            Convolution::new(Arc::new(Kernel::from_values(shape, &table)), shape).apply(&input, &mut output);
+            Convolution::new(Arc::new(kernel_of_values(shape, &table)), shape).apply(&input, &mut output);
             for ((i, j), fast) in output.indexed_iter() {
                 let fold = |a: usize, b: usize, n: usize| a.abs_diff(b).min(n - a.abs_diff(b));
                 let terms =

@@ -2,75 +2,30 @@
 
 use std::sync::{Arc, OnceLock};
 
+use asperity_base::math::mixed::{LastUsed, Mixed};
+
 use crate::grid::{Field, SingleField};
 use crate::math::{Convolution, Kernel, NearConvolution, NearKernel, TensorConvolution, TensorKernel};
 
-/// A kernel D in double precision, and on first use S in single precision. Convolutions of several shapes may share it.
-pub(crate) struct Mixed<D, S> {
-    double: Arc<D>,
-    single: OnceLock<Arc<S>>,
-    /// The near copy of the kernel of one field, if there is one.
+/// A kernel of one field in two precisions. Convolutions of several shapes may share it.
+pub(crate) struct MixedKernel {
+    kernels: Mixed<Kernel<f64>, Kernel<f32>>,
+    /// The near copy of the kernel, if there is one.
     near: OnceLock<Option<Arc<NearKernel>>>,
 }
-
-/// A kernel of one field in two precisions.
-pub(crate) type MixedKernel = Mixed<Kernel<f64>, Kernel<f32>>;
 
 /// A tensor of kernels in two precisions.
 pub(crate) type MixedTensorKernel = Mixed<TensorKernel<f64>, TensorKernel<f32>>;
 
-impl<D, S> Mixed<D, S> {
-    /// Creates the `kernel` in both precisions.
-    pub(crate) fn new(kernel: D) -> Arc<Self> {
-        Arc::new(Self { double: Arc::new(kernel), single: OnceLock::new(), near: OnceLock::new() })
-    }
-
-    /// Returns the kernel for transforms in double precision.
-    pub(super) fn double(&self) -> Arc<D> {
-        Arc::clone(&self.double)
-    }
-
-    /// Returns the kernel for transforms in single precision.
-    pub(super) fn single(&self, to_single: impl FnOnce(&D) -> S) -> Arc<S> {
-        Arc::clone(self.single.get_or_init(|| Arc::new(to_single(&self.double))))
-    }
-}
-
 impl MixedKernel {
+    /// Creates the `kernel` in both precisions.
+    pub(crate) fn new(kernel: Kernel<f64>) -> Arc<Self> {
+        Arc::new(Self { kernels: Mixed::new(kernel), near: OnceLock::new() })
+    }
+
     /// Returns the near copy of the kernel, designed on first use; none if no copy is near enough.
     fn near(&self) -> Option<&Arc<NearKernel>> {
-        self.near.get_or_init(|| NearKernel::new(&self.double).map(Arc::new)).as_ref()
-    }
-}
-
-/// Holds the object for the precision that was used last. A change of precision replaces it.
-pub(super) enum LastUsed<D, S> {
-    None,
-    Double(D),
-    Single(S),
-}
-
-impl<D, S> LastUsed<D, S> {
-    /// Returns the object for double precision. If necessary, it releases that for single precision, and `new`
-    /// creates it.
-    pub(super) fn double(&mut self, new: impl FnOnce() -> D) -> &mut D {
-        if !matches!(self, Self::Double(_)) {
-            *self = Self::None;
-            *self = Self::Double(new());
-        }
-        let Self::Double(latest) = self else { unreachable!("just made") };
-        latest
-    }
-
-    /// Returns the object for single precision. If necessary, it releases that for double precision, and `new`
-    /// creates it.
-    pub(super) fn single(&mut self, new: impl FnOnce() -> S) -> &mut S {
-        if !matches!(self, Self::Single(_)) {
-            *self = Self::None;
-            *self = Self::Single(new());
-        }
-        let Self::Single(latest) = self else { unreachable!("just made") };
-        latest
+        self.near.get_or_init(|| NearKernel::new(&self.kernels.double()).map(Arc::new)).as_ref()
     }
 }
 
@@ -92,13 +47,13 @@ impl MixedConvolution {
     /// Computes the convolution `output` of `input`, to 1e-15 of the largest output.
     pub(crate) fn apply(&mut self, input: &Field, output: &mut Field) {
         let Self { kernel, shape, latest, .. } = self;
-        latest.double(|| Convolution::new(kernel.double(), *shape)).apply(input, output);
+        latest.double(|| Convolution::new(kernel.kernels.double(), *shape)).apply(input, output);
     }
 
     /// Computes the convolution `output` of `input` in half the time, to 3e-7 of the largest output.
     pub(crate) fn apply_single(&mut self, input: &SingleField, output: &mut SingleField) {
         let Self { kernel, shape, latest, .. } = self;
-        let new = || Convolution::new(kernel.single(Kernel::to_single), *shape);
+        let new = || Convolution::new(kernel.kernels.single(Kernel::to_single), *shape);
         latest.single(new).apply(input, output);
     }
 

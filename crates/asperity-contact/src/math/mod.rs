@@ -14,10 +14,10 @@ mod sparse_inverse;
 pub(crate) mod tensor_convolution;
 
 pub(crate) use asperity_base::math::{
-    Bands, RealFft2, fft, gauss_legendre, good_size, integrate, parallel, sum,
+    Bands, Kernel, RealFft2, fft, gauss_legendre, good_size, integrate, parallel, sum,
 };
 pub(crate) use cholesky::Cholesky;
-pub(crate) use convolution::{Convolution, Kernel};
+pub(crate) use convolution::{Convolution, kernel_of_values};
 pub(crate) use gathered::gathered;
 pub(crate) use gmres::{Gmres, gmres};
 pub(crate) use indices::indices_where;

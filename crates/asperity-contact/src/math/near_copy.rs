@@ -580,6 +580,7 @@ fn add_levels(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::kernel_of_values;
 
     /// A kernel with the spectrum 1/|q| on a grid of these pitches.
     fn periodic(shape: [usize; 2], pitch: [f64; 2]) -> Kernel<f64> {
@@ -597,7 +598,7 @@ mod tests {
             let r = (i as f64).hypot(j as f64);
             if r == 0.0 { 3.525 } else { 1.0 / r }
         });
-        Kernel::from_values(shape, &table)
+        kernel_of_values(shape, &table)
     }
 
     /// Returns |K~ x − K x| in the norm of K⁻¹ over that of x in the norm of K, at most the distance of the copy.

@@ -125,15 +125,15 @@ impl CoupledKernel {
             }
         };
         let kernel = TensorKernel::from_values(padded, |i, j| in_order(at(i, j)));
-        Arc::new(Self { kernel: MixedTensorKernel::new(kernel), self_influence: at(0, 0) })
+        Arc::new(Self { kernel: Arc::new(MixedTensorKernel::new(kernel)), self_influence: at(0, 0) })
     }
 
     /// Creates the kernel for the periodic `grid`.
     pub(super) fn periodic(grid: &Grid, response: &dyn CoupledResponse) -> Arc<Self> {
         let q = |bin: usize, axis: usize| angular_frequency(bin, grid.shape[axis], grid.pitch[axis]);
-        let kernel = MixedTensorKernel::new(TensorKernel::from_transforms(grid.shape, |kx, ky| {
+        let kernel = Arc::new(MixedTensorKernel::new(TensorKernel::from_transforms(grid.shape, |kx, ky| {
             in_order(response.harmonic_displacements(q(kx, 0), q(ky, 1)))
-        }));
+        })));
         let mut convolution = MixedTensorConvolution::new(Arc::clone(&kernel), grid.shape);
         let mut unit = grid.zeros();
         unit[[0, 0]] = 1.0;

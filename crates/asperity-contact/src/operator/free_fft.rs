@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::grid::{Field, Grid, SingleField};
 use crate::kernel::{Influence, SharedResponse};
-use crate::math::{Kernel, MixedConvolution, MixedKernel};
+use crate::math::{MixedConvolution, MixedKernel, kernel_of_values};
 use crate::operator::shared::Shared;
 use crate::operator::{Boundary, Operator};
 use crate::units::Metre;
@@ -82,7 +82,7 @@ impl FreeFamily {
     fn kernel(&self, padded: [usize; 2], influence: &dyn Influence) -> Arc<MixedKernel> {
         self.kernels.get(padded, || {
             let shape = padded.map(|n| n / 2 + 1);
-            MixedKernel::new(Kernel::from_values(padded, &influence.table(shape, self.pitch)))
+            MixedKernel::new(kernel_of_values(padded, &influence.table(shape, self.pitch)))
         })
     }
 }

@@ -7,7 +7,7 @@ use ndarray::s;
 
 use crate::grid::{Field, Grid};
 use crate::math::fft::angular_frequency;
-use crate::math::{Convolution, Kernel, good_size, parallel};
+use crate::math::{Convolution, Kernel, good_size, kernel_of_values, parallel};
 use crate::operator::Boundary;
 use crate::temperature::Thermal;
 use crate::temperature::source::Cell;
@@ -172,7 +172,7 @@ impl Ramp {
     /// Creates the operator with these coefficients between cells of a grid of `shape`.
     pub(super) fn spread(&self, shape: [usize; 2]) -> Spread {
         let kernel = match &self.values {
-            Values::Cells(table) => Kernel::from_values(self.padded, table),
+            Values::Cells(table) => kernel_of_values(self.padded, table),
             Values::Waves(table) => {
                 let [mx, my] = self.padded.map(|n| n / 2 + 1);
                 Kernel::from_spectrum(
