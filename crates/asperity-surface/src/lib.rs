@@ -56,7 +56,7 @@
 //!
 //! - ISO 25178-2:2021, parameters of areas; ISO 25178-71 and -72, sdf and x3p.
 //! - ISO 21920-2:2021, parameters of profiles; ISO 13565-2, stratified surfaces.
-//! - ISO 16610, filters: Gaussian (-21, -61), robust (-31, -71).
+//! - ISO 16610, filters: Gaussian for profiles (-21) and areas (-61), robust for areas (-71).
 //!
 //! Each formula names its own source.
 
@@ -86,9 +86,11 @@ pub use form::{Axis, Form, Groove};
 pub use formats::{Format, LengthUnit, ReadOptions, Scan, UNDERSIDE, contents};
 pub use fractal::SelfAffinity;
 pub use generate::{
-    Amplitude, Autocorrelation, Band, Decay, Generator, HeightDistribution, LowPass, SelfAffine, check_cells,
-    white_noise,
+    Amplitude, Autocorrelation, Band, Decay, Generator, HeightDistribution, LowPass, SelfAffine,
 };
+// For surfaces that are generated in parts.
+#[doc(hidden)]
+pub use generate::{check_cells, white_noise};
 pub use moments::SpectralMoments;
 pub use parameters::{
     BearingCurve, Classes, Core, Distribution, FeatureParameters, FunctionalParameters, HeightParameters,

@@ -11,7 +11,8 @@ use std::collections::HashMap;
 use hdf5_pure::{AttrValue, DType, Dataset, File, Group};
 
 use super::{
-    Decoded, Fault, LengthUnit, MAX_CELLS, Scan, UNDERSIDE, cells, choose, choose_among, finite, usable_pitch,
+    Decoded, Fault, LengthUnit, MAX_CELLS, RESULTS, Scan, UNDERSIDE, cells, choose, choose_among, finite,
+    usable_pitch,
 };
 use crate::Axis;
 use asperity_base::error::Defect;
@@ -19,9 +20,6 @@ use asperity_base::grid::Field;
 
 /// First bytes of the file.
 pub(super) const MAGIC: &[u8] = b"\x89HDF\r\n\x1a\n";
-
-/// Format name of results.
-pub(super) const RESULTS: &str = "results";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let fault = |defect| Fault::defect("hdf5", defect);

@@ -51,15 +51,10 @@ mod wsxm;
 #[cfg(feature = "zip")]
 mod x3p;
 
-#[cfg(not(feature = "formats"))]
-mod left_out;
-
 use std::collections::HashSet;
 use std::io::Read;
 use std::path::Path;
 
-#[cfg(not(feature = "formats"))]
-use left_out::*;
 pub use write::Format;
 
 use crate::{Axis, Topography};
@@ -227,7 +222,7 @@ impl Scan {
 
     /// Whether the heights describe an underside, as mounted: that of the upper body in asperity's results.
     pub fn is_underside(&self) -> bool {
-        (self.format, self.channel.as_str()) == (hdf5::RESULTS, UNDERSIDE)
+        (self.format, self.channel.as_str()) == (RESULTS, UNDERSIDE)
     }
 
     /// Lays the lines of the matrix in the file along the given direction.
@@ -303,7 +298,8 @@ fn unpacked(bytes: &[u8], most: u64) -> std::result::Result<Vec<u8>, Fault> {
 
 fn decode_plain(bytes: &[u8], options: &ReadOptions) -> Decoded {
     type Decode = fn(&[u8], Option<&str>) -> Decoded;
-    const READ: [(&[&[u8]], Decode); 23] = [
+    const READ: &[(&[&[u8]], Decode)] = &[
+        #[cfg(feature = "zip")]
         (&[b"PK\x03\x04"], decode_archive),
         (&[b"DIGITAL SURF", b"DSCOMPRESSED"], sur::decode),
         (&[b"\x93NUMPY"], npy::decode),
@@ -317,18 +313,23 @@ fn decode_plain(bytes: &[u8], options: &ReadOptions) -> Decoded {
         (&[al3d::MAGIC], al3d::decode),
         (&[frt::MAGIC], frt::decode),
         (&[tmd::MAGIC], tmd::decode),
+        #[cfg(feature = "tiff")]
         (&tiff::MAGICS, tiff::decode),
         (&nanoscope::MAGICS, nanoscope::decode),
         (&[nid::MAGIC], nid::decode),
         (&[wsxm::MAGIC], wsxm::decode),
         (&[mi::MAGIC], mi::decode),
+        #[cfg(feature = "compound")]
         (&[mnt::MAGIC], mnt::decode),
         (&[opdx::MAGIC], opdx::decode),
         (&vk::MAGICS, vk::decode),
         (&netcdf::MAGICS, netcdf::decode),
+        #[cfg(feature = "hdf5")]
         (&[hdf5::MAGIC], hdf5::decode),
     ];
-    const NOT_READ: [(&[u8], &str); 10] = [
+    #[cfg(not(feature = "tiff"))]
+    const TIFF_LEFT_OUT: &str = "it is TIFF, and the feature `tiff` is left out";
+    const NOT_READ: &[(&[u8], &str)] = &[
         (b"FRTM_GLIDER", "it is an FRT file of another version than 1.00"),
         (b"Binary TrueMap Data File", "it is a TrueMap file of another version than 2.0"),
         (b"CDF", "it is NetCDF of another version than 1 and 2"),
@@ -339,6 +340,23 @@ fn decode_plain(bytes: &[u8], options: &ReadOptions) -> Decoded {
         (b"BM", "it is a picture (BMP)"),
         (b"GWYO", "it is a file of Gwyddion 1"),
         (b"PK\x05\x06", "it is an empty zip archive"),
+        #[cfg(not(feature = "zip"))]
+        (b"PK\x03\x04", "it is a zip archive, and the feature `zip` is left out"),
+        #[cfg(not(feature = "hdf5"))]
+        (b"\x89HDF\r\n\x1a\n", "it is HDF5, and the feature `hdf5` is left out"),
+        #[cfg(not(feature = "tiff"))]
+        (b"II*\0", TIFF_LEFT_OUT),
+        #[cfg(not(feature = "tiff"))]
+        (b"MM\0*", TIFF_LEFT_OUT),
+        #[cfg(not(feature = "tiff"))]
+        (b"II+\0", TIFF_LEFT_OUT),
+        #[cfg(not(feature = "tiff"))]
+        (b"MM\0+", TIFF_LEFT_OUT),
+        #[cfg(not(feature = "compound"))]
+        (
+            b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1",
+            "it is a compound file, and the feature `compound` is left out",
+        ),
     ];
     if bytes.is_empty() {
         return Err(Fault::NotATopography("it is empty"));
@@ -471,6 +489,9 @@ fn distinct(names: impl Iterator<Item = String>) -> Vec<String> {
     };
     names.enumerate().map(number).collect()
 }
+
+/// Format name of results of asperity.
+const RESULTS: &str = "results";
 
 /// Channel of results that is the underside of the upper body.
 pub const UNDERSIDE: &str = "upper";
