@@ -262,6 +262,18 @@ fn a_motion_with_friction_bears_its_coefficient_and_less_under_a_film() {
     assert_eq!(most, 300e6);
 }
 
+#[test]
+fn figures_of_friction_are_the_same_on_any_number_of_threads() {
+    let case = moving(2, 4).replacen("210 GPa", "70 GPa", 1) + "friction = { coefficient = 0.3 }\n";
+    let folder = folder_with("case.toml", &case);
+    ok(&run(&folder, "case.toml --out two --threads 2"));
+    ok(&run(&folder, "case.toml --out one --threads 1"));
+    let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    for name in ["steps.csv", "fields/pass-0002.h5", "figures/friction.png"] {
+        assert!(bytes(&format!("one/{name}")) == bytes(&format!("two/{name}")), "{name} differs");
+    }
+}
+
 /// Hamilton: under friction the most stressed point comes up to the surface, behind the middle of what slides.
 #[test]
 fn sliding_brings_the_most_stressed_point_to_the_surface() {

@@ -33,6 +33,19 @@ fn more_passes_are_appended_to_finished_ones() {
 fn the_fields_of_results_are_topographies() {
     let folder = folder_with("case.toml", &moving(1, 8));
     ok(&run(&folder, "case.toml --out moved"));
+    // The body's material stays; its surface is that of the results.
+    let motion = moving(1, 8);
+    let start = motion.find("upper = {").unwrap();
+    let start = start + motion[start..].find("topography = {").unwrap();
+    let end = start + motion[start..].find("} }").unwrap();
+    let mut next = motion;
+    next.replace_range(
+        start..end,
+        "topography = { file = \"moved/fields/pass-0001.h5\", channel = \"upper\" ",
+    );
+    fs::write(folder.path().join("next.toml"), next).unwrap();
+    let said = ok(&asperity(&folder, "check next.toml"));
+    assert!(said.contains("results `upper`, 32 × 32 samples, an underside, mounted as it is"), "{said}");
     fs::write(folder.path().join("case.toml"), BALL).unwrap();
     ok(&run(&folder, "case.toml --out pressed"));
     for (file, channels) in [

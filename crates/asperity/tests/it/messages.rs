@@ -61,7 +61,9 @@ fn no_message_of_the_library_speaks_of_keys_or_arguments() {
         let text = fs::read_to_string(&file).unwrap();
         for literal in literals(before_tests(&text)) {
             literals_seen += 1;
-            let of_a_case = name != "asperity-study" && speaks_of_a_case(&literal);
+            let reads_cases =
+                name == "asperity-study" && !file.components().any(|part| part.as_os_str() == "io");
+            let of_a_case = !reads_cases && speaks_of_a_case(&literal);
             if of_a_case || ARGUMENTS.iter().any(|argument| literal.contains(argument)) {
                 found.push(format!("{}: {literal}", file.display()));
             }
