@@ -120,8 +120,5 @@ pub(super) fn pair(case: &Case, bodies: Bodies) -> Result<Pair> {
 
 /// Returns the solver parameters of `case`.
 pub fn params(case: &Case) -> Params {
-    let mut params = Params::default();
-    params.method = case.contact.method;
-    params.tolerance = case.contact.tolerance;
-    params
+    Params::new().with_method(case.contact.method).with_tolerance(case.contact.tolerance)
 }

@@ -79,7 +79,7 @@ fn quantities(value: &Value, dimension: Option<Dimension>) -> Vec<(f64, String)>
     }
 }
 
-/// Warns of the wide cells of a file, that of the body whose cells the contact has; a `pitch` is judged as a key.
+/// Warns of wide cells whose size comes from a file; a `pitch` is judged as a key.
 fn wide(case: &Case, grid: &Grid) -> Option<String> {
     let path = [&case.lower, &case.upper].into_iter().find_map(|body| match &body.topography {
         TopographySpec { source: Source::File { path, .. }, pitch: None, .. } => Some(path),
