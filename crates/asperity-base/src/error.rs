@@ -192,6 +192,32 @@ pub enum Error {
         /// The friction limit; the force must be smaller.
         limit: Newton,
     },
+    /// No device of the requested kind.
+    #[error("no device for `{device}`: looked for {}, found {found}", looked_for(device))]
+    NoDevice {
+        /// The device, as the user named it.
+        device: &'static str,
+        /// What is there.
+        found: String,
+    },
+    /// A device has too little memory.
+    #[error("{device} has {} of free memory, needed are {}", bytes(*free), bytes(*needed))]
+    DeviceMemory {
+        /// Name of the device.
+        device: String,
+        /// Memory that the contact takes, bytes.
+        needed: f64,
+        /// Memory that is free, bytes.
+        free: f64,
+    },
+    /// A device, its driver or one of its libraries failed.
+    #[error("{device} failed: {reason}")]
+    DeviceFailed {
+        /// Name of the device.
+        device: String,
+        /// What the driver or the library said.
+        reason: String,
+    },
     /// The iteration stopped above the tolerance.
     #[error(
         "no equilibrium after {iterations} iterations: residual {residual:.2e}, tolerance {tolerance:.2e}"
@@ -551,6 +577,13 @@ fn in_cell(cell: &[usize]) -> String {
 /// Formats two forces with enough digits to differ.
 fn forces(one: Newton, other: Newton) -> [String; 2] {
     format_distinct([one, other], Dimension::Force)
+}
+
+fn looked_for(device: &str) -> &'static str {
+    match device {
+        "cuda" => "a GPU of NVIDIA with its driver, NVRTC and cuFFT",
+        _ => "a device of this name",
+    }
 }
 
 fn needless(option: &str) -> &'static str {

@@ -57,6 +57,10 @@ impl Response for HalfSpaces {
         Some(Box::new(LineOfCells { line: *line, pitch, modulus: self.modulus }))
     }
 
+    fn half_space_modulus(&self) -> Option<Pascal> {
+        Some(self.modulus)
+    }
+
     fn coupled(&self) -> Option<&dyn CoupledResponse> {
         self.compliances.as_ref().map(|compliances| compliances as &dyn CoupledResponse)
     }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::grid::Field;
 use crate::kernel::{Coefficients, Line};
 use crate::math::parallel;
-use crate::units::Metre;
+use crate::units::{Metre, Pascal};
 
 /// Normal displacement of a pair of bodies under a normal pressure.
 ///
@@ -28,6 +28,12 @@ pub trait Response: Debug + Send + Sync {
     /// unknown. A boundary with a single periodic axis is then not available.
     fn line_influence(&self, line: &Line, pitch: [Metre; 2]) -> Option<Box<dyn Influence>> {
         let _ = (line, pitch);
+        None
+    }
+
+    /// Returns the composite modulus E* of homogeneous half-spaces, whose harmonics have the displacement 2/(E* |q|); `None`
+    /// for other bodies.
+    fn half_space_modulus(&self) -> Option<Pascal> {
         None
     }
 

@@ -2,7 +2,7 @@
 
 use crate::grid::{Field, Grid};
 use crate::kernel::SharedResponse;
-use crate::operator::{Boundary, Operator};
+use crate::operator::{Boundary, Definition, Operator};
 
 /// Free boundary by direct summation of the influence coefficients: O(n²) for n cells, exact to round-off.
 ///
@@ -50,6 +50,11 @@ impl Operator for DirectSum {
                 }
             }
         }
+    }
+
+    fn definition(&self) -> Option<Definition> {
+        let response = self.response.clone();
+        Some(Definition { grid: self.grid, boundary: Boundary::FREE, response, datum: 0.0 })
     }
 
     fn coarse(&self) -> Box<dyn Operator> {

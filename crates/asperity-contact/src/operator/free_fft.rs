@@ -6,7 +6,7 @@ use crate::grid::{Field, Grid, SingleField};
 use crate::kernel::{Influence, SharedResponse};
 use crate::math::{MixedConvolution, MixedKernel, kernel_of_values};
 use crate::operator::shared::Shared;
-use crate::operator::{Boundary, Operator};
+use crate::operator::{Boundary, Definition, Operator};
 use crate::units::Metre;
 
 /// All operators of one pitch, response and boundary with a free axis. They share the spectra of the influence
@@ -140,6 +140,11 @@ impl Operator for FreeFft {
 
     fn release(&mut self) {
         self.convolution.release();
+    }
+
+    fn definition(&self) -> Option<Definition> {
+        let FreeFamily { ref response, boundary, datum, .. } = *self.family;
+        Some(Definition { grid: self.grid, boundary, response: response.clone(), datum })
     }
 
     fn coarse(&self) -> Box<dyn Operator> {

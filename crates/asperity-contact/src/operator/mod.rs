@@ -3,6 +3,7 @@
 mod boundary;
 mod compliant;
 mod coupled;
+mod deferred;
 mod direct_sum;
 mod family;
 mod free_fft;
@@ -12,6 +13,7 @@ mod shared;
 pub use boundary::{Boundary, Edge};
 pub use compliant::Compliant;
 pub use coupled::{CoupledFft, CoupledOperator, CoupledSum};
+pub use deferred::{Deferred, Definition};
 pub use direct_sum::DirectSum;
 pub use family::Operators;
 pub use free_fft::{FreeFamily, FreeFft};
@@ -80,6 +82,11 @@ pub trait Operator: Send {
 
     /// Releases the scratch memory of convolutions. The next convolution allocates it again.
     fn release(&mut self) {}
+
+    /// Returns what the operator is made of, from which a device computes it; none if only the processor does.
+    fn definition(&self) -> Option<Definition> {
+        None
+    }
 
     /// Returns an operator of the same bodies on a grid of about half as many cells along each axis.
     fn coarse(&self) -> Box<dyn Operator>;

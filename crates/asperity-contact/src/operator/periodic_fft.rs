@@ -6,7 +6,7 @@ use crate::grid::{Field, Grid, SingleField};
 use crate::kernel::SharedResponse;
 use crate::math::{Kernel, MixedConvolution, MixedKernel, fft::angular_frequency, parallel};
 use crate::operator::shared::Shared;
-use crate::operator::{Boundary, Operator};
+use crate::operator::{Boundary, Definition, Operator};
 
 /// Data shared by all operators of one periodic grid: the spectrum of the influence coefficients.
 pub struct PeriodicKernel {
@@ -95,6 +95,12 @@ impl Operator for PeriodicFft {
 
     fn release(&mut self) {
         self.convolution.release();
+    }
+
+    fn definition(&self) -> Option<Definition> {
+        let PeriodicKernel { grid, response, .. } = self.shared.as_ref();
+        let response = response.clone();
+        Some(Definition { grid: *grid, boundary: Boundary::PERIODIC, response, datum: 0.0 })
     }
 
     fn coarse(&self) -> Box<dyn Operator> {

@@ -15,7 +15,7 @@ const COARSE_TOLERANCE: f64 = 1e-2;
 /// Largest number of convolutions on a coarse grid.
 const MAX_COARSE_CONVOLUTIONS: usize = 100;
 /// Grids with fewer cells along each axis are not coarsened.
-const MIN_CELLS: usize = 64;
+pub(super) const MIN_CELLS: usize = 64;
 
 /// Compliance for the first prediction of the sets from a given start, as a multiple of the self-influence. A guess
 /// from coarse grids has smooth errors. The solution at another approach or of another geometry has errors at single

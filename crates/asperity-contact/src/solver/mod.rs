@@ -5,6 +5,7 @@ mod adhesive;
 mod bounds;
 mod cascade;
 mod coarse_correction;
+mod device;
 mod direct;
 mod equilibrium;
 mod feasible;
@@ -25,6 +26,7 @@ use active_set::NearCopies;
 pub use adhesive::solve_adhesive;
 pub(crate) use adhesive::solve_adhesive_watched;
 pub use bounds::Bounds;
+pub use device::{Device, memory_on_device};
 pub use equilibrium::Equilibrium;
 pub use friction::{
     Coupling, Creep, Friction, FrictionalSolution, Loading, Rolling, RollingSolution, Sliding, Tangential,
@@ -101,12 +103,15 @@ pub struct Params {
     pub tolerance: f64,
     /// Largest number of operator calls.
     pub max_convolutions: usize,
+    /// What solves the contact.
+    pub device: Device,
 }
 
 impl Params {
-    /// Creates the default parameters: the automatic method, a residual of 10⁻⁶ and at most 10 000 operator calls.
+    /// Creates the default parameters: the automatic method, a residual of 10⁻⁶, at most 10 000 operator calls, and the
+    /// processor.
     pub const fn new() -> Self {
-        Self { method: Method::Auto, tolerance: 1e-6, max_convolutions: 10_000 }
+        Self { method: Method::Auto, tolerance: 1e-6, max_convolutions: 10_000, device: Device::Cpu }
     }
 
     /// Sets the method.
@@ -125,6 +130,12 @@ impl Params {
     #[must_use]
     pub const fn with_max_convolutions(self, max_convolutions: usize) -> Self {
         Self { max_convolutions, ..self }
+    }
+
+    /// Sets what solves the contact.
+    #[must_use]
+    pub const fn with_device(self, device: Device) -> Self {
+        Self { device, ..self }
     }
 }
 
@@ -466,6 +477,11 @@ fn solve_as_given(
         return Ok(answer);
     }
     let Problem { initial_gap, bounds, settings, slab } = *problem;
+    if let Some(device) = params.device.open()? {
+        let answer = device::solve(&device, operator.definition(), problem, start, params)?;
+        settings.check_load(&answer, slab)?;
+        return Ok(answer);
+    }
     let answer = match params.method {
         Method::Direct | Method::PolonskyKeer if !slab.is_whole() => {
             Err(Error::Unsupported("only the active set solves a contact on several ranks"))

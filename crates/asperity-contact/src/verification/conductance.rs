@@ -14,7 +14,7 @@ use crate::math::elliptic::CompleteElliptic;
 use crate::operator::{FreeFft, Operator, PeriodicFft};
 use crate::solver::{Bounds, Control, Method, Params, solve_normal};
 
-const PARAMS: Params = Params { tolerance: 1e-9, max_convolutions: 10_000, method: Method::ActiveSet };
+const PARAMS: Params = Params::new().with_method(Method::ActiveSet).with_tolerance(1e-9);
 /// Clean spots on bodies of conductivity 1.
 const CLEAN: Joint = Joint::new(Kind::Thermal, 1.0);
 

@@ -239,7 +239,7 @@ fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
 }
 
 /// A tolerance far below the error of any grid here.
-const PARAMS: Params = Params { tolerance: 1e-9, max_convolutions: 10_000, method: Method::Auto };
+const PARAMS: Params = Params::new().with_tolerance(1e-9);
 
 fn press(operator: &mut dyn Operator, gap: &Field, hardness: Pascal, control: Control) -> Result<Solution> {
     solve_normal(operator, gap, &Bounds::up_to(hardness), control, None, &PARAMS)

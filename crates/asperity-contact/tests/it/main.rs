@@ -5,6 +5,7 @@ mod bounds;
 mod closed_forms;
 mod conductance;
 mod convergence;
+mod device;
 mod error_places;
 mod flow;
 mod friction;

@@ -1,0 +1,150 @@
+//! The contact that is solved: its grids, gaps, bounds and control.
+
+use std::f64::consts::TAU;
+
+use asperity_base::grid::{CellValues, Field};
+use asperity_base::units::{Metre, Pascal};
+
+/// Contacts of one pitch and one pair of bodies that are solved together: their cells, and what presses them.
+pub struct Problem<'a> {
+    /// The contacts. They share the approach, and carry the load together.
+    pub contacts: &'a [Contact<'a>],
+    /// The grid of these contacts and the next coarser ones, from fine to coarse, as many as serve a first guess. Each has
+    /// half as many cells along each axis as the one before, rounded up.
+    pub grids: &'a [Level],
+    /// What presses the bodies.
+    pub control: Control,
+    /// Scale-free complementarity residual η at which the contacts are accepted, > 0.
+    pub tolerance: f64,
+    /// Largest number of convolutions.
+    pub max_convolutions: usize,
+    /// Precision of pressure, gap and displacement.
+    pub precision: Precision,
+}
+
+/// One of the contacts that are solved together.
+#[derive(Clone, Copy)]
+pub struct Contact<'a> {
+    /// The undeformed gap h, m, at each cell.
+    pub gap: &'a Field,
+    /// The largest pressure of each cell, Pa, > 0; infinite for elastic bodies.
+    pub upper: &'a CellValues,
+    /// A pressure near the solution, Pa, if one is known.
+    pub start: Option<&'a Field>,
+}
+
+/// What is prescribed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Control {
+    /// The sum Σ p of the pressures of all cells, Pa.
+    PressureSum(Pascal),
+    /// The rigid-body approach δ, m.
+    Approach(Metre),
+}
+
+/// Precision of pressure, gap and displacement. Search directions and their transforms are in single precision.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Precision {
+    /// Double precision. The residual is that of a convolution in double precision.
+    #[default]
+    Double,
+    /// Single precision, with sums in double precision. It takes half of the memory, and reaches a residual of about 10⁻⁴.
+    Single,
+}
+
+/// A grid with the displacement of the bodies under pressure.
+pub struct Level {
+    /// Size of the transforms along x and y: at least the shape of each contact, and twice that along a free axis.
+    pub padded: [usize; 2],
+    /// Size of a cell along x and y, m.
+    pub pitch: [Metre; 2],
+    /// The displacement under pressure.
+    pub compliance: Compliance,
+    /// The displacement of harmonics, whose inverse is the preconditioner.
+    pub harmonics: Harmonics,
+}
+
+/// Displacement of the cells under the pressure of the others.
+pub enum Compliance {
+    /// That of the [`Harmonics`], along two periodic axes. The mean displacement is 0.
+    Harmonic,
+    /// The displacement at the distance of `[i, j]` cells per unit pressure on a cell, m/Pa, up to half of the padded shape.
+    Influence(Field),
+}
+
+/// Displacement per unit pressure of harmonics.
+pub enum Harmonics {
+    /// 2/(E* |q|) for the composite modulus E* of half-spaces.
+    HalfSpaces(Pascal),
+    /// The displacement per unit pressure, m/Pa, > 0, of the frequencies up to half of the padded shape along x and y, as
+    /// rows of one x; the first is not used.
+    Table(Field),
+}
+
+/// The contacts in equilibrium.
+#[derive(Debug, Clone)]
+pub struct Solution {
+    /// Pressure p, Pa, and displacement u, m, of each contact.
+    pub fields: Vec<[Field; 2]>,
+    /// The rigid-body approach δ, m.
+    pub approach: Metre,
+    /// Scale-free complementarity residual η of all contacts together.
+    pub residual: f64,
+    /// Displacement of a cell per unit pressure on itself, c₀, m/Pa.
+    pub self_influence: f64,
+    /// Cost.
+    pub cost: Cost,
+}
+
+/// The cost of a solution.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Cost {
+    /// Conjugate gradient steps on the grid of the contacts.
+    pub iterations: usize,
+    /// Convolutions, and preconditioned residuals, each of which takes as long; on a coarse grid they count by its share of
+    /// cells.
+    pub convolutions: f64,
+    /// Returns to the last feasible pressure for lack of progress.
+    pub restarts: usize,
+}
+
+/// Observes a contact while it is solved.
+pub trait Watch {
+    /// Reports the residual of an iteration and the required `tolerance`.
+    fn iteration(&self, residual: f64, tolerance: f64);
+
+    /// Whether to stop.
+    fn stop(&self) -> bool;
+}
+
+/// A watch that does nothing.
+impl Watch for () {
+    fn iteration(&self, _: f64, _: f64) {}
+
+    fn stop(&self) -> bool {
+        false
+    }
+}
+
+impl Level {
+    /// Returns the angular wavenumber of the first frequency along each axis.
+    pub(crate) fn wavenumbers(&self) -> [f64; 2] {
+        [0, 1].map(|axis| TAU / (self.padded[axis] as f64 * self.pitch[axis]))
+    }
+
+    /// Returns the factor of the preconditioner for a uniform pressure, which has no wavenumber: that of half of the longest
+    /// wave.
+    pub(crate) fn stiffness_at_zero(&self) -> f64 {
+        0.5 / match &self.harmonics {
+            Harmonics::HalfSpaces(modulus) => {
+                let [x, y] = self.wavenumbers();
+                2.0 / (modulus * x.min(y))
+            }
+            Harmonics::Table(table) => {
+                let [rows, columns] = [table.nrows(), table.ncols()];
+                let along = |cell: [usize; 2]| table.get(cell).copied().unwrap_or(0.0);
+                along([1.min(rows - 1), 0]).max(along([0, 1.min(columns - 1)]))
+            }
+        }
+    }
+}
