@@ -19,12 +19,13 @@ use cudarc::nvrtc::{CompileOptions, compile_ptx_with_opts, sys as nvrtc_sys};
 
 use crate::device::Card;
 use crate::fields::{Device, Fields};
-use crate::problem::{Compliance, Contact, Harmonics, Level, Precision};
+use crate::problem::{Compliance, Contact, Harmonics, Level, Precision, Rough};
+use crate::waves::Waves;
 
 /// The kernels.
 const KERNELS: &str = include_str!("kernels.cu");
 /// Names of the kernels.
-const NAMES: [&str; 33] = [
+const NAMES: [&str; 39] = [
     "accept",
     "add_to_free",
     "advance",
@@ -37,6 +38,8 @@ const NAMES: [&str; 33] = [
     "descent",
     "direct",
     "direct_to_bounds",
+    "gap_below",
+    "histogram",
     "load_pressure",
     "merge_blocks",
     "multiplier",
@@ -52,12 +55,16 @@ const NAMES: [&str; 33] = [
     "response",
     "scale_below",
     "set_uniform",
+    "set_waves",
     "spread_influence",
+    "statistics",
     "step_along_gap",
     "step_from_kept",
+    "summit",
     "take_spectrum",
     "take_touch",
     "touch_sum",
+    "wave_sums",
 ];
 /// Number of blocks of each kernel, on any card.
 const BLOCKS: u32 = 1024;
@@ -357,6 +364,58 @@ impl Device for Cuda {
         Ok(Gaps { layout, precision, gap, upper, cap })
     }
 
+    fn rough(&self, rough: &Rough, level: &Level, precision: Precision) -> Result<Gaps> {
+        let kernels = self.kernels(precision)?;
+        let (side, waves) = (rough.side as i32, Waves::of(rough));
+        let [parts, results] = [BLOCKS as usize, 1].map(|blocks| self.memory(blocks * PARTS * 8));
+        let (parts, results) = (parts?, results?);
+        // The sum of the results of all blocks, or the largest.
+        let merged = |sums: i32| -> Result<f64> {
+            let (blocks, numbers) = (BLOCKS as i32, 1);
+            let arguments = [arg(&parts.at), arg(&blocks), arg(&numbers), arg(&sums), arg(&results.at)];
+            self.launch(&kernels, "merge_blocks", 1, &arguments)?;
+            Ok(results.read::<f64>(0, 1)?[0])
+        };
+        self.launch(&kernels, "wave_sums", BLOCKS, &[arg(&waves), arg(&side), arg(&parts.at)])?;
+        let factor = rough.slope / merged(1)?.sqrt();
+        let kind = match precision {
+            Precision::Double => fft_sys::cufftType_t::CUFFT_Z2D,
+            Precision::Single => fft_sys::cufftType_t::CUFFT_C2R,
+        };
+        let stride = 2 * (rough.side / 2 + 1);
+        let plan = Plan::new(self, kind, level.padded, 1)?;
+        let (buffer, work) = (self.memory(rough.side * stride * bytes(precision))?, self.memory(plan.work)?);
+        self.launch(&kernels, "set_waves", BLOCKS, &[arg(&buffer.at), arg(&waves), arg(&side), arg(&factor)])?;
+        // SAFETY: the area is as large as the plan asked for; the plan is for the buffer in place, of this precision.
+        let done = unsafe {
+            fft::set_work_area(plan.handle, work.at as *mut c_void).and_then(|()| match precision {
+                Precision::Double => fft::exec_z2d(plan.handle, buffer.at as *mut _, buffer.at as *mut _),
+                Precision::Single => fft::exec_c2r(plan.handle, buffer.at as *mut _, buffer.at as *mut _),
+            })
+        };
+        self.checked(done)?;
+        let width = stride as i32;
+        self.launch(&kernels, "summit", BLOCKS, &[arg(&buffer.at), arg(&side), arg(&width), arg(&parts.at)])?;
+        let summit = merged(0)?;
+        drop(work);
+        let layout = Layout { shapes: vec![[rough.side; 2]] };
+        let gap = self.memory(layout.cells() * bytes(precision))?;
+        let first = self.copy_of(&layout.rows(|row| row.first))?;
+        let padded = self.copy_of(&layout.rows(|row| (row.row * stride) as u64))?;
+        let length = self.copy_of(&layout.rows(|row| row.length as i32))?;
+        let arguments = Arguments {
+            first: first.at,
+            padded: padded.at,
+            length: length.at,
+            rows: layout.height(),
+            gap: gap.at,
+            ..Arguments::default()
+        };
+        self.launch(&kernels, "gap_below", BLOCKS, &[arg(&arguments), arg(&buffer.at), arg(&summit)])?;
+        self.checked(self.shared.context.synchronize())?;
+        Ok(Gaps { layout, precision, gap, upper: None, cap: f64::INFINITY })
+    }
+
     fn coarse(&self, fine: &Gaps) -> Result<Gaps> {
         let layout = fine.layout.coarse();
         let starts = fine.layout.starts();
@@ -441,7 +500,7 @@ fn kernel_of(kernel: &CudaFunction) -> driver_sys::CUfunction {
 
 /// The structure `Contacts` of the kernels.
 #[repr(C)]
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Arguments {
     first: u64,
     padded: u64,
@@ -543,7 +602,7 @@ pub(crate) struct CudaFields {
     direction: Memory,
     set: Memory,
     buffer: Memory,
-    _work: Memory,
+    work: Memory,
     single: Plans,
     /// Plans in the precision of the pressure, if that is not single.
     double: Option<Plans>,
@@ -551,7 +610,7 @@ pub(crate) struct CudaFields {
     results: Memory,
     compliance: Spectrum,
     stiffness: Spectrum,
-    _spectra: Vec<Memory>,
+    spectra: Vec<Memory>,
     self_influence: f64,
     bounds: [Pascal; 2],
 }
@@ -602,14 +661,14 @@ impl CudaFields {
             direction: cuda.memory(4 * cells)?,
             set: cuda.memory(cells)?,
             buffer: cuda.memory(contacts * rows * stride * bytes(precision))?,
-            _work: work,
+            work: work,
             single,
             double,
             parts: cuda.memory(BLOCKS as usize * PARTS * 8)?,
             results: cuda.memory(PARTS * 8)?,
             compliance: waves(level, true),
             stiffness: waves(level, false),
-            _spectra: Vec::new(),
+            spectra: Vec::new(),
             self_influence: 0.0,
             bounds: [0.0; 2],
             layout,
@@ -619,7 +678,7 @@ impl CudaFields {
         fields.take_tables(level)?;
         fields.buffer.clear()?;
         fields.buffer.set_state(0, &[1.0], precision)?;
-        fields.multiply(fields.compliance)?;
+        fields.filter(fields.compliance, false)?;
         fields.self_influence = fields.buffer.read_state(0, 1, precision)?[0];
         fields.bounds = fields.sums("bounds", 1, &[])?;
         Ok(fields)
@@ -634,7 +693,7 @@ impl CudaFields {
             let stiffness: Vec<f64> = flat(table).iter().enumerate().map(inverse).collect();
             let stiffness = self.cuda.state_of(&stiffness, self.precision)?;
             self.stiffness.table = stiffness.at;
-            self._spectra.push(stiffness);
+            self.spectra.push(stiffness);
         }
         match (&level.compliance, &level.harmonics) {
             (Compliance::Influence(influence), _) => {
@@ -650,14 +709,14 @@ impl CudaFields {
                 self.cuda.launch(&self.kernels, "take_spectrum", BLOCKS, &to)?;
                 self.cuda.checked(self.cuda.shared.context.synchronize())?;
                 self.compliance.table = spectrum.at;
-                self._spectra.push(spectrum);
+                self.spectra.push(spectrum);
             }
             (Compliance::Harmonic, Harmonics::Table(table)) => {
                 let mut values = flat(table).into_owned();
                 values[0] = 0.0;
                 let compliance = self.cuda.state_of(&values, self.precision)?;
                 self.compliance.table = compliance.at;
-                self._spectra.push(compliance);
+                self.spectra.push(compliance);
             }
             (Compliance::Harmonic, Harmonics::HalfSpaces(_)) => {}
         }
@@ -679,6 +738,12 @@ impl CudaFields {
             direction: self.direction.at,
             set: self.set.at,
         }
+    }
+
+    /// Returns the values of a contact.
+    fn read(&self, memory: &Memory, start: u64, [rows, columns]: [usize; 2]) -> Result<Field> {
+        let values = memory.read_state(start as usize, rows * columns, self.precision)?;
+        Ok(Field::from_shape_vec([rows, columns], values).expect("the shape of the contact"))
     }
 
     /// Starts a kernel with these arguments.
@@ -724,7 +789,7 @@ impl CudaFields {
     }
 
     /// Multiplies the transforms of the buffer, in single precision or in that of the pressure.
-    fn multiply_as(&self, spectrum: Spectrum, single: bool) -> Result<()> {
+    fn filter(&self, spectrum: Spectrum, single: bool) -> Result<()> {
         let [rows, columns] = self.padded;
         let half = (columns / 2 + 1) as i32;
         let (contacts, stride) = (self.layout.shapes.len() as i32, 2 * half);
@@ -743,9 +808,6 @@ impl CudaFields {
         self.transform(false, single)
     }
 
-    fn multiply(&self, spectrum: Spectrum) -> Result<()> {
-        self.multiply_as(spectrum, false)
-    }
 }
 
 /// Returns the factors of half-spaces: of the displacement, or of the preconditioner.
@@ -811,7 +873,7 @@ impl Fields for CudaFields {
 
     fn convolve(&mut self) -> Result<()> {
         self.on_cells("load_pressure", &[arg(&self.buffer.at), arg(&0)])?;
-        self.multiply(self.compliance)?;
+        self.filter(self.compliance, false)?;
         self.on_cells("take_touch", &[arg(&self.buffer.at)])
     }
 
@@ -825,7 +887,7 @@ impl Fields for CudaFields {
 
     fn move_to_bounds(&mut self, each: Pascal, per_pressure: f64) -> Result<()> {
         self.on_cells("direct_to_bounds", &[arg(&self.buffer.at), arg(&each), arg(&per_pressure)])?;
-        self.multiply_as(self.compliance, true)?;
+        self.filter(self.compliance, true)?;
         self.on_cells("arrive", &[arg(&self.buffer.at)])
     }
 
@@ -840,13 +902,13 @@ impl Fields for CudaFields {
     }
 
     fn precondition(&mut self, datum: Metre) -> Result<[f64; 3]> {
-        self.multiply_as(self.stiffness, true)?;
+        self.filter(self.stiffness, true)?;
         self.sums("products", 3, &[arg(&self.buffer.at), arg(&datum)])
     }
 
     fn respond(&mut self, mean: f64, beta: f64) -> Result<[f64; 2]> {
         self.on_cells("direct", &[arg(&self.buffer.at), arg(&mean), arg(&beta)])?;
-        self.multiply_as(self.compliance, true)?;
+        self.filter(self.compliance, true)?;
         self.sums("response", 2, &[arg(&self.buffer.at)])
     }
 
@@ -869,7 +931,7 @@ impl Fields for CudaFields {
 
     fn convolve_kept(&mut self) -> Result<()> {
         self.on_cells("load_pressure", &[arg(&self.buffer.at), arg(&1)])?;
-        self.multiply(self.compliance)
+        self.filter(self.compliance, false)
     }
 
     fn descent(&mut self, approach: Metre) -> Result<[f64; 2]> {
@@ -880,16 +942,43 @@ impl Fields for CudaFields {
         self.on_cells("step_from_kept", &[arg(&self.buffer.at), arg(&share)])
     }
 
+    fn statistics(&mut self, approach: Metre) -> Result<[f64; 3]> {
+        self.sums("statistics", 2, &[arg(&approach)])
+    }
+
+    fn histogram(&mut self, width: Pascal, bins: usize) -> Result<Vec<u64>> {
+        let counts = self.cuda.copy_of(&vec![0u64; bins])?;
+        let bins_of = bins as i32;
+        self.on_cells("histogram", &[arg(&width), arg(&bins_of), arg(&counts.at)])?;
+        counts.read(0, bins)
+    }
+
+    fn gaps(&self) -> Result<Vec<Field>> {
+        let contacts = self.layout.shapes.iter().zip(self.layout.starts());
+        contacts.map(|(shape, start)| self.read(&self.gap, start, *shape)).collect()
+    }
+
+    fn multiply(&mut self, single: bool) -> Result<()> {
+        self.filter(self.compliance, single)
+    }
+
+    fn bytes(&self) -> usize {
+        let fields = [&self.gap, &self.pressure, &self.touch, &self.kept, &self.direction, &self.set, &self.buffer];
+        let all = fields.into_iter().chain(&self.upper).chain(&self.tables).chain(&self.spectra).chain([&self.work]);
+        all.map(|memory| memory.bytes).sum()
+    }
+
+    fn wait(&self) -> Result<()> {
+        self.cuda.bind()?;
+        self.cuda.checked(self.cuda.shared.context.synchronize())
+    }
+
     fn results(&self) -> Result<Vec<[Field; 2]>> {
-        let read = |memory: &Memory, start: u64, [rows, columns]: [usize; 2]| -> Result<Field> {
-            let values = memory.read_state(start as usize, rows * columns, self.precision)?;
-            Ok(Field::from_shape_vec([rows, columns], values).expect("the shape of the contact"))
-        };
         let contacts = self.layout.shapes.iter().zip(self.layout.starts());
         let both = |(shape, start): (&[usize; 2], u64)| -> Result<[Field; 2]> {
-            let (mut u, h) = (read(&self.touch, start, *shape)?, read(&self.gap, start, *shape)?);
+            let (mut u, h) = (self.read(&self.touch, start, *shape)?, self.read(&self.gap, start, *shape)?);
             u -= &h;
-            Ok([read(&self.pressure, start, *shape)?, u])
+            Ok([self.read(&self.pressure, start, *shape)?, u])
         };
         contacts.map(both).collect()
     }

@@ -1,12 +1,17 @@
 //! The devices on which contacts are solved.
 
-use asperity_base::error::{Error, Result, check};
+use asperity_base::error::{Result, check};
+use asperity_base::grid::Field;
+use asperity_base::units::Pascal;
+use web_time::Instant;
 
 #[cfg(feature = "cuda")]
 use crate::cuda::Cuda;
+use crate::cascade::{Solved, Task};
+use crate::fields::Fields;
 use crate::host::Host;
-use crate::problem::{Precision, Problem, Solution, Watch};
-use crate::{cascade, solver};
+use crate::problem::{Accuracy, Control, Level, Precision, Problem, Rough, Solution, Statistics, Watch};
+use crate::{cascade, fields, solver};
 
 /// A device on which contacts are solved.
 #[derive(Clone)]
@@ -39,12 +44,12 @@ impl Device {
     /// Opens the first GPU of NVIDIA.
     ///
     /// # Errors
-    /// [`Error::NoDevice`] with what was found, also if the program was built without the feature `cuda`.
+    /// [`asperity_base::Error::NoDevice`] with what was found, also if the program was built without the feature `cuda`.
     pub fn cuda() -> Result<Self> {
         #[cfg(feature = "cuda")]
         return Cuda::open().map(|cuda| Self(Kind::Cuda(cuda)));
         #[cfg(not(feature = "cuda"))]
-        Err(Error::NoDevice {
+        Err(asperity_base::error::Error::NoDevice {
             device: "cuda",
             found: "a program that was built without the feature `cuda`".to_owned(),
         })
@@ -53,7 +58,7 @@ impl Device {
     /// Returns what the device is, with the memory that is free now; none for the processor.
     ///
     /// # Errors
-    /// [`Error::DeviceFailed`].
+    /// [`asperity_base::Error::DeviceFailed`].
     pub fn card(&self) -> Result<Option<Card>> {
         match &self.0 {
             Kind::Host => Ok(None),
@@ -65,8 +70,8 @@ impl Device {
     /// Solves contacts.
     ///
     /// # Errors
-    /// [`Error::NotConverged`], [`Error::Interrupted`], [`Error::DeviceMemory`], [`Error::DeviceFailed`],
-    /// [`Error::OutOfRange`] for results that are not finite.
+    /// [`asperity_base::Error::NotConverged`], [`asperity_base::Error::Interrupted`], [`asperity_base::Error::DeviceMemory`], [`asperity_base::Error::DeviceFailed`],
+    /// [`asperity_base::Error::OutOfRange`] for results that are not finite.
     ///
     /// # Panics
     /// If there is no contact or no grid, or if a contact is larger than the transforms of its grid.
@@ -74,14 +79,130 @@ impl Device {
         let padded = problem.grids[0].padded;
         let fits = |shape: &[usize]| shape[0] <= padded[0] && shape[1] <= padded[1];
         assert!(problem.contacts.iter().all(|contact| fits(contact.gap.shape())), "contacts within their grid");
-        let solution = match &self.0 {
-            Kind::Host => cascade::solve(&Host, problem, watch),
+        match &self.0 {
+            Kind::Host => solve(&Host, problem, watch),
             #[cfg(feature = "cuda")]
-            Kind::Cuda(cuda) => cascade::solve(cuda, problem, watch),
-        }?;
-        check("approach", solution.approach, solution.approach.is_finite(), solver::FINITE)?;
-        Ok(solution)
+            Kind::Cuda(cuda) => solve(cuda, problem, watch),
+        }
     }
+
+    /// Solves the elastic contact of a rough surface that is made on the device, under a mean pressure. `grids` are those of
+    /// [`Problem`], periodic; `histogram` is the largest pressure of the histogram and its number of bins.
+    ///
+    /// # Errors
+    /// Those of [`Device::solve`].
+    pub fn press(
+        &self,
+        rough: &Rough,
+        grids: &[Level],
+        mean_pressure: Pascal,
+        accuracy: &Accuracy,
+        histogram: (Pascal, usize),
+        watch: &dyn Watch,
+    ) -> Result<Statistics> {
+        match &self.0 {
+            Kind::Host => press(&Host, rough, grids, mean_pressure, accuracy, histogram, watch),
+            #[cfg(feature = "cuda")]
+            Kind::Cuda(cuda) => press(cuda, rough, grids, mean_pressure, accuracy, histogram, watch),
+        }
+    }
+
+    /// Returns the gap between a rough surface and a plane that touches its highest summit.
+    ///
+    /// # Errors
+    /// [`asperity_base::Error::DeviceMemory`], [`asperity_base::Error::DeviceFailed`].
+    pub fn gap_of(&self, rough: &Rough, level: &Level) -> Result<Field> {
+        match &self.0 {
+            Kind::Host => gap_of(&Host, rough, level),
+            #[cfg(feature = "cuda")]
+            Kind::Cuda(cuda) => gap_of(cuda, rough, level),
+        }
+    }
+
+    /// Returns the time, s, of a convolution on a periodic grid with `side` cells along each axis, in single and in double
+    /// precision, without the rest of an iteration: the mean of `times`.
+    ///
+    /// # Errors
+    /// [`asperity_base::Error::DeviceMemory`], [`asperity_base::Error::DeviceFailed`].
+    pub fn time_of_convolutions(&self, level: &Level, side: usize, times: usize) -> Result<[f64; 2]> {
+        match &self.0 {
+            Kind::Host => time_of_convolutions(&Host, level, side, times),
+            #[cfg(feature = "cuda")]
+            Kind::Cuda(cuda) => time_of_convolutions(cuda, level, side, times),
+        }
+    }
+}
+
+fn solve<D: fields::Device>(device: &D, problem: &Problem, watch: &dyn Watch) -> Result<Solution> {
+    let Problem { contacts, grids, control, accuracy } = *problem;
+    let gaps = device.gaps(contacts, accuracy.precision)?;
+    let starts = contacts.iter().map(|contact| contact.start).collect();
+    let Solved { fields, state, cost } = cascade::solve(device, Task { gaps, starts, grids, control, accuracy }, watch)?;
+    check("approach", state.approach, state.approach.is_finite(), solver::FINITE)?;
+    let self_influence = fields.self_influence();
+    Ok(Solution { fields: fields.results()?, approach: state.approach, residual: state.eta, self_influence, cost })
+}
+
+fn press<D: fields::Device>(
+    device: &D,
+    rough: &Rough,
+    grids: &[Level],
+    mean_pressure: Pascal,
+    accuracy: &Accuracy,
+    (largest, bins): (Pascal, usize),
+    watch: &dyn Watch,
+) -> Result<Statistics> {
+    let began = Instant::now();
+    let gaps = device.rough(rough, &grids[0], accuracy.precision)?;
+    let made = began.elapsed().as_secs_f64();
+    let cells = (rough.side * rough.side) as f64;
+    let control = Control::PressureSum(mean_pressure * cells);
+    let task = Task { gaps, starts: None, grids, control, accuracy: *accuracy };
+    let began = Instant::now();
+    let Solved { mut fields, state, cost } = cascade::solve(device, task, watch)?;
+    fields.wait()?;
+    let solved = began.elapsed().as_secs_f64();
+    let [gap, contact, max_pressure] = fields.statistics(state.approach)?;
+    Ok(Statistics {
+        area: contact / cells,
+        mean_gap: gap / cells,
+        max_pressure,
+        histogram: fields.histogram(largest / bins as f64, bins)?,
+        residual: state.eta,
+        cost,
+        times: [made, solved],
+        bytes_a_cell: fields.bytes() as f64 / cells,
+    })
+}
+
+fn gap_of<D: fields::Device>(device: &D, rough: &Rough, level: &Level) -> Result<Field> {
+    let gaps = device.rough(rough, level, Precision::Double)?;
+    Ok(device.fields(gaps, level)?.gaps()?.remove(0))
+}
+
+fn time_of_convolutions<D: fields::Device>(
+    device: &D,
+    level: &Level,
+    side: usize,
+    times: usize,
+) -> Result<[f64; 2]> {
+    let [pitch, _] = level.pitch;
+    let (longest, shortest) = (side as f64 * pitch, 8.0 * pitch);
+    let rough = Rough { side, pitch, hurst: 0.8, longest, shortest, slope: 1.0, seed: 1 };
+    let mut fields = device.fields(device.rough(&rough, level, Precision::Double)?, level)?;
+    // Transforms are timed on values like those of a contact.
+    fields.close_alone(0.0, 1.0)?;
+    fields.convolve()?;
+    let mut mean = |single: bool| -> Result<f64> {
+        fields.wait()?;
+        let began = Instant::now();
+        for _ in 0..times {
+            fields.multiply(single)?;
+        }
+        fields.wait()?;
+        Ok(began.elapsed().as_secs_f64() / times as f64)
+    };
+    Ok([mean(true)?, mean(false)?])
 }
 
 /// Returns an upper bound of the memory, bytes, that contacts of `cells` cells in all take on a device, with transforms of

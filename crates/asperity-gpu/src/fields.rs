@@ -4,7 +4,7 @@ use asperity_base::error::Result;
 use asperity_base::grid::Field;
 use asperity_base::units::{Metre, Pascal};
 
-use crate::problem::{Contact, Level, Precision};
+use crate::problem::{Contact, Level, Precision, Rough};
 
 /// A device on which contacts are solved.
 pub(crate) trait Device {
@@ -17,6 +17,9 @@ pub(crate) trait Device {
 
     /// Places the gaps and the upper bounds of the contacts on the device.
     fn gaps(&self, contacts: &[Contact], precision: Precision) -> Result<Self::Gaps>;
+
+    /// Makes a rough surface on the device. Returns the gap between its highest summit and a plane, without an upper bound.
+    fn rough(&self, rough: &Rough, level: &Level, precision: Precision) -> Result<Self::Gaps>;
 
     /// Returns gaps and upper bounds on a grid of half as many cells along each axis: means of 2 × 2 cells, of which those
     /// at the end of an odd number count twice.
@@ -126,6 +129,24 @@ pub(crate) trait Fields {
     /// Moves to the fraction `share` of the way from the last feasible pressure, whose displacement the buffer holds, to the
     /// present one.
     fn step_from_kept(&mut self, share: f64) -> Result<()>;
+
+    /// Returns the sum of the deformed gaps at an approach, the number of cells in contact, and the largest pressure.
+    fn statistics(&mut self, approach: Metre) -> Result<[f64; 3]>;
+
+    /// Counts the cells in contact by pressure, in `bins` of this width; those above are in the last.
+    fn histogram(&mut self, width: Pascal, bins: usize) -> Result<Vec<u64>>;
+
+    /// Returns the gap of each contact.
+    fn gaps(&self) -> Result<Vec<Field>>;
+
+    /// Convolves whatever the buffer holds, in single precision or in that of the pressure, to measure its time.
+    fn multiply(&mut self, single: bool) -> Result<()>;
+
+    /// Returns the memory of the fields, bytes.
+    fn bytes(&self) -> usize;
+
+    /// Waits until all operations are done.
+    fn wait(&self) -> Result<()>;
 
     /// Returns pressure and displacement of each contact.
     fn results(&self) -> Result<Vec<[Field; 2]>>;

@@ -4,9 +4,12 @@ use asperity_base::error::Result;
 use asperity_base::grid::{CellValues, Field, coarse_means};
 use asperity_base::math::fft::RealFft2;
 use asperity_base::units::{Metre, Pascal};
+use asperity_transforms::num_complex::Complex64;
+use ndarray::Array2;
 
 use crate::fields::{Device, Fields};
-use crate::problem::{Compliance, Contact, Harmonics, Level, Precision};
+use crate::problem::{Compliance, Contact, Harmonics, Level, Precision, Rough};
+use crate::waves::Waves;
 
 /// The processor.
 pub(crate) struct Host;
@@ -53,6 +56,27 @@ impl Device for Host {
         Ok(Gaps { gaps, uppers: contacts.iter().map(|contact| contact.upper.clone()).collect() })
     }
 
+    fn rough(&self, rough: &Rough, level: &Level, _: Precision) -> Result<Gaps> {
+        let transform = RealFft2::new(level.padded);
+        let waves = Waves::of(rough);
+        let side = rough.side;
+        let at = |k: usize, l: usize| {
+            let [re, im] = waves.amplitude(if 2 * k < side { k as i64 } else { k as i64 - side as i64 }, l as i64);
+            Complex64::new(re, im)
+        };
+        let mut spectrum = Array2::from_shape_fn([side, side / 2 + 1], |(k, l)| at(k, l));
+        let squares: f64 = spectrum.indexed_iter().map(|((k, l), wave)| {
+            let k = k.min(side - k) as f64;
+            let both = if l == 0 { 1.0 } else { 2.0 };
+            both * (waves.first * k.hypot(l as f64)).powi(2) * wave.norm_sqr()
+        }).sum();
+        let factor = rough.slope / squares.sqrt() * (side * side) as f64;
+        spectrum.iter_mut().for_each(|wave| *wave *= factor);
+        let heights = transform.inverse_leading(&spectrum, [side; 2]);
+        let summit = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        Ok(Gaps { gaps: vec![summit - heights], uppers: vec![CellValues::Uniform(f64::INFINITY)] })
+    }
+
     fn coarse(&self, fine: &Gaps) -> Result<Gaps> {
         let gaps = fine.gaps.iter().map(coarse_means).collect();
         Ok(Gaps { gaps, uppers: fine.uppers.iter().map(CellValues::coarse).collect() })
@@ -81,7 +105,7 @@ impl Device for Host {
         };
         fields.pressure[0] = 1.0;
         fields.buffer.copy_from_slice(&fields.pressure);
-        fields.multiply(|fields| &fields.compliance);
+        fields.filter(|fields| &fields.compliance);
         fields.self_influence = fields.buffer[0];
         Ok(fields)
     }
@@ -141,7 +165,7 @@ fn clip(pressure: f64, upper: f64) -> f64 {
 
 impl HostFields {
     /// Multiplies the transforms of the contacts in the buffer.
-    fn multiply(&mut self, factors: impl Fn(&Self) -> &Field) {
+    fn filter(&mut self, factors: impl Fn(&Self) -> &Field) {
         let mut from = 0;
         for [rows, columns] in self.shapes.clone() {
             let cells = from..from + rows * columns;
@@ -154,9 +178,9 @@ impl HostFields {
         }
     }
 
-    /// [`Self::multiply`] of values in single precision.
-    fn multiply_in_single(&mut self, factors: impl Fn(&Self) -> &Field) {
-        self.multiply(factors);
+    /// [`Self::filter`] of values in single precision.
+    fn filter_in_single(&mut self, factors: impl Fn(&Self) -> &Field) {
+        self.filter(factors);
         self.buffer.iter_mut().for_each(|value| *value = f64::from(*value as f32));
     }
 
@@ -265,7 +289,7 @@ impl Fields for HostFields {
 
     fn convolve(&mut self) -> Result<()> {
         self.buffer.copy_from_slice(&self.pressure);
-        self.multiply(|fields| &fields.compliance);
+        self.filter(|fields| &fields.compliance);
         let cells = self.touch.iter_mut().zip(&self.gap).zip(&self.buffer);
         cells.for_each(|((touch, h), u)| *touch = h + u);
         Ok(())
@@ -306,7 +330,7 @@ impl Fields for HostFields {
             self.direction[cell] = if self.set[cell] == Set::Free { d as f32 } else { 0.0 };
             self.buffer[cell] = f64::from(d as f32);
         }
-        self.multiply_in_single(|fields| &fields.compliance);
+        self.filter_in_single(|fields| &fields.compliance);
         for cell in 0..self.pressure.len() {
             self.touch[cell] += self.buffer[cell];
             self.pressure[cell] = match self.set[cell] {
@@ -344,7 +368,7 @@ impl Fields for HostFields {
     }
 
     fn precondition(&mut self, datum: Metre) -> Result<[f64; 3]> {
-        self.multiply_in_single(|fields| &fields.stiffness);
+        self.filter_in_single(|fields| &fields.stiffness);
         let mut sums = [0.0; 3];
         for cell in self.free() {
             let (z, r) = (self.buffer[cell], datum - self.touch[cell]);
@@ -359,7 +383,7 @@ impl Fields for HostFields {
             self.direction[cell] = if self.set[cell] == Set::Free { d as f32 } else { 0.0 };
             self.buffer[cell] = f64::from(self.direction[cell]);
         }
-        self.multiply_in_single(|fields| &fields.compliance);
+        self.filter_in_single(|fields| &fields.compliance);
         let mut sums = [0.0; 2];
         for cell in self.free() {
             let v = self.buffer[cell];
@@ -390,7 +414,7 @@ impl Fields for HostFields {
 
     fn convolve_kept(&mut self) -> Result<()> {
         self.buffer.copy_from_slice(&self.kept);
-        self.multiply(|fields| &fields.compliance);
+        self.filter(|fields| &fields.compliance);
         Ok(())
     }
 
@@ -410,6 +434,37 @@ impl Fields for HostFields {
             self.touch[cell] = before + share * (self.touch[cell] - before);
             self.pressure[cell] = kept + share * (self.pressure[cell] - kept);
         }
+        Ok(())
+    }
+
+    fn statistics(&mut self, approach: Metre) -> Result<[f64; 3]> {
+        let gap = self.touch.iter().map(|touch| touch - approach).sum();
+        let contact = self.pressure.iter().filter(|p| **p > 0.0).count() as f64;
+        Ok([gap, contact, self.pressure.iter().copied().fold(0.0, f64::max)])
+    }
+
+    fn histogram(&mut self, width: Pascal, bins: usize) -> Result<Vec<u64>> {
+        let mut counts = vec![0; bins];
+        let touching = self.pressure.iter().filter(|p| **p > 0.0);
+        touching.for_each(|p| counts[((p / width) as usize).min(bins - 1)] += 1);
+        Ok(counts)
+    }
+
+    fn gaps(&self) -> Result<Vec<Field>> {
+        Ok(self.cut(&self.gap))
+    }
+
+    fn multiply(&mut self, _: bool) -> Result<()> {
+        self.filter(|fields| &fields.compliance);
+        Ok(())
+    }
+
+    fn bytes(&self) -> usize {
+        let numbers = [&self.pressure, &self.touch, &self.gap, &self.kept, &self.upper, &self.buffer];
+        8 * numbers.iter().map(|values| values.len()).sum::<usize>() + 4 * self.direction.len() + self.set.len()
+    }
+
+    fn wait(&self) -> Result<()> {
         Ok(())
     }
 

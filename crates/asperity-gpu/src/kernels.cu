@@ -385,4 +385,99 @@ __global__ void coarse_means(const state* fine, state* coarse, const place* firs
 __global__ void prolong(Contacts f, const state* coarse, const place* from) {
     CELLS f.pressure[c] = coarse[from[row] + j / 2]; END
 }
+
+__global__ void statistics(Contacts f, double approach, double* parts) {
+    double own[3] = {0, 0, 0};
+    CELLS
+        const double p = f.pressure[c];
+        own[0] += (double)f.touch[c] - approach;
+        if (p > 0) own[1] += 1;
+        LARGER(own[2], p);
+    END
+    MERGE(3, 2);
+}
+
+__global__ void histogram(Contacts f, double width, int bins, place* counts) {
+    CELLS
+        const double p = f.pressure[c];
+        if (p > 0) {
+            const double bin = p / width;
+            atomicAdd(counts + (bin < bins ? (int)bin : bins - 1), (place)1);
+        }
+    END
+}
+
+// Gap between the largest height in the buffer and a plane.
+__global__ void gap_below(Contacts f, const state* buffer, double summit) {
+    CELLS f.gap[c] = summit - (double)buffer[b]; END
+}
+
+// Waves of a rough surface.
+struct Waves {
+    double first; // wavenumber of the first wave along x and y
+    double longest, shortest; // wavenumbers
+    double power; // of the amplitude
+    place seed;
+};
+
+// A number from the bits of another, by the finaliser of splitmix64.
+__device__ place mixed(place x) {
+    x += 0x9E3779B97F4A7C15ull;
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBull;
+    return x ^ (x >> 31);
+}
+
+// The amplitude of a wave with `k` periods along x and `l` ≥ 0 along y, without factor.
+__device__ void amplitude(const Waves& w, long long k, long long l, double* re, double* im) {
+    const double q = w.first * sqrt((double)k * (double)k + (double)l * (double)l);
+    *re = *im = 0;
+    if (q == 0 || q > w.shortest) return;
+    // Of a pair of waves with opposite signs one is drawn.
+    const double sign = l == 0 && k < 0 ? -1 : 1;
+    const place at = mixed(mixed(w.seed) ^ (((place)(sign * k + 2147483648.0) << 32) | (place)l));
+    const double u = ((at >> 11) + 0.5) / 9007199254740992.0, v = (mixed(at) >> 11) / 9007199254740992.0;
+    const double size = sqrt(-2 * log(u)) * pow(q > w.longest ? q : w.longest, w.power);
+    *re = size * cospi(2 * v);
+    *im = sign * size * sinpi(2 * v);
+}
+
+// Sum of the squared slopes of all waves, and of the squared heights.
+__global__ void wave_sums(Waves w, int side, double* parts) {
+    double own[1] = {0};
+    const int half = side / 2 + 1;
+    for (int i = blockIdx.x; i < side; i += gridDim.x) {
+        const long long k = 2 * i < side ? i : i - side;
+        if (w.first * fabs((double)k) > w.shortest) continue;
+        for (int l = threadIdx.x; l < half; l += blockDim.x) {
+            double re, im;
+            amplitude(w, k, l, &re, &im);
+            const double q2 = w.first * w.first * ((double)k * k + (double)l * l);
+            own[0] += (l == 0 ? 1 : 2) * q2 * (re * re + im * im);
+        }
+    }
+    MERGE(1, 1);
+}
+
+__global__ void set_waves(state* buffer, Waves w, int side, double factor) {
+    const int half = side / 2 + 1;
+    for (int i = blockIdx.x; i < side; i += gridDim.x) {
+        const long long k = 2 * i < side ? i : i - side;
+        for (int l = threadIdx.x; l < half; l += blockDim.x) {
+            double re, im;
+            amplitude(w, k, l, &re, &im);
+            state* value = buffer + 2 * ((place)i * half + l);
+            value[0] = factor * re;
+            value[1] = factor * im;
+        }
+    }
+}
+
+// The largest height in the buffer.
+__global__ void summit(const state* buffer, int side, int stride, double* parts) {
+    double own[1] = {LEAST};
+    for (int i = blockIdx.x; i < side; i += gridDim.x)
+        for (int j = threadIdx.x; j < side; j += blockDim.x) LARGER(own[0], buffer[(place)i * stride + j]);
+    MERGE(1, 0);
+}
 }

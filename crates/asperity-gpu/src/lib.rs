@@ -9,8 +9,9 @@ mod fields;
 mod host;
 mod problem;
 mod solver;
+mod waves;
 
 pub use device::{Card, Device, memory};
 pub use problem::{
-    Compliance, Contact, Control, Cost, Harmonics, Level, Precision, Problem, Solution, Watch,
+    Accuracy, Compliance, Contact, Control, Cost, Harmonics, Level, Precision, Problem, Rough, Solution, Statistics, Watch,
 };

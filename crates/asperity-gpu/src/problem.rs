@@ -14,6 +14,13 @@ pub struct Problem<'a> {
     pub grids: &'a [Level],
     /// What presses the bodies.
     pub control: Control,
+    /// How exactly it is solved.
+    pub accuracy: Accuracy,
+}
+
+/// How exactly a contact is solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Accuracy {
     /// Scale-free complementarity residual η at which the contacts are accepted, > 0.
     pub tolerance: f64,
     /// Largest number of convolutions.
@@ -90,10 +97,52 @@ pub struct Solution {
     pub approach: Metre,
     /// Scale-free complementarity residual η of all contacts together.
     pub residual: f64,
-    /// Displacement of a cell per unit pressure on itself, c₀, m/Pa.
+    /// Displacement c₀ of a cell per unit pressure on itself, m/Pa.
     pub self_influence: f64,
     /// Cost.
     pub cost: Cost,
+}
+
+/// A periodic self-affine surface that is made on the device, and never leaves it. Its waves have random amplitudes and
+/// phases, which depend on the seed and on the number of waves along x and y: on a finer grid it is the same surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rough {
+    /// Number of cells along x and y, the same, an even number.
+    pub side: usize,
+    /// Size of a cell, m.
+    pub pitch: Metre,
+    /// Hurst exponent H: the power spectrum falls as q^(−2 − 2H).
+    pub hurst: f64,
+    /// Wavelength above which the power spectrum is constant, m.
+    pub longest: Metre,
+    /// Shortest wavelength, m.
+    pub shortest: Metre,
+    /// Root mean square of the slope.
+    pub slope: f64,
+    /// Seed.
+    pub seed: u64,
+}
+
+/// A contact of a [`Rough`] surface, of which only numbers are kept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Statistics {
+    /// Share of the cells in contact.
+    pub area: f64,
+    /// Mean of the deformed gap, m.
+    pub mean_gap: Metre,
+    /// Largest pressure, Pa.
+    pub max_pressure: Pascal,
+    /// Number of cells in contact by pressure: bins of the same width from 0 to the pressure asked for. Those above are in
+    /// the last.
+    pub histogram: Vec<u64>,
+    /// Scale-free complementarity residual η.
+    pub residual: f64,
+    /// Cost.
+    pub cost: Cost,
+    /// Time, s, of the surface, and of the solution with its memory and plans.
+    pub times: [f64; 2],
+    /// Memory of the finest grid over its number of cells, bytes.
+    pub bytes_a_cell: f64,
 }
 
 /// The cost of a solution.

@@ -200,7 +200,7 @@ mod tests {
     use crate::operator::{DirectSum, Edge, FreeFamily, FreeFft, PeriodicFft};
 
     const FINE: Params =
-        Params { method: crate::solver::Method::Auto, tolerance: 1e-10, max_convolutions: 3000 };
+        Params::new().with_tolerance(1e-10).with_max_convolutions(3000);
 
     fn clean() -> Joint {
         Joint::new(Kind::Thermal, 1.0)

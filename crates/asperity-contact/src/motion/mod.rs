@@ -2,6 +2,7 @@
 
 mod adhesive;
 mod approach;
+mod batch;
 mod body;
 mod contact;
 mod course;

@@ -62,7 +62,7 @@ pub fn sweep(
         points,
         params,
         gap,
-        normal: operators.on(shape),
+        normal: operators.on_for(shape, params.device),
         coupled: rolls.then(|| operators.coupled_on(shape)),
         records,
         last: None,

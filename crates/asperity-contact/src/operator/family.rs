@@ -6,7 +6,8 @@ use crate::grid::{Field, Grid};
 use crate::kernel::{CoupledResponse, SharedResponse};
 use crate::operator::coupled::CoupledKernel;
 use crate::operator::shared::Shared;
-use crate::operator::{Boundary, CoupledOperator, FreeFamily, Operator, PeriodicKernel};
+use crate::operator::{Boundary, CoupledOperator, Deferred, Definition, FreeFamily, Operator, PeriodicKernel};
+use crate::solver::Device;
 
 /// Creates operators for one cell size, pair of bodies and boundary. They share the spectra of their coefficients.
 ///
@@ -52,6 +53,21 @@ impl Operators {
                 Box::new(kernels.get(shape, make).operator())
             }
         }
+    }
+
+    /// Returns the normal operator on `shape` cells for contacts that this device solves. A GPU needs neither its transforms nor
+    /// its coefficients, which are then computed only if the processor needs them.
+    pub fn on_for(&self, shape: [usize; 2], device: Device) -> Box<dyn Operator> {
+        match device {
+            Device::Cpu => self.on(shape),
+            Device::Cuda | Device::Host => Box::new(Deferred::new(self.definition(shape))),
+        }
+    }
+
+    /// Returns what the normal operator on `shape` cells is made of.
+    pub(crate) fn definition(&self, shape: [usize; 2]) -> Definition {
+        let datum = self.boundary.datum(&self.largest);
+        Definition { grid: self.grid(shape), boundary: self.boundary, response: self.response.clone(), datum }
     }
 
     /// Returns the coupled operator on `shape` cells.

@@ -329,6 +329,7 @@ impl ElasticStep<'_> {
     /// shear on the lower one.
     fn press(&mut self, gap: &Field, along: Option<&[Field; 2]>) -> Result<Option<[Field; 2]>> {
         let (control, params, watch) = (self.loading.normal, self.params, self.watch);
+        params.device.only_processor("a device does not solve elasto-plastic bodies")?;
         if control == Control::Load(0.0) {
             self.pressure.fill(0.0);
             self.equilibrium = None;

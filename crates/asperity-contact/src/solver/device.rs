@@ -3,7 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use asperity_base::choice::choice;
-use asperity_gpu::{Card, Compliance, Harmonics, Level, Precision};
+use asperity_gpu::{Accuracy, Card, Compliance, Harmonics, Level, Precision};
 
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
@@ -95,6 +95,7 @@ pub(super) struct Found {
     pub(super) fields: Vec<[Field; 2]>,
     pub(super) approach: Metre,
     pub(super) residual: f64,
+    pub(super) self_influence: f64,
     pub(super) stats: Stats,
 }
 
@@ -158,14 +159,17 @@ pub(super) fn together(
         contacts: &contacts,
         grids: &grids,
         control,
-        tolerance: params.tolerance,
-        max_convolutions: params.max_convolutions,
-        precision: Precision::Double,
+        accuracy: Accuracy {
+            tolerance: params.tolerance,
+            max_convolutions: params.max_convolutions,
+            precision: Precision::Double,
+        },
     };
     let found = device.solve(&problem, &Watched(settings.watch))?;
     let asperity_gpu::Cost { iterations, convolutions, restarts } = found.cost;
     let stats = Stats { iterations, convolutions, restarts, ..Stats::default() };
-    Ok(Found { fields: found.fields, approach: found.approach, residual: found.residual, stats })
+    let asperity_gpu::Solution { fields, approach, residual, self_influence, .. } = found;
+    Ok(Found { fields, approach, residual, self_influence, stats })
 }
 
 /// Returns the grids of a cascade; of a `warm` start only the grid itself.

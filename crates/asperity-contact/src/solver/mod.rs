@@ -38,7 +38,7 @@ pub(crate) use friction::{
 pub use residual::{Residual, residual};
 pub(crate) use site::{OwnedSite, Site, coarse_site};
 pub use stiffness::normal_stiffness;
-pub(crate) use together::solve_together;
+pub(crate) use together::{solve_batch, solve_together};
 pub use uniform::{UniformDisplacement, displace_uniformly};
 pub use watch::Watch;
 

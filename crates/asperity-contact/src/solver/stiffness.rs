@@ -71,7 +71,7 @@ mod tests {
     use crate::operator::{Boundary, DirectSum, Edge, FreeFamily, PeriodicFft};
 
     const FINE: Params =
-        Params { method: crate::solver::Method::Auto, tolerance: 1e-10, max_convolutions: 1000 };
+        Params::new().with_tolerance(1e-10).with_max_convolutions(1000);
 
     /// Computes ΔA 1ᵀ C_EE⁻¹ 1 by a dense factorisation.
     fn dense(operator: &dyn Operator, elastic: &Array2<bool>) -> f64 {

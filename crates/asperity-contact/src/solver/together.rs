@@ -1,11 +1,14 @@
 //! Several contacts under one approach, which carry a load together.
 
 use crate::error::Result;
-use crate::grid::Field;
+use crate::grid::{Field, Grid};
+use crate::operator::Definition;
 use crate::solver::active_set::NearCopies;
 use crate::solver::bounds::Bounds;
 use crate::solver::site::Site;
-use crate::solver::{Control, Residual, Settings, Stats, Watch, attraction, cascade};
+use crate::solver::{
+    Control, Params, Residual, Settings, Solution, Stats, Watch, attraction, cascade, device, residual,
+};
 use crate::units::{Metre, Newton, Pascal};
 
 /// Contacts in equilibrium under one approach.
@@ -48,6 +51,47 @@ pub(crate) fn solve_together(
     let contacts = found.fields.into_iter().zip(sites);
     let pressures = contacts.map(|((pressure, _), site)| bearing(&pressure, &site.bounds())).collect();
     Ok(JointSolution { approach: found.residual.approach, pressures, stats: found.stats })
+}
+
+/// Solves contacts under one approach, as one batch on the device of the `params`; under load control their loads add up to it.
+/// Each has the bounds and, if known, a pressure near the solution. The `definition` is that of the operator of the largest.
+/// The residual of a contact is its own.
+///
+/// # Errors
+/// [`crate::Error::NotConverged`], [`crate::Error::Interrupted`], and those of devices.
+///
+/// # Panics
+/// If the device is the processor.
+pub(crate) fn solve_batch(
+    definition: &Definition,
+    contacts: Vec<(Field, Bounds)>,
+    control: Control,
+    start: Option<&[Field]>,
+    params: &Params,
+    watch: &dyn Watch,
+) -> Result<Vec<Solution>> {
+    let device = params.device.open()?.expect("a device beside the processor");
+    let grid = definition.grid;
+    let settings = Settings {
+        control,
+        self_influence: 0.0,
+        cell_area: grid.cell_area(),
+        attraction: 0.0,
+        watch,
+        near_copies: NearCopies::Large,
+    };
+    let starts = (0..contacts.len()).map(|number| start.map(|start| &start[number]));
+    let sites = contacts.iter().zip(starts);
+    let sites: Vec<device::Site> =
+        sites.map(|((gap, bounds), start)| device::Site { gap, bounds, start }).collect();
+    let device::Found { fields, approach, self_influence, stats, .. } =
+        device::together(&device, definition, &sites, &settings, params)?;
+    let solution = |((initial_gap, bounds), [pressure, displacement]): ((Field, Bounds), [Field; 2])| {
+        let residual = residual(&pressure, &displacement, &initial_gap, &bounds, self_influence, Some(approach)).eta;
+        let grid = Grid { shape: initial_gap.dim().into(), ..grid };
+        Solution { grid, initial_gap, bounds, pressure, displacement, approach, residual, stats }
+    };
+    Ok(contacts.into_iter().zip(fields).map(solution).collect())
 }
 
 /// Returns the flat cells in contact, and their pressure.

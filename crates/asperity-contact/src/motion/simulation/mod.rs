@@ -28,7 +28,7 @@ use crate::motion::watch::{Progress, Watch};
 use crate::motion::{AdhesionHistory, Motion, PlasticUpdate, Strategy, check_limit};
 use crate::operator::{Boundary, Operators};
 use crate::plasticity::{FlowParams, PlasticBody, PlasticState};
-use crate::solver::{Control, Coupling, Params};
+use crate::solver::{Control, Coupling, Device, Params};
 use crate::temperature::{FlashTemperature, Thermal};
 use crate::units::{Dimension, Newton};
 
@@ -91,11 +91,15 @@ impl Simulation {
                 ));
             }
         }
+        if motion.sliding(Stroke::Forth).is_some_and(|s| s.shear_displaces_normally(pair.couples())) {
+            params.device.only_processor("a device does not solve sliding whose shear displaces the bodies normally")?;
+        }
         let operators = pair.operators(largest, boundary)?;
         if motion.friction.is_some_and(|friction| friction.coupling != Coupling::None) {
             pair.check_shear()?;
         }
-        let together = pair.adhesion().is_none()
+        let together = params.device == Device::Cpu
+            && pair.adhesion().is_none()
             && memory_together(&motion, params.method, pair.yields(), &columns, pair.lower.width()).is_some();
         Ok(Self {
             together,

@@ -21,6 +21,15 @@ impl Simulation {
         let positions = &self.positions[..self.distinct];
         let mut earlier: Vec<Vec<Contact>> = self.warm.contacts(pair, positions).into_iter().collect();
         let mut solver = self.solver(watch);
+        if self.volumes.is_none() && solver.is_one_batch(pair, self.params.device) {
+            let start = earlier.first();
+            if let Some(pass) = solver.solve_batch(pair, self.motion.control, &self.params, start)? {
+                let slope = self.warm.guess.map_or(1.0 / height_scale(pair), |guess| guess.slope);
+                let searched = matches!(self.motion.control, Control::Load(_));
+                let guess = searched.then(|| Guess { approach: pass.contacts[0].approach, slope });
+                return Ok((pass, guess, 1));
+            }
+        }
         let load = match (self.motion.control, self.motion.load_control, &self.volumes) {
             (Control::Load(load), LoadControl::Pass, _) => load,
             (control, _, Some(volumes)) => {

@@ -82,6 +82,7 @@ pub(crate) fn solve_adhesive_watched(
     if !operator.slab().is_whole() {
         return Err(Error::Unsupported("adhesion is not solved on several ranks"));
     }
+    params.device.only_processor("a device does not solve adhesive contacts")?;
     let problem = Problem { initial_gap, adhesion, upper, control, params, watch };
     problem.solve(operator, last)
 }

@@ -205,6 +205,7 @@ pub(crate) fn solve_frictional_from(
     watch: &dyn Watch,
     failed: &mut Stats,
 ) -> Result<FrictionalSolution> {
+    params.device.only_processor("a device does not solve friction with stick")?;
     let friction = friction.checked()?;
     validate(&loading.tangential)?;
     let bounds = match loading.tangential {
@@ -227,6 +228,7 @@ pub(crate) fn solve_sliding(
     params: &Params,
     watch: &dyn Watch,
 ) -> Result<FrictionalSolution> {
+    params.device.only_processor("a device does not solve sliding whose shear displaces the bodies normally")?;
     let loading = Loading { normal, tangential: Tangential::Sliding(sliding.direction) };
     let start = Start { pressure: pressure.cloned(), ..Start::default() };
     let failed = &mut Stats::default();

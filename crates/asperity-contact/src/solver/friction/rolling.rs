@@ -130,6 +130,7 @@ pub(crate) fn solve_rolling_watched(
     let grid = *operator.grid();
     let pitch = grid.pitch[0];
     let boundary = operator.normal().boundary();
+    params.device.only_processor("a device does not solve rolling")?;
     check("spin", rolling.spin, rolling.spin.is_finite(), "a finite number")?;
     if rolling.spin != 0.0 && boundary != Boundary::FREE {
         return Err(Error::Unsupported("spin needs a free boundary"));

@@ -1,0 +1,88 @@
+//! All positions of a pass of one geometry as one batch on a device.
+
+use crate::error::{Error, Result};
+use crate::grid::Field;
+use crate::motion::contact::Contact;
+use crate::motion::pair::Pair;
+use crate::motion::pass::{Pass, Solver};
+use crate::motion::record::LostVolume;
+use crate::motion::watch::OneOfMany;
+use crate::motion::{LoadControl, PlasticUpdate};
+use crate::solver::{Bounds, Control, Device, Params, Solution, solve_batch};
+
+/// Number of batches, each to a tenth of the residual before, until the load is met by positions that are accurate alone.
+const MAX_BATCHES: usize = 3;
+
+impl Solver<'_> {
+    /// Whether a device solves all positions of this pair at once: none depends on another, and they share an approach.
+    pub(super) fn is_one_batch(&self, pair: &Pair, device: Device) -> bool {
+        let motion = self.motion;
+        let frozen = motion.plastic_update == PlasticUpdate::Pass || !pair.yields();
+        let shared = matches!(motion.control, Control::Approach(_)) || motion.load_control == LoadControl::Pass;
+        device != Device::Cpu && frozen && shared && pair.adhesion().is_none()
+    }
+
+    /// Solves all positions as one batch, at an approach, or at the one at which they bear a mean load. Returns none if this
+    /// pass takes the search for an approach: its loads are at a limit, or it exceeds the memory of the device.
+    ///
+    /// # Errors
+    /// The errors of the contacts, and those of devices.
+    pub(super) fn solve_batch(
+        &self,
+        pair: &Pair,
+        control: Control,
+        params: &Params,
+        earlier: Option<&Vec<Contact>>,
+    ) -> Result<Option<Pass>> {
+        let count = self.positions.len() as f64;
+        let friction = self.motion.friction;
+        let contacts: Vec<(Field, Bounds)> = self
+            .positions
+            .iter()
+            .map(|position| (pair.initial_gap(position), pair.bounds(position, friction.as_ref())))
+            .collect();
+        let bearable: f64 = contacts.iter().map(|(gap, bounds)| bounds.upper().sum(gap.len())).sum();
+        let total = match control {
+            Control::Load(load) if load * count >= pair.cell_area() * bearable => return Ok(None),
+            Control::Load(load) => Control::Load(load * count),
+            approach => approach,
+        };
+        let width = pair.lower.width();
+        let mut start: Option<Vec<Field>> =
+            earlier.map(|contacts| contacts.iter().map(|contact| contact.pressure_field(width)).collect());
+        let largest = self.positions.iter().map(|position| position.columns).max().expect("a pass has positions");
+        let definition = self.operators.definition([largest, width]);
+        let watch = OneOfMany(self.watch);
+        let mut batch = *params;
+        for _ in 0..MAX_BATCHES {
+            let solved = solve_batch(&definition, contacts.clone(), total, start.as_deref(), &batch, &watch);
+            let solutions = match solved {
+                Ok(solutions) => solutions,
+                Err(Error::DeviceMemory { .. } | Error::NotConverged { .. }) => return Ok(None),
+                Err(other) => return Err(other),
+            };
+            if solutions.iter().all(|solution| solution.residual < params.tolerance) {
+                return Ok(Some(self.pass(pair, &solutions)));
+            }
+            // The residual of all positions together is a mean: that of a lightly loaded one may be larger.
+            batch.tolerance *= 0.1;
+            start = Some(solutions.into_iter().map(|solution| solution.pressure).collect());
+        }
+        Ok(None)
+    }
+
+    fn pass(&self, pair: &Pair, solutions: &[Solution]) -> Pass {
+        let contact = |(index, solution): (usize, &Solution)| {
+            let position = self.positions[index];
+            let sliding = self.motion.sliding(position.stroke);
+            Contact::new(position, sliding.as_ref(), solution).with_gap(solution, self.gaps[index])
+        };
+        Pass {
+            contacts: solutions.iter().enumerate().map(contact).collect(),
+            pair: pair.clone(),
+            lost: self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect(),
+            has_changed: false,
+            plastic_pass: None,
+        }
+    }
+}
