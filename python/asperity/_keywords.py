@@ -34,6 +34,8 @@ class Common(TypedDict, total=False):
         '``"common"`` resamples both surfaces to the coarser pitch and crops them to a common size; ``"as-prepared"`` by default.']
     method: Annotated[Literal["auto", "active-set", "polonsky-keer", "direct"] | None, "contact",
         'Solver: ``"auto"`` (by default), ``"active-set"``, ``"polonsky-keer"`` or ``"direct"``. All give the same result.']
+    device: Annotated[Literal["cpu", "cuda", "host"] | None, "contact",
+        'What solves the contact: ``"cpu"`` (by default), ``"cuda"``, a GPU of NVIDIA, or ``"host"``, its solver in plain loops.']
     tolerance: Annotated[float | None, "contact", "Residual at which the solver stops, above 0, below 1; 1e-6 by default."]
     friction: Annotated[float | keys.Friction | None, "",
         "The coefficient, or a table with `coefficient`, `coupling`, `shear_strength` and `junction_growth`. In a motion and in "

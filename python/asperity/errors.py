@@ -25,6 +25,8 @@ __all__ = [
     "BeyondPlasticLimit",
     "CaseError",
     "CorruptTopography",
+    "DeviceFailed",
+    "DeviceMemory",
     "Failed",
     "FailedCases",
     "File",
@@ -39,6 +41,7 @@ __all__ = [
     "MissingFile",
     "ModelWarning",
     "NoChannel",
+    "NoDevice",
     "NoField",
     "NoFormat",
     "NoPitch",
@@ -197,6 +200,28 @@ class NotConverged(Failed):
     iterations: int
     residual: float
     tolerance: float
+
+
+class NoDevice(BadInput):
+    """There is no such device, or the package was built without it: `device`, and what was `found`."""
+
+    device: str
+    found: str
+
+
+class DeviceMemory(Failed):
+    """A device has too little memory: `device`, its name; `needed` and `free`, bytes."""
+
+    device: str
+    needed: float
+    free: float
+
+
+class DeviceFailed(Failed):
+    """A device or its driver failed: `device`, its name, and the `reason`."""
+
+    device: str
+    reason: str
 
 
 class PeriodicFullContact(Failed):

@@ -12,23 +12,31 @@ use asperity::study::{Bodies, Case, Demand, Estimate, MountedSurface, Plan, Surf
 use asperity::units::{self, Dimension, bytes};
 
 use crate::args::Check;
+use crate::machine::OnDevice;
 use crate::report::{Outcome, note, print};
 use crate::{machine, place};
 use asperity_report::words::{clipped, closed_form, passage};
 
 pub(crate) fn check(arguments: &Check) -> Outcome {
-    let case = place::case(&arguments.case, "check")?;
+    let case = place::case_on(&arguments.case, "check", arguments.device)?;
     let demand = machine::demand(&case)?;
     let bodies = bodies(&case, SurfaceInput::default())?;
     let estimate = estimate(&case, &bodies)?;
-    print(&text(&case, &bodies, &estimate, &demand))?;
+    let device = machine::device(&case)?;
+    print(&text(&case, &bodies, &estimate, &demand, device.as_ref()))?;
     for warning in estimate.warnings.iter().chain(&estimate.predicted) {
         note(&format!("warning: {}", clipped(warning)));
     }
     Ok(())
 }
 
-fn text(case: &Case, bodies: &Bodies, estimate: &Estimate, demand: &Demand) -> String {
+fn text(
+    case: &Case,
+    bodies: &Bodies,
+    estimate: &Estimate,
+    demand: &Demand,
+    device: Option<&OnDevice>,
+) -> String {
     let rows = [
         ("lower", body(&bodies.lower)),
         ("upper", body(&bodies.upper)),
@@ -48,14 +56,30 @@ fn text(case: &Case, bodies: &Bodies, estimate: &Estimate, demand: &Demand) -> S
     let theory = estimate.closed_form.as_ref().map(|form| ("theory", closed_form::expected(form)));
     let adhesion = case.adhesion.map(|spec| ("adhesion", adhesion(&spec, estimate)));
     let stress = estimate.subsurface.as_ref().map(|plan| ("stress", stress(case, plan)));
+    let device = device.as_ref().map(|card| ("device", on_device(card)));
     let passage = passage::asked(case);
     let mut page = format!("{}\n\n", case.title);
     let laws = laws(case, demand);
     let besides = theory.into_iter().chain(friction).chain(history).chain(adhesion);
-    for (name, value) in rows.into_iter().chain(besides).chain(laws).chain(stress).chain(passage) {
+    for (name, value) in
+        rows.into_iter().chain(device).chain(besides).chain(laws).chain(stress).chain(passage)
+    {
         let _ = writeln!(page, "{name:<8} {value}");
     }
     page
+}
+
+fn on_device(device: &OnDevice) -> String {
+    let OnDevice { card, needed } = device;
+    let capability = card
+        .capability
+        .map_or_else(String::new, |[major, minor]| format!(", compute capability {major}.{minor}"));
+    format!(
+        "{}{capability}; the contact takes {} of {} that are free",
+        card.name,
+        bytes(*needed),
+        bytes(card.free)
+    )
 }
 
 fn body(body: &MountedSurface) -> String {

@@ -1,5 +1,6 @@
 //! Memory of the machine.
 
+use asperity::solver::Card;
 use asperity::study::{self, Case, Demand, SurfaceInput};
 use asperity::{Error, Result};
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
@@ -9,6 +10,23 @@ pub(crate) fn demand(case: &Case) -> Result<Demand> {
     let demand = study::demand(case, &SurfaceInput::default(), rayon::current_num_threads())?;
     demand.fits(available())?;
     Ok(demand)
+}
+
+/// The card that solves a case.
+pub(crate) struct OnDevice {
+    pub(crate) card: Card,
+    /// Memory of the contact on it, bytes.
+    pub(crate) needed: f64,
+}
+
+/// Opens the device that solves the case, if it is not the processor, before anything is computed.
+pub(crate) fn device(case: &Case) -> Result<Option<OnDevice>> {
+    let Some(card) = case.contact.device.card()? else { return Ok(None) };
+    let needed = study::memory_on_device(case, &SurfaceInput::default())?;
+    if needed > card.free {
+        return Err(Error::DeviceMemory { device: card.name, needed, free: card.free });
+    }
+    Ok(Some(OnDevice { card, needed }))
 }
 
 /// Returns an error if there is less memory than this number of bytes.

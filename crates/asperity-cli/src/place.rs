@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
+use asperity::solver::Device;
 use asperity::study::{Case, Results};
 
 use crate::report::{Failure, Outcome};
@@ -13,6 +14,15 @@ pub(crate) fn case(path: &Path, command: &str) -> Outcome<Case> {
     Case::load(path).map_err(|error| match instead_of_a_case(path, command) {
         Some((message, hint)) => Failure::usage(message, hint.as_deref()),
         None => error.into(),
+    })
+}
+
+/// [`case`], as it is solved by a `device` if one is given.
+pub(crate) fn case_on(path: &Path, command: &str, device: Option<Device>) -> Outcome<Case> {
+    let case = case(path, command)?;
+    Ok(match device {
+        Some(device) => case.on(device)?,
+        None => case,
     })
 }
 

@@ -145,6 +145,8 @@ fn code(error: &Error) -> u8 {
         | Error::NotConverged { .. }
         | Error::FlowNotConverged { .. }
         | Error::Memory { .. }
+        | Error::DeviceMemory { .. }
+        | Error::DeviceFailed { .. }
         | Error::Threads { .. }
         | Error::LoadNotReached { .. }
         | Error::BeyondPass { .. }
@@ -292,6 +294,14 @@ fn hint(error: &Error) -> Option<String> {
             "fewer cells take less: `shape` or `resample`; so do fewer threads, and `pressure_every = 0` in [output]"
                 .to_owned(),
         ),
+        Error::NoDevice { .. } => Some(
+            "leave `--device`, and `device` in [contact], out, and the processor solves it; `cargo install` builds a program for \
+             GPUs with `--features cuda`"
+                .to_owned(),
+        ),
+        Error::DeviceMemory { .. } => {
+            Some("fewer cells take less: `shape` or `resample`; or leave `device` out".to_owned())
+        }
         Error::GridMismatch { .. } => {
             Some("`resample` or `pitch` in a [….topography] brings a body onto another grid".to_owned())
         }

@@ -18,7 +18,10 @@ use asperity_report::words::clipped;
 const MANY: usize = 5000;
 
 pub(crate) fn study(arguments: &args::Study) -> Outcome {
-    let study = Study::load(&arguments.study)?;
+    let study = match arguments.device {
+        Some(device) => Study::load(&arguments.study)?.on(device)?,
+        None => Study::load(&arguments.study)?,
+    };
     let directory = arguments.out.clone().unwrap_or_else(|| arguments.study.with_extension(""));
     let study = Folder::number(&directory, study)?;
     let task = arguments.task.unwrap_or(Task::ALL);

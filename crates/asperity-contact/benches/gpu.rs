@@ -35,8 +35,13 @@ fn main() -> Outcome {
         card.free / 1e9,
         rayon_core::current_num_threads()
     );
-    let parts: [(&str, &dyn Fn(&asperity_gpu::Device) -> Outcome); 5] =
-        [("agree", &agree), ("periodic", &periodic), ("pass", &pass), ("free", &free), ("challenge", &challenge)];
+    let parts: [(&str, &dyn Fn(&asperity_gpu::Device) -> Outcome); 5] = [
+        ("agree", &agree),
+        ("periodic", &periodic),
+        ("pass", &pass),
+        ("free", &free),
+        ("challenge", &challenge),
+    ];
     for (name, part) in parts {
         if wanted(name) {
             println!("\n== {name}");
@@ -65,7 +70,9 @@ fn largest(field: &Field) -> f64 {
 
 /// Twenty contacts on the card and on the processor.
 fn agree(_: &asperity_gpu::Device) -> Outcome {
-    println!("| grid | boundary | cap | control | η | difference of p / max p | of δ / max u | convolutions | again the same |");
+    println!(
+        "| grid | boundary | cap | control | η | difference of p / max p | of δ / max u | convolutions | again the same |"
+    );
     println!("|---|---|---|---|---|---|---|---|---|");
     for seed in 0..20 {
         let shape = [[64, 64], [128, 96], [250, 130], [77, 61], [256, 256]][seed % 5];
@@ -74,7 +81,9 @@ fn agree(_: &asperity_gpu::Device) -> Outcome {
         let gap = rough(&grid, seed as u64)?;
         let cap = [f64::INFINITY, 0.08][seed % 2];
         let bounds = match seed % 4 {
-            3 => Bounds::up_to(Field::from_shape_fn(shape, |(i, j)| 0.05 + 0.01 * ((3 * i + 5 * j) % 7) as f64)),
+            3 => Bounds::up_to(Field::from_shape_fn(shape, |(i, j)| {
+                0.05 + 0.01 * ((3 * i + 5 * j) % 7) as f64
+            })),
             _ => Bounds::up_to(cap),
         };
         let control = if seed < 14 {
@@ -93,7 +102,13 @@ fn agree(_: &asperity_gpu::Device) -> Outcome {
             shape[0],
             shape[1],
             if boundary.leaves_mean_free() { "periodic" } else { "free" },
-            if seed % 4 == 3 { "map" } else if cap.is_finite() { "one" } else { "none" },
+            if seed % 4 == 3 {
+                "map"
+            } else if cap.is_finite() {
+                "one"
+            } else {
+                "none"
+            },
             if seed < 14 { "load" } else { "approach" },
             found.residual,
             largest(&(&found.pressure - &expected.pressure)) / largest(&expected.pressure),
@@ -134,7 +149,9 @@ fn accuracy(precision: Precision, tolerance: f64) -> Accuracy {
 
 /// Periodic contacts of 512² to 32768².
 fn periodic(device: &asperity_gpu::Device) -> Outcome {
-    println!("| grid | area | iterations | convolutions | η | solution, ms | of these transforms, ms | set-up, ms | a convolution in single, double, ms | bytes a cell | processor, ms |");
+    println!(
+        "| grid | area | iterations | convolutions | η | solution, ms | of these transforms, ms | set-up, ms | a convolution in single, double, ms | bytes a cell | processor, ms |"
+    );
     println!("|---|---|---|---|---|---|---|---|---|---|---|");
     for side in [512usize, 1024, 2048, 4096, 8192, 16384, 32768] {
         let rough = Rough {
@@ -172,7 +189,8 @@ fn periodic(device: &asperity_gpu::Device) -> Outcome {
                 let control = Control::Load(pressure * grid.area());
                 let params = Params::new().with_tolerance(TOLERANCE);
                 let began = Instant::now();
-                let expected = solve_normal(operator.as_mut(), &gap, &Bounds::ELASTIC, control, None, &params)?;
+                let expected =
+                    solve_normal(operator.as_mut(), &gap, &Bounds::ELASTIC, control, None, &params)?;
                 let time = began.elapsed().as_secs_f64();
                 let area = expected.contact_cells() as f64 / gap.len() as f64;
                 format!("{:.1} (area differs by {:.0e})", 1e3 * time, (area / found.area - 1.0).abs())
@@ -202,8 +220,15 @@ fn free(device: &asperity_gpu::Device) -> Outcome {
     println!("| grid | area | iterations | convolutions | η | from heights to fields, s |");
     println!("|---|---|---|---|---|---|");
     for side in [1024usize, 4096, 8192] {
-        let rough =
-            Rough { side, pitch: 1.0, hurst: 0.8, longest: side as f64 / 4.0, shortest: 8.0, slope: SLOPE, seed: 11 };
+        let rough = Rough {
+            side,
+            pitch: 1.0,
+            hurst: 0.8,
+            longest: side as f64 / 4.0,
+            shortest: 8.0,
+            slope: SLOPE,
+            seed: 11,
+        };
         let gap = device.gap_of(&rough, &levels(side, 1.0, MODULUS)[0])?;
         let grid = Grid::new([side; 2], [1.0; 2])?;
         let operators = Operators::new(grid, MODULUS, Boundary::FREE);
@@ -265,7 +290,9 @@ fn pass(_: &asperity_gpu::Device) -> Outcome {
 fn challenge(device: &asperity_gpu::Device) -> Outcome {
     const EXTENT: f64 = 100e-6;
     const MODULUS: f64 = 25e6;
-    println!("| grid | precision | pitch, nm | area, % | mean gap, nm | max p / E* | iterations | convolutions | η | surface and memory, s | solution, s | bytes a cell |");
+    println!(
+        "| grid | precision | pitch, nm | area, % | mean gap, nm | max p / E* | iterations | convolutions | η | surface and memory, s | solution, s | bytes a cell |"
+    );
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
     let mut histograms = Vec::new();
     for (side, precision, tolerance) in [
@@ -278,8 +305,7 @@ fn challenge(device: &asperity_gpu::Device) -> Outcome {
         (65536, Precision::Single, 1e-3),
     ] {
         let pitch = EXTENT / side as f64;
-        let rough =
-            Rough { side, pitch, hurst: 0.8, longest: 20e-6, shortest: 0.1e-6, slope: 1.0, seed: 1 };
+        let rough = Rough { side, pitch, hurst: 0.8, longest: 20e-6, shortest: 0.1e-6, slope: 1.0, seed: 1 };
         let grids = levels(side, pitch, MODULUS);
         let accuracy = accuracy(precision, tolerance);
         let found = match device.press(&rough, &grids, 0.01 * MODULUS, &accuracy, (1.5 * MODULUS, 30), &()) {
@@ -307,7 +333,8 @@ fn challenge(device: &asperity_gpu::Device) -> Outcome {
     println!("\nShare of all cells by p/E*, in bins of 0.05:");
     for (side, precision, histogram) in histograms {
         let cells = (side * side) as f64;
-        let shares: Vec<String> = histogram.iter().map(|count| format!("{:.3e}", *count as f64 / cells)).collect();
+        let shares: Vec<String> =
+            histogram.iter().map(|count| format!("{:.3e}", *count as f64 / cells)).collect();
         println!("{side}² {precision:?}: {}", shares.join(" "));
     }
     Ok(())

@@ -36,7 +36,11 @@ pub(crate) struct Solved<F> {
 }
 
 /// Solves contacts on a device. Without a start the first guess is that of the next coarser grids.
-pub(crate) fn solve<D: Device>(device: &D, task: Task<D::Gaps>, watch: &dyn Watch) -> Result<Solved<D::Fields>> {
+pub(crate) fn solve<D: Device>(
+    device: &D,
+    task: Task<D::Gaps>,
+    watch: &dyn Watch,
+) -> Result<Solved<D::Fields>> {
     let Task { gaps, starts, grids, control, accuracy } = task;
     let Accuracy { tolerance, max_convolutions, precision } = accuracy;
     let mut gaps = vec![gaps];

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::ffi::c_void;
 use std::mem::size_of_val;
-use std::ptr::{null_mut, from_ref};
+use std::ptr::{from_ref, null_mut};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use asperity_base::error::{Error, Result};
@@ -121,7 +121,8 @@ impl Cuda {
             };
             Ok((context, card))
         };
-        let (context, card) = open().map_err(|error| none(format!("the driver, but no device: {error:?}")))?;
+        let (context, card) =
+            open().map_err(|error| none(format!("the driver, but no device: {error:?}")))?;
         Ok(Self { shared: Arc::new(Shared { context, card, kernels: Mutex::default() }) })
     }
 
@@ -244,9 +245,7 @@ impl Memory {
     fn read_state(&self, first: usize, count: usize, precision: Precision) -> Result<Vec<f64>> {
         match precision {
             Precision::Double => self.read(8 * first, count),
-            Precision::Single => {
-                Ok(self.read::<f32>(4 * first, count)?.into_iter().map(f64::from).collect())
-            }
+            Precision::Single => Ok(self.read::<f32>(4 * first, count)?.into_iter().map(f64::from).collect()),
         }
     }
 
@@ -352,7 +351,9 @@ impl Device for Cuda {
                 let upper = self.memory(bytes)?;
                 for (contact, start) in contacts.iter().zip(&starts) {
                     match contact.upper {
-                        CellValues::Field(field) => upper.set_state(*start as usize, &flat(field), precision)?,
+                        CellValues::Field(field) => {
+                            upper.set_state(*start as usize, &flat(field), precision)?
+                        }
                         CellValues::Uniform(cap) => {
                             upper.set_state(*start as usize, &vec![*cap; contact.gap.len()], precision)?;
                         }
@@ -385,7 +386,12 @@ impl Device for Cuda {
         let stride = 2 * (rough.side / 2 + 1);
         let plan = Plan::new(self, kind, level.padded, 1)?;
         let (buffer, work) = (self.memory(rough.side * stride * bytes(precision))?, self.memory(plan.work)?);
-        self.launch(&kernels, "set_waves", BLOCKS, &[arg(&buffer.at), arg(&waves), arg(&side), arg(&factor)])?;
+        self.launch(
+            &kernels,
+            "set_waves",
+            BLOCKS,
+            &[arg(&buffer.at), arg(&waves), arg(&side), arg(&factor)],
+        )?;
         // SAFETY: the area is as large as the plan asked for; the plan is for the buffer in place, of this precision.
         let done = unsafe {
             fft::set_work_area(plan.handle, work.at as *mut c_void).and_then(|()| match precision {
@@ -432,8 +438,15 @@ impl Device for Cuda {
         let kernels = self.kernels(fine.precision)?;
         let means = |of: &Memory| -> Result<Memory> {
             let coarse = self.memory(layout.cells() * bytes(fine.precision))?;
-            let arguments =
-                [arg(&of.at), arg(&coarse.at), arg(&first.at), arg(&second.at), arg(&length.at), arg(&to.at), arg(&rows)];
+            let arguments = [
+                arg(&of.at),
+                arg(&coarse.at),
+                arg(&first.at),
+                arg(&second.at),
+                arg(&length.at),
+                arg(&to.at),
+                arg(&rows),
+            ];
             self.launch(&kernels, "coarse_means", BLOCKS, &arguments)?;
             Ok(coarse)
         };
@@ -689,7 +702,8 @@ impl CudaFields {
         let [rows, columns] = self.padded;
         let half = columns / 2 + 1;
         if let Harmonics::Table(table) = &level.harmonics {
-            let inverse = |(at, value): (usize, &f64)| if at == 0 { level.stiffness_at_zero() } else { 1.0 / value };
+            let inverse =
+                |(at, value): (usize, &f64)| if at == 0 { level.stiffness_at_zero() } else { 1.0 / value };
             let stiffness: Vec<f64> = flat(table).iter().enumerate().map(inverse).collect();
             let stiffness = self.cuda.state_of(&stiffness, self.precision)?;
             self.stiffness.table = stiffness.at;
@@ -701,7 +715,8 @@ impl CudaFields {
                 let spectrum = self.cuda.memory((rows / 2 + 1) * half * bytes(self.precision))?;
                 let (rows, columns, stride) = (rows as i32, columns as i32, 2 * half as i32);
                 self.buffer.clear()?;
-                let from = [arg(&self.buffer.at), arg(&influence.at), arg(&rows), arg(&columns), arg(&stride)];
+                let from =
+                    [arg(&self.buffer.at), arg(&influence.at), arg(&rows), arg(&columns), arg(&stride)];
                 self.cuda.launch(&self.kernels, "spread_influence", BLOCKS, &from)?;
                 self.transform(true, false)?;
                 let half = half as i32;
@@ -764,8 +779,7 @@ impl CudaFields {
         let all: Vec<_> = arguments.iter().copied().chain([arg(&self.parts.at)]).collect();
         self.on_cells(name, &all)?;
         let (blocks, numbers) = (BLOCKS as i32, N as i32);
-        let arguments =
-            [arg(&self.parts.at), arg(&blocks), arg(&numbers), arg(&sums), arg(&self.results.at)];
+        let arguments = [arg(&self.parts.at), arg(&blocks), arg(&numbers), arg(&sums), arg(&self.results.at)];
         self.cuda.launch(&self.kernels, "merge_blocks", 1, &arguments)?;
         let results = self.results.read(0, N)?;
         Ok(std::array::from_fn(|n| results[n]))
@@ -807,7 +821,6 @@ impl CudaFields {
         self.run(name("multiply", "multiply_single"), &arguments)?;
         self.transform(false, single)
     }
-
 }
 
 /// Returns the factors of half-spaces: of the displacement, or of the preconditioner.
@@ -963,8 +976,14 @@ impl Fields for CudaFields {
     }
 
     fn bytes(&self) -> usize {
-        let fields = [&self.gap, &self.pressure, &self.touch, &self.kept, &self.direction, &self.set, &self.buffer];
-        let all = fields.into_iter().chain(&self.upper).chain(&self.tables).chain(&self.spectra).chain([&self.work]);
+        let fields =
+            [&self.gap, &self.pressure, &self.touch, &self.kept, &self.direction, &self.set, &self.buffer];
+        let all = fields
+            .into_iter()
+            .chain(&self.upper)
+            .chain(&self.tables)
+            .chain(&self.spectra)
+            .chain([&self.work]);
         all.map(|memory| memory.bytes).sum()
     }
 

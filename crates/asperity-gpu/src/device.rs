@@ -5,9 +5,9 @@ use asperity_base::grid::Field;
 use asperity_base::units::Pascal;
 use web_time::Instant;
 
+use crate::cascade::{Solved, Task};
 #[cfg(feature = "cuda")]
 use crate::cuda::Cuda;
-use crate::cascade::{Solved, Task};
 use crate::fields::Fields;
 use crate::host::Host;
 use crate::problem::{Accuracy, Control, Level, Precision, Problem, Rough, Solution, Statistics, Watch};
@@ -78,7 +78,10 @@ impl Device {
     pub fn solve(&self, problem: &Problem, watch: &dyn Watch) -> Result<Solution> {
         let padded = problem.grids[0].padded;
         let fits = |shape: &[usize]| shape[0] <= padded[0] && shape[1] <= padded[1];
-        assert!(problem.contacts.iter().all(|contact| fits(contact.gap.shape())), "contacts within their grid");
+        assert!(
+            problem.contacts.iter().all(|contact| fits(contact.gap.shape())),
+            "contacts within their grid"
+        );
         match &self.0 {
             Kind::Host => solve(&Host, problem, watch),
             #[cfg(feature = "cuda")]
@@ -137,10 +140,17 @@ fn solve<D: fields::Device>(device: &D, problem: &Problem, watch: &dyn Watch) ->
     let Problem { contacts, grids, control, accuracy } = *problem;
     let gaps = device.gaps(contacts, accuracy.precision)?;
     let starts = contacts.iter().map(|contact| contact.start).collect();
-    let Solved { fields, state, cost } = cascade::solve(device, Task { gaps, starts, grids, control, accuracy }, watch)?;
+    let Solved { fields, state, cost } =
+        cascade::solve(device, Task { gaps, starts, grids, control, accuracy }, watch)?;
     check("approach", state.approach, state.approach.is_finite(), solver::FINITE)?;
     let self_influence = fields.self_influence();
-    Ok(Solution { fields: fields.results()?, approach: state.approach, residual: state.eta, self_influence, cost })
+    Ok(Solution {
+        fields: fields.results()?,
+        approach: state.approach,
+        residual: state.eta,
+        self_influence,
+        cost,
+    })
 }
 
 fn press<D: fields::Device>(

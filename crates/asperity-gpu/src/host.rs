@@ -61,15 +61,19 @@ impl Device for Host {
         let waves = Waves::of(rough);
         let side = rough.side;
         let at = |k: usize, l: usize| {
-            let [re, im] = waves.amplitude(if 2 * k < side { k as i64 } else { k as i64 - side as i64 }, l as i64);
+            let [re, im] =
+                waves.amplitude(if 2 * k < side { k as i64 } else { k as i64 - side as i64 }, l as i64);
             Complex64::new(re, im)
         };
         let mut spectrum = Array2::from_shape_fn([side, side / 2 + 1], |(k, l)| at(k, l));
-        let squares: f64 = spectrum.indexed_iter().map(|((k, l), wave)| {
-            let k = k.min(side - k) as f64;
-            let both = if l == 0 { 1.0 } else { 2.0 };
-            both * (waves.first * k.hypot(l as f64)).powi(2) * wave.norm_sqr()
-        }).sum();
+        let squares: f64 = spectrum
+            .indexed_iter()
+            .map(|((k, l), wave)| {
+                let k = k.min(side - k) as f64;
+                let both = if l == 0 { 1.0 } else { 2.0 };
+                both * (waves.first * k.hypot(l as f64)).powi(2) * wave.norm_sqr()
+            })
+            .sum();
         let factor = rough.slope / squares.sqrt() * (side * side) as f64;
         spectrum.iter_mut().for_each(|wave| *wave *= factor);
         let heights = transform.inverse_leading(&spectrum, [side; 2]);
@@ -146,7 +150,9 @@ fn compliance(level: &Level, transform: &RealFft2) -> Field {
 }
 
 fn stiffness(level: &Level) -> Field {
-    mirrored(level.padded, |k, l| if [k, l] == [0, 0] { level.stiffness_at_zero() } else { 1.0 / harmonic(level, [k, l]) })
+    mirrored(level.padded, |k, l| {
+        if [k, l] == [0, 0] { level.stiffness_at_zero() } else { 1.0 / harmonic(level, [k, l]) }
+    })
 }
 
 fn harmonic(level: &Level, bins: [usize; 2]) -> f64 {
@@ -314,7 +320,8 @@ impl Fields for HostFields {
             let u = touch - self.gap[cell];
             let to = clip(p + (approach - touch) / self.self_influence, self.upper[cell]);
             let phi = (self.self_influence * (p - to)).abs();
-            sums = [sums[0] + u, sums[1] + u * u, sums[2].max(phi), sums[3].max(p.abs()), sums[4].max(u.abs())];
+            sums =
+                [sums[0] + u, sums[1] + u * u, sums[2].max(phi), sums[3].max(p.abs()), sums[4].max(u.abs())];
         }
         Ok(sums)
     }
@@ -403,7 +410,10 @@ impl Fields for HostFields {
     }
 
     fn step_along_gap(&mut self, approach: Metre, compliance: f64) -> Result<()> {
-        self.pressure.iter_mut().zip(&self.touch).for_each(|(p, touch)| *p += (approach - touch) / compliance);
+        self.pressure
+            .iter_mut()
+            .zip(&self.touch)
+            .for_each(|(p, touch)| *p += (approach - touch) / compliance);
         Ok(())
     }
 
@@ -461,7 +471,9 @@ impl Fields for HostFields {
 
     fn bytes(&self) -> usize {
         let numbers = [&self.pressure, &self.touch, &self.gap, &self.kept, &self.upper, &self.buffer];
-        8 * numbers.iter().map(|values| values.len()).sum::<usize>() + 4 * self.direction.len() + self.set.len()
+        8 * numbers.iter().map(|values| values.len()).sum::<usize>()
+            + 4 * self.direction.len()
+            + self.set.len()
     }
 
     fn wait(&self) -> Result<()> {

@@ -13,5 +13,6 @@ mod waves;
 
 pub use device::{Card, Device, memory};
 pub use problem::{
-    Accuracy, Compliance, Contact, Control, Cost, Harmonics, Level, Precision, Problem, Rough, Solution, Statistics, Watch,
+    Accuracy, Compliance, Contact, Control, Cost, Harmonics, Level, Precision, Problem, Rough, Solution,
+    Statistics, Watch,
 };

@@ -120,7 +120,8 @@ impl<'a, F: Fields> Iteration<'a, F> {
         if let Control::PressureSum(sum) = self.control {
             // The periodic displacement of a uniform pressure is no scale for later displacements.
             let least = self.fields.self_influence() * sum / self.fields.cells() as f64;
-            (state.eta, state.scale) = (state.eta * state.scale / state.scale.max(least), state.scale.max(least));
+            (state.eta, state.scale) =
+                (state.eta * state.scale / state.scale.max(least), state.scale.max(least));
         }
         let mut tightening = 1.0;
         loop {
@@ -169,7 +170,8 @@ impl<'a, F: Fields> Iteration<'a, F> {
         let deviation = (squares / cells - (sum / cells).powi(2)).max(0.0).sqrt();
         let scale = deviation.max(UNIFORM * displacement.max(self.fields.self_influence() * pressure));
         // NaN stays NaN.
-        let eta = if largest == 0.0 && sum.is_finite() { 0.0 } else { largest / (scale + 0.0 * (sum + squares)) };
+        let eta =
+            if largest == 0.0 && sum.is_finite() { 0.0 } else { largest / (scale + 0.0 * (sum + squares)) };
         Ok(State { eta, approach, scale })
     }
 
@@ -313,7 +315,9 @@ impl<'a, F: Fields> Iteration<'a, F> {
             datum += step * self.mean(sum);
             left = self.advance(step, datum)?;
             self.iterations += 1;
-            if left.residual <= self.cg_exit * left.violation || left.largest < CG_TOLERANCE * wanted * state.scale {
+            if left.residual <= self.cg_exit * left.violation
+                || left.largest < CG_TOLERANCE * wanted * state.scale
+            {
                 break;
             }
         }

@@ -41,7 +41,8 @@ impl Waves {
         }
         let sign = if l == 0 && k < 0 { -1 } else { 1 };
         let at = mixed(mixed(self.seed) ^ ((((sign * k + (1 << 31)) as u64) << 32) | l as u64));
-        let (u, v) = (((at >> 11) as f64 + 0.5) / (1u64 << 53) as f64, (mixed(at) >> 11) as f64 / (1u64 << 53) as f64);
+        let (u, v) =
+            (((at >> 11) as f64 + 0.5) / (1u64 << 53) as f64, (mixed(at) >> 11) as f64 / (1u64 << 53) as f64);
         let size = (-2.0 * u.ln()).sqrt() * q.max(self.longest).powf(self.power);
         [size * (2.0 * PI * v).cos(), sign as f64 * size * (2.0 * PI * v).sin()]
     }

@@ -6,7 +6,7 @@ mod plausible;
 
 pub(super) use contact::{CELLS_ACROSS, attraction_cut_off};
 pub use contact::{cut_off, spot, too_few_cells};
-pub use demand::{Demand, demand};
+pub use demand::{Demand, demand, memory_on_device};
 
 use super::adhesion::AdhesionSummary;
 use super::case::{Body, Case, Hardness, Layer, LoadingPath, Source, TopographySpec};

@@ -120,5 +120,6 @@ pub(super) fn pair(case: &Case, bodies: Bodies) -> Result<Pair> {
 
 /// Returns the solver parameters of `case`.
 pub fn params(case: &Case) -> Params {
-    Params::new().with_method(case.contact.method).with_tolerance(case.contact.tolerance)
+    let super::case::Contact { method, device, tolerance, .. } = case.contact;
+    Params::new().with_method(method).with_device(device).with_tolerance(tolerance)
 }

@@ -120,7 +120,7 @@ pub use columns::{
     INCREMENT_COLUMNS, PASS_COLUMNS, RECORDS, STEP_COLUMNS, SWEEP_COLUMNS, column, columns,
     dimension_of_column, unit_of_column,
 };
-pub use estimate::{Demand, Estimate, demand, estimate};
+pub use estimate::{Demand, Estimate, demand, estimate, memory_on_device};
 pub use fields::{NamedField, RestFields};
 pub use given::SurfaceInput;
 pub use identity::resolved;

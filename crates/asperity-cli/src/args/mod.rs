@@ -14,7 +14,9 @@ use clap::error::Error;
 use clap::{Args, Parser, Subcommand};
 
 use crate::report::{Failure, Outcome, written};
-use values::threads;
+use asperity::solver::Device;
+
+use values::{choice, threads};
 
 pub(crate) use drawing::{Drawing, RangedDrawing};
 pub(crate) use generate::{Generate, Recipe};
@@ -109,6 +111,9 @@ pub(crate) struct Run {
     /// Number of threads, at most 1024; default: the limit of a scheduler or container, otherwise all cores
     #[arg(long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<usize>,
+    /// What solves the contact, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or host
+    #[arg(long, value_name = "DEVICE", value_parser = choice::<Device>())]
+    pub(crate) device: Option<Device>,
     /// Print only warnings and errors
     #[arg(long)]
     pub(crate) quiet: bool,
@@ -182,6 +187,9 @@ pub(crate) struct Check {
     /// Case file
     #[arg(value_name = "CASE.toml")]
     pub(crate) case: PathBuf,
+    /// What would solve the contact, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or host
+    #[arg(long, value_name = "DEVICE", value_parser = choice::<Device>())]
+    pub(crate) device: Option<Device>,
 }
 
 /// List the examples, or write the files of one

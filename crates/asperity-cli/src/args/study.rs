@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use asperity::solver::Device;
 use asperity::study::many::Task;
 use clap::Args;
 
-use super::values::threads;
+use super::values::{choice, threads};
 
 /// Compute a study: variations of one case over axes of values or the rows of a table
 ///
@@ -42,6 +43,9 @@ pub(crate) struct Study {
     /// Number of threads, and of cases at a time, at most 1024; default: the limit of a scheduler or container, otherwise all cores
     #[arg(long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<usize>,
+    /// What solves the contacts, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or host
+    #[arg(long, value_name = "DEVICE", value_parser = choice::<Device>())]
+    pub(crate) device: Option<Device>,
     /// Print only warnings and errors
     #[arg(long)]
     pub(crate) quiet: bool,

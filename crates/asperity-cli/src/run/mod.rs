@@ -32,8 +32,9 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
         }
         (None, None) => unreachable!("the parser asks for one of them"),
     };
-    let case = place::case(&file, "run")?;
+    let case = place::case_on(&file, "run", arguments.device)?;
     machine::demand(&case)?;
+    machine::device(&case)?;
     let existing = match (arguments.resume, arguments.overwrite) {
         (true, _) => Existing::Resume,
         (_, true) => Existing::Overwrite,

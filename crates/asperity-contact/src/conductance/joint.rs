@@ -199,8 +199,7 @@ mod tests {
     use crate::math::Cholesky;
     use crate::operator::{DirectSum, Edge, FreeFamily, FreeFft, PeriodicFft};
 
-    const FINE: Params =
-        Params::new().with_tolerance(1e-10).with_max_convolutions(3000);
+    const FINE: Params = Params::new().with_tolerance(1e-10).with_max_convolutions(3000);
 
     fn clean() -> Joint {
         Joint::new(Kind::Thermal, 1.0)

@@ -18,7 +18,8 @@ impl Solver<'_> {
     pub(super) fn is_one_batch(&self, pair: &Pair, device: Device) -> bool {
         let motion = self.motion;
         let frozen = motion.plastic_update == PlasticUpdate::Pass || !pair.yields();
-        let shared = matches!(motion.control, Control::Approach(_)) || motion.load_control == LoadControl::Pass;
+        let shared =
+            matches!(motion.control, Control::Approach(_)) || motion.load_control == LoadControl::Pass;
         device != Device::Cpu && frozen && shared && pair.adhesion().is_none()
     }
 
@@ -50,7 +51,8 @@ impl Solver<'_> {
         let width = pair.lower.width();
         let mut start: Option<Vec<Field>> =
             earlier.map(|contacts| contacts.iter().map(|contact| contact.pressure_field(width)).collect());
-        let largest = self.positions.iter().map(|position| position.columns).max().expect("a pass has positions");
+        let largest =
+            self.positions.iter().map(|position| position.columns).max().expect("a pass has positions");
         let definition = self.operators.definition([largest, width]);
         let watch = OneOfMany(self.watch);
         let mut batch = *params;

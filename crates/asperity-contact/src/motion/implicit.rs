@@ -13,7 +13,7 @@ use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::{Position, Stroke};
 use crate::motion::watch::OneOfMany;
 use crate::operator::{Boundary, Operator, Operators};
-use crate::solver::{Bounds, Control, Method, Params, Solution, solve_normal_watched};
+use crate::solver::{Bounds, Control, Device, Method, Params, Solution, solve_normal_watched};
 
 impl Solver<'_> {
     /// Solves again a pass with too much wear for an explicit step. Each cell of the bodies is lowered by the depth lost at
@@ -55,7 +55,7 @@ impl Solver<'_> {
             self.positions.iter().map(|position| pair.bounds(position, friction)).collect::<Vec<_>>();
         let caps = Bounds::up_to(self.stacked_caps(pair, &bounds));
         let start = stacked(outcome.contacts.iter().map(|contact| contact.pressure_field(grid.shape[1])));
-        let params = Params { method: Method::PolonskyKeer, ..*params };
+        let params = Params { method: Method::PolonskyKeer, device: Device::Cpu, ..*params };
         let watch = OneOfMany(self.watch);
         let solution =
             solve_normal_watched(&mut operator, &gap, &caps, control, Some(&start), &params, &watch)?;

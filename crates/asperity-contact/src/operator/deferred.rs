@@ -162,7 +162,10 @@ mod tests {
                 let definition = Definition { grid, boundary, response, datum: boundary.datum(&grid) };
                 let (deferred, made) = (Deferred::new(definition.clone()), make(&definition));
                 let [own, expected] = [deferred.influence(0, 0), made.influence(0, 0)];
-                assert!((own / expected - 1.0).abs() < 1e-12, "{shape:?}, {boundary:?}: {own} and {expected}");
+                assert!(
+                    (own / expected - 1.0).abs() < 1e-12,
+                    "{shape:?}, {boundary:?}: {own} and {expected}"
+                );
                 assert!(deferred.made.get().is_none(), "no transform was planned");
             }
         }

@@ -6,7 +6,9 @@ use crate::grid::{Field, Grid};
 use crate::kernel::{CoupledResponse, SharedResponse};
 use crate::operator::coupled::CoupledKernel;
 use crate::operator::shared::Shared;
-use crate::operator::{Boundary, CoupledOperator, Deferred, Definition, FreeFamily, Operator, PeriodicKernel};
+use crate::operator::{
+    Boundary, CoupledOperator, Deferred, Definition, FreeFamily, Operator, PeriodicKernel,
+};
 use crate::solver::Device;
 
 /// Creates operators for one cell size, pair of bodies and boundary. They share the spectra of their coefficients.

@@ -3,13 +3,14 @@
 use std::sync::{Mutex, PoisonError};
 
 use asperity_base::choice::choice;
-use asperity_gpu::{Accuracy, Card, Compliance, Harmonics, Level, Precision};
+pub use asperity_gpu::Card;
+use asperity_gpu::{Accuracy, Compliance, Harmonics, Level, Precision};
 
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::math::fft::angular_frequency;
 use crate::math::parallel;
-use crate::operator::Definition;
+use crate::operator::{Boundary, Definition};
 use crate::solver::bounds::Bounds;
 use crate::solver::cascade::MIN_CELLS;
 use crate::solver::{Answer, Control, Method, Params, Problem, Settings, Stats, Watch};
@@ -63,22 +64,17 @@ impl Device {
     }
 }
 
-/// Returns an upper bound of the memory, bytes, that a contact takes on a device. `caps_differ` says whether the largest
-/// pressure differs between cells.
-pub fn memory_on_device(definition: &Definition, caps_differ: bool) -> f64 {
-    memory(definition, &[definition.grid.shape], caps_differ)
-}
-
-/// Memory of contacts with these shapes on a device.
-fn memory(definition: &Definition, shapes: &[[usize; 2]], caps_differ: bool) -> f64 {
+/// Returns an upper bound of the memory, bytes, that contacts of these shapes take on a device together. `coated` says whether
+/// the bodies are no homogeneous half-spaces, `caps_differ` whether the largest pressure differs between cells.
+///
+/// # Panics
+/// If there are no shapes.
+pub fn memory_on_device(shapes: &[[usize; 2]], boundary: Boundary, coated: bool, caps_differ: bool) -> f64 {
     let cells: usize = shapes.iter().map(|[nx, ny]| nx * ny).sum();
-    let [px, py] = definition.boundary.padded(definition.grid.shape);
+    let largest = [0, 1].map(|axis| shapes.iter().map(|shape| shape[axis]).max().expect("a contact"));
+    let [px, py] = boundary.padded(largest);
     let padded = (shapes.len() * px * (py + 2)) as f64;
-    let periodic = definition.boundary.leaves_mean_free();
-    let tables = match definition.response.half_space_modulus() {
-        Some(_) => usize::from(!periodic),
-        None => 2,
-    };
+    let tables = if coated { 2 } else { usize::from(!boundary.leaves_mean_free()) };
     asperity_gpu::memory(cells as f64, padded, caps_differ, tables, Precision::Double)
 }
 
@@ -111,7 +107,9 @@ pub(super) fn solve(
         return Err(Error::Unsupported("a device does not solve a contact on several ranks"));
     }
     let Some(definition) = definition else {
-        return Err(Error::Unsupported("a device does not solve contacts whose cells wear or creep while they are pressed"));
+        return Err(Error::Unsupported(
+            "a device does not solve contacts whose cells wear or creep while they are pressed",
+        ));
     };
     let site = Site { gap: problem.initial_gap, bounds: problem.bounds, start };
     let mut found = together(device, &definition, &[site], &problem.settings, params)?;
@@ -140,7 +138,8 @@ pub(super) fn together(
     let caps_differ = sites.iter().any(|site| uniform(site).is_none() || uniform(site) != uniform(&sites[0]));
     if let Some(Card { name, free, .. }) = device.card()? {
         let shapes: Vec<[usize; 2]> = sites.iter().map(|site| site.gap.dim().into()).collect();
-        let needed = memory(definition, &shapes, caps_differ);
+        let coated = definition.response.half_space_modulus().is_none();
+        let needed = memory_on_device(&shapes, definition.boundary, coated, caps_differ);
         if needed > free {
             return Err(Error::DeviceMemory { device: name, needed, free });
         }

@@ -26,7 +26,7 @@ use active_set::NearCopies;
 pub use adhesive::solve_adhesive;
 pub(crate) use adhesive::solve_adhesive_watched;
 pub use bounds::Bounds;
-pub use device::{Device, memory_on_device};
+pub use device::{Card, Device, memory_on_device};
 pub use equilibrium::Equilibrium;
 pub use friction::{
     Coupling, Creep, Friction, FrictionalSolution, Loading, Rolling, RollingSolution, Sliding, Tangential,

@@ -70,8 +70,7 @@ mod tests {
     use crate::math::Cholesky;
     use crate::operator::{Boundary, DirectSum, Edge, FreeFamily, PeriodicFft};
 
-    const FINE: Params =
-        Params::new().with_tolerance(1e-10).with_max_convolutions(1000);
+    const FINE: Params = Params::new().with_tolerance(1e-10).with_max_convolutions(1000);
 
     /// Computes ΔA 1ᵀ C_EE⁻¹ 1 by a dense factorisation.
     fn dense(operator: &dyn Operator, elastic: &Array2<bool>) -> f64 {

@@ -87,7 +87,8 @@ pub(crate) fn solve_batch(
     let device::Found { fields, approach, self_influence, stats, .. } =
         device::together(&device, definition, &sites, &settings, params)?;
     let solution = |((initial_gap, bounds), [pressure, displacement]): ((Field, Bounds), [Field; 2])| {
-        let residual = residual(&pressure, &displacement, &initial_gap, &bounds, self_influence, Some(approach)).eta;
+        let residual =
+            residual(&pressure, &displacement, &initial_gap, &bounds, self_influence, Some(approach)).eta;
         let grid = Grid { shape: initial_gap.dim().into(), ..grid };
         Solution { grid, initial_gap, bounds, pressure, displacement, approach, residual, stats }
     };

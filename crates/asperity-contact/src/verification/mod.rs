@@ -42,8 +42,7 @@ use crate::error::Result;
 use crate::grid::Field;
 use crate::operator::{CoupledOperator, Operator};
 use crate::solver::{
-    Bounds, Control, Friction, FrictionalSolution, Loading, Params, Solution, solve_frictional,
-    solve_normal,
+    Bounds, Control, Friction, FrictionalSolution, Loading, Params, Solution, solve_frictional, solve_normal,
 };
 use crate::units::Pascal;
 

@@ -45,7 +45,8 @@ fn draw(seed: u64, largest: usize) -> Drawn {
     ]);
     let modulus = draw.number(0.1, 10.0);
     let shortest = draw.one_of(&[None, Some(4.0 * grid.pitch[0].max(grid.pitch[1]))]);
-    let form = SelfAffine { hurst: draw.number(0.3, 0.9), rolloff: None, shortest, amplitude: Amplitude::Sdq(0.1) };
+    let form =
+        SelfAffine { hurst: draw.number(0.3, 0.9), rolloff: None, shortest, amplitude: Amplitude::Sdq(0.1) };
     let heights = form.generate(&grid, seed).unwrap().into_heights();
     let gap = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max) - heights;
     let pressure = modulus * 0.1;
@@ -77,8 +78,10 @@ fn random_contacts_agree_with_those_of_the_processor() {
     for seed in 0..200 {
         let drawn = draw(seed, if seed % 20 == 0 { 256 } else { 64 });
         let fail = |e: Error| panic!("contact {seed} on {:?}: {e}", drawn.grid.shape);
-        let [found, expected] = [Device::Host, Device::Cpu].map(|device| solve(&drawn, device, None).unwrap_or_else(fail));
-        convolutions = [convolutions[0] + found.stats.convolutions, convolutions[1] + expected.stats.convolutions];
+        let [found, expected] =
+            [Device::Host, Device::Cpu].map(|device| solve(&drawn, device, None).unwrap_or_else(fail));
+        convolutions =
+            [convolutions[0] + found.stats.convolutions, convolutions[1] + expected.stats.convolutions];
         let largest = |field: &Field| field.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let error = largest(&(&found.pressure - &expected.pressure)) / largest(&expected.pressure);
         let scale = largest(&expected.displacement);
@@ -95,9 +98,16 @@ fn random_contacts_agree_with_those_of_the_processor() {
             Control::Load(_) => None,
         };
         let again = residual(&found.pressure, &u, &drawn.gap, &drawn.bounds, own, prescribed).eta;
-        assert!((again - found.residual).abs() < 1e-3 * TOLERANCE, "contact {seed}: {again:e}, {:e}", found.residual);
+        assert!(
+            (again - found.residual).abs() < 1e-3 * TOLERANCE,
+            "contact {seed}: {again:e}, {:e}",
+            found.residual
+        );
     }
-    println!("convolutions and preconditioned residuals {}, on the processor {}", convolutions[0], convolutions[1]);
+    println!(
+        "convolutions and preconditioned residuals {}, on the processor {}",
+        convolutions[0], convolutions[1]
+    );
 }
 
 #[test]

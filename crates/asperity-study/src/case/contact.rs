@@ -22,6 +22,7 @@ pub(super) fn contact(table: &Table<'_>) -> Result<Contact> {
         boundary: keys::BOUNDARY.of(table)?,
         grid: keys::GRID.of(table)?,
         method: keys::METHOD.of(table)?,
+        device: keys::DEVICE.of(table)?,
         tolerance: keys::TOLERANCE.of(table)?,
     })
 }

@@ -30,6 +30,10 @@ impl Document {
         Self { noun, file, text: text.to_owned(), spans: BTreeMap::new() }
     }
 
+    pub(super) fn text(&self) -> &str {
+        &self.text
+    }
+
     pub(super) fn noun(&self) -> &'static str {
         self.noun
     }

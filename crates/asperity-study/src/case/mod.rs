@@ -57,7 +57,7 @@ use asperity_contact::motion::{
 };
 pub use asperity_contact::operator::{Boundary, Edge};
 use asperity_contact::solver::Control;
-pub use asperity_contact::solver::Method;
+pub use asperity_contact::solver::{Device, Method};
 use asperity_contact::temperature::Thermal;
 
 /// A case, resolved to SI.
@@ -173,6 +173,8 @@ pub struct Contact {
     pub grid: GridMatch,
     /// The solver.
     pub method: Method,
+    /// What solves the contact.
+    pub device: Device,
     /// Scale-free complementarity residual at which the solver stops, 0 < η < 1.
     pub tolerance: f64,
 }
@@ -201,14 +203,16 @@ impl Serialize for Contact {
             #[serde(skip_serializing_if = "is_as_prepared")]
             grid: GridMatch,
             method: Method,
+            #[serde(skip_serializing_if = "is_cpu")]
+            device: Device,
             tolerance: f64,
         }
-        let Self { prescribed, ref sweep, boundary, grid, method, tolerance } = *self;
+        let Self { prescribed, ref sweep, boundary, grid, method, device, tolerance } = *self;
         let values = || sweep.iter().map(|point| point.value()).collect();
         let sweep: BTreeMap<_, _> =
             sweep.first().map(|point| (point.key_of_list(), values())).into_iter().collect();
         let prescribed = sweep.is_empty().then_some(prescribed);
-        Keys { prescribed, sweep, boundary, grid, method, tolerance }.serialize(serializer)
+        Keys { prescribed, sweep, boundary, grid, method, device, tolerance }.serialize(serializer)
     }
 }
 
@@ -365,6 +369,16 @@ impl Case {
         parse::case(text, file, folder)
     }
 
+    /// Returns the case as it is solved by another device.
+    ///
+    /// # Errors
+    /// [`Error::Case`] if this device does not solve it.
+    pub fn on(mut self, device: Device) -> Result<Self> {
+        self.contact.device = device;
+        parse::check_again(&self)?;
+        Ok(self)
+    }
+
     /// Creates an error that appears only when the case is used, at the place of a dotted `key` (`upper.topography.file`),
     /// or of the table that would contain it.
     pub fn error_at(&self, key: &str, message: impl Into<String>, hint: Option<String>) -> Error {
@@ -474,6 +488,10 @@ fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result
 }
 
 // Default values are omitted, so that cases from before these keys keep their digests.
+
+fn is_cpu(device: &Device) -> bool {
+    *device == Device::Cpu
+}
 
 fn is_as_prepared(grid: &GridMatch) -> bool {
     *grid == GridMatch::AsPrepared

@@ -42,6 +42,14 @@ pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
     Ok(Case { document, ..case })
 }
 
+/// Returns an error if the case breaks a rule, after a change of its values.
+pub(super) fn check_again(case: &Case) -> Result<()> {
+    let text = case.document.text();
+    let mut document = case.document.clone();
+    let entries = document.parse(text)?;
+    rules::check(&Table::root(&document, entries.get_ref()), case)
+}
+
 /// Reads all tables of a case, still without its document.
 fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     known_in(root)?;

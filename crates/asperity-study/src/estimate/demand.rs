@@ -12,7 +12,7 @@ use asperity_base::units::Second;
 use asperity_contact::material::Compliances;
 use asperity_contact::motion::{PlasticUpdate, memory_together};
 use asperity_contact::operator::{FreeFft, Operator};
-use asperity_contact::solver::{Control, Coupling, Friction, Method, Sliding};
+use asperity_contact::solver::{self, Control, Coupling, Friction, Method, Sliding};
 
 /// Cost of a run. Memory in bytes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,6 +70,29 @@ pub fn demand(case: &Case, given: &SurfaceInput, threads: usize) -> Result<Deman
     let surfaces = surfaces.making.max(surfaces.kept);
     let passes = case.motion.map_or(1.0, |motion| sizes.computed_passes(motion.passes));
     Ok(Demand { surfaces, solver, together, results, memory, passes, convolutions, effort, drawing })
+}
+
+/// Returns an upper bound of the memory, bytes, that the contacts of `case` take on a device at a time. Only the sizes of
+/// files are read.
+///
+/// # Errors
+/// Those of [`demand`].
+pub fn memory_on_device(case: &Case, given: &SurfaceInput) -> Result<f64> {
+    let [lower, upper] = grids(case, given)?;
+    let overlaps: Vec<usize> = super::positions(case, [lower, upper]).iter().map(|p| p.columns).collect();
+    let sizes = Sizes { case, lower, upper, overlaps: &overlaps };
+    let [nx, ny] = sizes.facing().map(|n| n as usize);
+    let bodies = [&case.lower, &case.upper];
+    let yields = bodies.iter().any(|body| body.hardness.yields());
+    // The positions of a pass that share an approach and do not depend on each other are one batch.
+    let is_batch = |motion: &MotionSpec| {
+        motion.control != ControlKind::StepLoad && (motion.plastic_update == PlasticUpdate::Pass || !yields)
+    };
+    let shapes: Vec<[usize; 2]> = match &case.motion {
+        Some(motion) if is_batch(motion) => sizes.solved().iter().map(|columns| [*columns, ny]).collect(),
+        _ => vec![[nx, ny]],
+    };
+    Ok(solver::memory_on_device(&shapes, case.contact.boundary, case.is_coated(), yields))
 }
 
 impl Demand {

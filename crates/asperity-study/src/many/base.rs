@@ -6,9 +6,11 @@ use toml::Value;
 
 use super::axis::Axis;
 use super::named::NamedFile;
+use crate::case::Device;
 use crate::case::document::{Document, join};
 use crate::io::sha256;
-use asperity_base::error::{CaseError, Error};
+use asperity_base::choice::Choice;
+use asperity_base::error::{CaseError, Error, Result};
 
 /// The base case.
 #[derive(Debug)]
@@ -33,6 +35,13 @@ impl Base {
     ) -> Self {
         each_file(&mut table, &|path| of_base.join(path));
         Self { table, document, prefix, folder: of_axes.to_owned() }
+    }
+
+    /// Sets what solves the contacts.
+    pub(super) fn on(&mut self, device: Device) -> Result<()> {
+        let value = Value::String(device.word().to_owned());
+        set(&mut self.table, "contact.device", value)
+            .map_err(|message| self.document.error_at("contact", message, None))
     }
 
     /// Returns the digest of the part shared by all cases, independent of the working directory.

@@ -10,7 +10,7 @@ use super::axis::Axis;
 use super::cell::{in_quotes, quoted};
 use super::file::{self, StudyFile};
 use super::named::NamedFile;
-use crate::case::Case;
+use crate::case::{Case, Device};
 use crate::estimate::check_plastic_limit;
 use crate::given::SurfaceInput;
 use crate::io::sha256;
@@ -55,6 +55,16 @@ impl Study {
         let study = Self { file, indices };
         study.check()?;
         Ok(study)
+    }
+
+    /// Returns the study as it is solved by another device.
+    ///
+    /// # Errors
+    /// [`Error::Case`] if this device does not solve a case.
+    pub fn on(mut self, device: Device) -> Result<Self> {
+        self.file.base.on(device)?;
+        self.check()?;
+        Ok(self)
     }
 
     /// The title; by default the file name.

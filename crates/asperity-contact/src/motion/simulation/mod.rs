@@ -92,7 +92,9 @@ impl Simulation {
             }
         }
         if motion.sliding(Stroke::Forth).is_some_and(|s| s.shear_displaces_normally(pair.couples())) {
-            params.device.only_processor("a device does not solve sliding whose shear displaces the bodies normally")?;
+            params.device.only_processor(
+                "a device does not solve sliding whose shear displaces the bodies normally",
+            )?;
         }
         let operators = pair.operators(largest, boundary)?;
         if motion.friction.is_some_and(|friction| friction.coupling != Coupling::None) {

@@ -228,7 +228,9 @@ pub(crate) fn solve_sliding(
     params: &Params,
     watch: &dyn Watch,
 ) -> Result<FrictionalSolution> {
-    params.device.only_processor("a device does not solve sliding whose shear displaces the bodies normally")?;
+    params
+        .device
+        .only_processor("a device does not solve sliding whose shear displaces the bodies normally")?;
     let loading = Loading { normal, tangential: Tangential::Sliding(sliding.direction) };
     let start = Start { pressure: pressure.cloned(), ..Start::default() };
     let failed = &mut Stats::default();

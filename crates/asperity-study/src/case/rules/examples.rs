@@ -42,6 +42,9 @@ pub(super) const AT_ANY_SPEED: &str = "motion = {}";
 /// A line contact.
 pub(super) const LINE: &str = r#"contact = { load = "2 N", boundary = ["free", "periodic"] }"#;
 
+/// A device solves the contact.
+pub(super) const ON_DEVICE: &str = r#"contact = { load = "2 N", device = "host" }"#;
+
 /// Several loads.
 pub(super) const SWEEP: &str = r#"contact = { loads = ["1 N", "2 N"] }"#;
 

@@ -5,6 +5,7 @@
 
 mod adhesion;
 mod bodies;
+mod device;
 mod examples;
 mod loading;
 mod motion;
@@ -57,7 +58,7 @@ pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
 
 /// Returns the rules of a case file, in the order in which a case is checked.
 pub fn rules() -> impl Iterator<Item = &'static Rule> {
-    let tables: [&[Rule]; 9] = [
+    let tables: [&[Rule]; 10] = [
         bodies::RULES,
         motion::RULES,
         loading::RULES,
@@ -67,6 +68,7 @@ pub fn rules() -> impl Iterator<Item = &'static Rule> {
         output::RULES,
         passage::RULES,
         adhesion::RULES,
+        device::RULES,
     ];
     tables.into_iter().flatten()
 }

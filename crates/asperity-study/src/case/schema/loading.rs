@@ -65,7 +65,7 @@ pub(crate) mod contact {
     use super::*;
     use crate::case::GridMatch;
     use asperity_contact::operator::Boundary;
-    use asperity_contact::solver::Method;
+    use asperity_contact::solver::{Device, Method};
 
     section! { &["contact"], "";
         LOAD: Optional<f64> = super::LOAD;
@@ -115,6 +115,14 @@ pub(crate) mod contact {
         );
         METHOD: Typed<Method> =
             defaulted("method", choice::<Method>(), "\"auto\"", "\"direct\"", "solver; all methods give the same result");
+        DEVICE: Typed<Device> = defaulted(
+            "device",
+            choice::<Device>(),
+            "\"cpu\"",
+            "\"cuda\"",
+            "what solves the contact: `\"cpu\"`; `\"cuda\"`, a GPU of NVIDIA; `\"host\"`, the solver of the GPU in plain loops \
+             on the processor, for comparison",
+        );
         TOLERANCE: Typed<f64> = defaulted(
             "tolerance",
             FRACTION,

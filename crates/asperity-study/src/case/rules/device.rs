@@ -1,0 +1,85 @@
+//! Rules of contacts that a device solves.
+
+use asperity_contact::material::Compliances;
+use asperity_contact::solver::{Device, Method, Sliding};
+
+use super::examples::{AT_ANY_SPEED, FLOWS, ON_DEVICE, RUBS, SLIDES, VOLUME, WEARS};
+use super::{Case, Entry, Rule, Tables};
+
+/// The hint of what only the processor solves.
+const ON_PROCESSOR: &str = "leave `device` out of [contact], and the processor solves it";
+
+pub(super) const RULES: &[Rule] = &[
+    Rule {
+        this: "`method = \"direct\"`, `\"polonsky-keer\"`",
+        with: "`device` in [contact]",
+        message: "'{key}' is {value}, and a device solves a contact by the active set",
+        hint: "leave `method` out, or `device`",
+        at: "contact.method",
+        example: &[r#"contact = { load = "2 N", device = "host", method = "direct" }"#],
+        broken: |tables| {
+            let active_set = matches!(tables.case.contact.method, Method::Auto | Method::ActiveSet);
+            tables.on_device("contact.method", |_| !active_set)
+        },
+    },
+    Rule {
+        this: "[friction] without [motion] or [sliding]",
+        with: "`device` in [contact]",
+        message: "a device does not solve friction with stick, or rolling",
+        hint: ON_PROCESSOR,
+        at: "friction",
+        example: &[ON_DEVICE, RUBS],
+        broken: |tables| tables.on_device("friction", |case| case.motion.is_none() && case.sliding.is_none()),
+    },
+    Rule {
+        this: "[friction] of a [motion] whose shear displaces the bodies normally",
+        with: "`device` in [contact]",
+        message: "a device does not solve sliding whose shear displaces the bodies normally",
+        hint: "set `coupling = \"goodman\"` or `\"none\"` in [friction]",
+        at: "friction",
+        example: &[ON_DEVICE, r#"friction = { coefficient = 0.3, coupling = "full" }"#, AT_ANY_SPEED],
+        broken: |tables| tables.on_device("friction", shear_displaces_normally),
+    },
+    Rule {
+        this: "[adhesion]",
+        with: "`device` in [contact]",
+        message: "a device does not solve adhesive contacts",
+        hint: ON_PROCESSOR,
+        at: "adhesion",
+        example: &[ON_DEVICE, r#"adhesion = { work = "50 mJ/m2", range = "2 nm" }"#],
+        broken: |tables| tables.on_device("adhesion", |_| true),
+    },
+    Rule {
+        this: "[plasticity]",
+        with: "`device` in [contact]",
+        message: "a device does not solve bodies that deform plastically below the surface",
+        hint: "give the bodies a `hardness` instead, or leave `device` out of [contact]",
+        at: "plasticity",
+        example: &[ON_DEVICE, VOLUME, FLOWS],
+        broken: |tables| tables.on_device("plasticity", |_| true),
+    },
+    Rule {
+        this: "[sliding]",
+        with: "`device` in [contact]",
+        message: "a device does not solve wear in place",
+        hint: ON_PROCESSOR,
+        at: "sliding",
+        example: &[ON_DEVICE, WEARS, SLIDES],
+        broken: |tables| tables.on_device("sliding", |_| true),
+    },
+];
+
+impl<'a> Tables<'a> {
+    /// Returns the entry of a key of a case that a device solves, if it `is` so.
+    fn on_device(&self, key: &str, is: impl Fn(&Case) -> bool) -> Option<Entry<'a>> {
+        self.at(key).filter(|_| self.case.contact.device != Device::Cpu && is(self.case))
+    }
+}
+
+fn shear_displaces_normally(case: &Case) -> bool {
+    let compliances = Compliances::new(&case.lower.material, &case.upper.material);
+    let couples = compliances.is_ok_and(|compliances| compliances.coupling != 0.0);
+    case.friction.as_ref().filter(|_| case.motion.is_some()).is_some_and(|friction| {
+        Sliding { friction: friction.law, direction: [1.0, 0.0] }.shear_displaces_normally(couples)
+    })
+}
