@@ -6,7 +6,8 @@
 use std::time::Instant;
 
 use asperity_base::{Field, Grid};
-use asperity_contact::material::Material;
+use asperity_contact::kernel::response;
+use asperity_contact::material::{Coating, Material};
 use asperity_contact::motion::{Motion, Pair, Simulation, Strategy};
 use asperity_contact::operator::{Boundary, Operators};
 use asperity_contact::solver::{Bounds, Control, Device, Params, solve_normal};
@@ -91,16 +92,23 @@ fn agree(_: &asperity_gpu::Device) -> Outcome {
         } else {
             Control::Approach(0.5 * gap.mean().unwrap_or(0.0))
         };
-        let operators = Operators::new(grid, MODULUS, boundary);
+        let soft = Material::elastic(0.9 * MODULUS, 0.3)?;
+        let coated = soft.coated(Coating::new(5.0, 4.0 * MODULUS, 0.25)?);
+        let rigid = Material::elastic(f64::INFINITY, 0.3)?;
+        let operators = match seed % 5 {
+            1 => Operators::new(grid, response(&coated, &rigid)?, boundary),
+            _ => Operators::new(grid, MODULUS, boundary),
+        };
         let solve = |device: Device| {
             let params = Params::new().with_tolerance(TOLERANCE).with_device(device);
             solve_normal(operators.on_for(shape, device).as_mut(), &gap, &bounds, control, None, &params)
         };
         let (found, again, expected) = (solve(Device::Cuda)?, solve(Device::Cuda)?, solve(Device::Cpu)?);
         println!(
-            "| {} × {} | {} | {} | {} | {:.1e} | {:.1e} | {:.1e} | {:.0} | {} |",
+            "| {} × {}{} | {} | {} | {} | {:.1e} | {:.1e} | {:.1e} | {:.0} | {} |",
             shape[0],
             shape[1],
+            if seed % 5 == 1 { ", coated" } else { "" },
             if boundary.leaves_mean_free() { "periodic" } else { "free" },
             if seed % 4 == 3 {
                 "map"
@@ -263,7 +271,7 @@ fn pass(_: &asperity_gpu::Device) -> Outcome {
         let load = 0.0095 * 115e9 * grid.area() * 0.5;
         let motion = Motion::new(Strategy::Overlap, Control::Load(load)).with_stride(4);
         let params = Params::new().with_tolerance(TOLERANCE).with_device(device);
-        let mut simulation = Simulation::new(pair, Boundary::FREE, motion, params)?;
+        let simulation = Simulation::new(pair, Boundary::FREE, motion, params)?;
         let mut times = Vec::new();
         let mut last = None;
         for _ in 0..2 {

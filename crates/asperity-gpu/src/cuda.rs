@@ -82,6 +82,8 @@ pub(crate) struct Cuda {
 struct Shared {
     context: Arc<CudaContext>,
     card: Card,
+    /// Plans that no contact uses now. To make one takes longer than many transforms of a small grid.
+    plans: Mutex<Vec<Plan>>,
     /// The compiled kernels, in double and in single precision, and memory for the sums of the blocks.
     kernels: Mutex<[Option<Arc<Kernels>>; 2]>,
 }
@@ -123,7 +125,8 @@ impl Cuda {
         };
         let (context, card) =
             open().map_err(|error| none(format!("the driver, but no device: {error:?}")))?;
-        Ok(Self { shared: Arc::new(Shared { context, card, kernels: Mutex::default() }) })
+        let shared = Shared { context, card, plans: Mutex::default(), kernels: Mutex::default() };
+        Ok(Self { shared: Arc::new(shared) })
     }
 
     /// Returns the card, with the memory that is free now.
@@ -384,7 +387,7 @@ impl Device for Cuda {
             Precision::Single => fft_sys::cufftType_t::CUFFT_C2R,
         };
         let stride = 2 * (rough.side / 2 + 1);
-        let plan = Plan::new(self, kind, level.padded, 1)?;
+        let plan = self.plan(Transforms { kind, shape: level.padded, count: 1 })?;
         let (buffer, work) = (self.memory(rough.side * stride * bytes(precision))?, self.memory(plan.work)?);
         self.launch(
             &kernels,
@@ -404,6 +407,7 @@ impl Device for Cuda {
         self.launch(&kernels, "summit", BLOCKS, &[arg(&buffer.at), arg(&side), arg(&width), arg(&parts.at)])?;
         let summit = merged(0)?;
         drop(work);
+        self.keep_plans([plan]);
         let layout = Layout { shapes: vec![[rough.side; 2]] };
         let gap = self.memory(layout.cells() * bytes(precision))?;
         let first = self.copy_of(&layout.rows(|row| row.first))?;
@@ -460,8 +464,9 @@ impl Device for Cuda {
         CudaFields::new(self, gaps, level)
     }
 
-    fn into_pressure(&self, fields: CudaFields) -> Pressure {
-        Pressure { layout: fields.layout, values: fields.pressure }
+    fn into_pressure(&self, mut fields: CudaFields) -> Result<Pressure> {
+        let layout = Layout { shapes: std::mem::take(&mut fields.layout.shapes) };
+        Ok(Pressure { layout, values: std::mem::replace(&mut fields.pressure, self.memory(0)?) })
     }
 
     fn prolong(&self, coarse: &Pressure, fine: &mut CudaFields) -> Result<()> {
@@ -542,8 +547,41 @@ struct Spectrum {
 
 /// A plan of transforms in place, whose work area is given.
 struct Plan {
+    /// What it transforms.
+    of: Transforms,
     handle: fft_sys::cufftHandle,
+    /// Bytes of its work area.
     work: usize,
+}
+
+/// Transforms of one kind, shape and number.
+#[derive(Clone, Copy, PartialEq)]
+struct Transforms {
+    kind: fft_sys::cufftType,
+    shape: [usize; 2],
+    count: usize,
+}
+
+/// Number of plans that are kept for later contacts: those of a cascade up to 32768², in double precision.
+const KEPT_PLANS: usize = 44;
+
+impl Cuda {
+    /// Returns a plan, one that was given back if there is one.
+    fn plan(&self, of: Transforms) -> Result<Plan> {
+        let mut plans = self.shared.plans.lock().unwrap_or_else(PoisonError::into_inner);
+        match plans.iter().position(|plan| plan.of == of) {
+            Some(index) => Ok(plans.remove(index)),
+            None => Plan::new(self, of),
+        }
+    }
+
+    /// Gives plans back.
+    fn keep_plans(&self, plans: impl IntoIterator<Item = Plan>) {
+        let mut kept = self.shared.plans.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.extend(plans);
+        let old = kept.len().saturating_sub(KEPT_PLANS);
+        kept.drain(..old);
+    }
 }
 
 impl Drop for Plan {
@@ -554,10 +592,11 @@ impl Drop for Plan {
 }
 
 impl Plan {
-    fn new(cuda: &Cuda, kind: fft_sys::cufftType, [rows, columns]: [usize; 2], count: usize) -> Result<Self> {
+    fn new(cuda: &Cuda, of: Transforms) -> Result<Self> {
+        let Transforms { kind, shape: [rows, columns], count } = of;
         cuda.bind()?;
         let handle = cuda.checked(fft::create())?;
-        let mut plan = Self { handle, work: 0 };
+        let mut plan = Self { of, handle, work: 0 };
         let half = (columns / 2 + 1) as i64;
         let (mut shape, mut real, mut waves) =
             ([rows as i64, columns as i64], [rows as i64, 2 * half], [rows as i64, half]);
@@ -590,9 +629,6 @@ impl Plan {
     }
 }
 
-/// Plans of one precision: there and back.
-struct Plans([Plan; 2]);
-
 /// The fields of all contacts.
 pub(crate) struct CudaFields {
     cuda: Cuda,
@@ -616,9 +652,8 @@ pub(crate) struct CudaFields {
     set: Memory,
     buffer: Memory,
     work: Memory,
-    single: Plans,
-    /// Plans in the precision of the pressure, if that is not single.
-    double: Option<Plans>,
+    /// Plans in single precision, there and back, and those in double precision if that is the precision of the pressure.
+    plans: Vec<Plan>,
     parts: Memory,
     results: Memory,
     compliance: Spectrum,
@@ -642,19 +677,18 @@ impl CudaFields {
         ];
         let shapes: Vec<i32> = layout.shapes.iter().flatten().map(|n| *n as i32).collect();
         use fft_sys::cufftType_t::{CUFFT_C2R, CUFFT_D2Z, CUFFT_R2C, CUFFT_Z2D};
-        let plans = |kinds: [fft_sys::cufftType; 2]| -> Result<Plans> {
-            let [there, back] = kinds.map(|kind| Plan::new(cuda, kind, level.padded, contacts));
-            Ok(Plans([there?, back?]))
+        let kinds: &[fft_sys::cufftType] = match precision {
+            Precision::Double => &[CUFFT_R2C, CUFFT_C2R, CUFFT_D2Z, CUFFT_Z2D],
+            Precision::Single => &[CUFFT_R2C, CUFFT_C2R],
         };
-        let single = plans([CUFFT_R2C, CUFFT_C2R])?;
-        let double = match precision {
-            Precision::Double => Some(plans([CUFFT_D2Z, CUFFT_Z2D])?),
-            Precision::Single => None,
+        let plan = |kind: &fft_sys::cufftType| {
+            cuda.plan(Transforms { kind: *kind, shape: level.padded, count: contacts })
         };
-        let all = single.0.iter().chain(double.iter().flat_map(|plans| &plans.0));
-        let work = cuda.memory(all.clone().map(|plan| plan.work).max().unwrap_or(0))?;
-        for plan in all {
-            // SAFETY: the area is as large as the largest that a plan asked for, and lives as long as the plans.
+        let plans: Vec<Plan> = kinds.iter().map(plan).collect::<Result<_>>()?;
+        let work = cuda.memory(plans.iter().map(|plan| plan.work).max().unwrap_or(0))?;
+        for plan in &plans {
+            // SAFETY: the area is as large as the largest that a plan asked for, and lives as long as the fields, which alone
+            // use the plans meanwhile.
             cuda.checked(unsafe { fft::set_work_area(plan.handle, work.at as *mut c_void) })?;
         }
         let state = || cuda.memory(cells * bytes(precision));
@@ -675,8 +709,7 @@ impl CudaFields {
             set: cuda.memory(cells)?,
             buffer: cuda.memory(contacts * rows * stride * bytes(precision))?,
             work: work,
-            single,
-            double,
+            plans,
             parts: cuda.memory(BLOCKS as usize * PARTS * 8)?,
             results: cuda.memory(PARTS * 8)?,
             compliance: waves(level, true),
@@ -789,14 +822,15 @@ impl CudaFields {
     fn transform(&self, there: bool, single: bool) -> Result<()> {
         self.cuda.bind()?;
         let at = self.buffer.at;
-        let plans = if single { None } else { self.double.as_ref() };
-        // SAFETY: the plans are for the buffer in place, of this precision.
+        let first = if single || self.precision == Precision::Single { 0 } else { 2 };
+        let handle = self.plans[first + usize::from(!there)].handle;
+        // SAFETY: the plans are for the buffer in place, in this order of precisions and directions.
         let done = unsafe {
-            match (plans, there) {
-                (Some(Plans([there, _])), true) => fft::exec_d2z(there.handle, at as *mut _, at as *mut _),
-                (Some(Plans([_, back])), false) => fft::exec_z2d(back.handle, at as *mut _, at as *mut _),
-                (None, true) => fft::exec_r2c(self.single.0[0].handle, at as *mut _, at as *mut _),
-                (None, false) => fft::exec_c2r(self.single.0[1].handle, at as *mut _, at as *mut _),
+            match (first, there) {
+                (0, true) => fft::exec_r2c(handle, at as *mut _, at as *mut _),
+                (0, false) => fft::exec_c2r(handle, at as *mut _, at as *mut _),
+                (_, true) => fft::exec_d2z(handle, at as *mut _, at as *mut _),
+                (_, false) => fft::exec_z2d(handle, at as *mut _, at as *mut _),
             }
         };
         self.cuda.checked(done)
@@ -832,6 +866,12 @@ fn waves(level: &Level, displacement: bool) -> Spectrum {
     let (constant, at_zero) =
         if displacement { (2.0 / modulus, 0.0) } else { (0.5 * modulus, level.stiffness_at_zero()) };
     Spectrum { table: 0, constant, at_zero, unit: level.wavenumbers(), inverse: i32::from(displacement) }
+}
+
+impl Drop for CudaFields {
+    fn drop(&mut self) {
+        self.cuda.keep_plans(self.plans.drain(..));
+    }
 }
 
 impl Fields for CudaFields {

@@ -114,8 +114,8 @@ impl Device for Host {
         Ok(fields)
     }
 
-    fn into_pressure(&self, fields: HostFields) -> Vec<Field> {
-        fields.cut(&fields.pressure)
+    fn into_pressure(&self, fields: HostFields) -> Result<Vec<Field>> {
+        Ok(fields.cut(&fields.pressure))
     }
 
     fn prolong(&self, coarse: &Vec<Field>, fine: &mut HostFields) -> Result<()> {

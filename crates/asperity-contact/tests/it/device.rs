@@ -1,9 +1,14 @@
 //! The solver of devices, in plain loops, finds the contacts that the processor finds.
 
 use asperity_base::{CellValues, Error, Field, Grid};
+use asperity_contact::kernel::response;
+use asperity_contact::material::{Coating, Material};
+use asperity_contact::motion::{
+    LoadControl, Motion, Output, Pair, PassRecord, PlasticUpdate, Simulation, Step, StepRecord, Strategy,
+};
 use asperity_contact::operator::{Boundary, Deferred, Edge, Operator, Operators};
 use asperity_contact::solver::{Bounds, Control, Device, Method, Params, Solution, residual, solve_normal};
-use asperity_surface::{Amplitude, SelfAffine};
+use asperity_surface::{Amplitude, SelfAffine, Topography};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
@@ -111,6 +116,23 @@ fn random_contacts_agree_with_those_of_the_processor() {
 }
 
 #[test]
+fn coated_contacts_agree_with_those_of_the_processor() {
+    let soft = Material::elastic(1.0, 0.3).unwrap().coated(Coating::new(3.0, 5.0, 0.25).unwrap());
+    let rigid = Material::elastic(f64::INFINITY, 0.3).unwrap();
+    for boundary in [Boundary::FREE, Boundary::PERIODIC] {
+        let plain = draw(1, 64);
+        let grid = Grid::new(plain.grid.shape, [1.0; 2]).unwrap();
+        let operators = Operators::new(grid, response(&soft, &rigid).unwrap(), boundary);
+        let control = Control::Load(0.01 * grid.area());
+        let drawn = Drawn { operators, control, grid, ..plain };
+        let [found, expected] =
+            [Device::Host, Device::Cpu].map(|device| solve(&drawn, device, None).unwrap());
+        let error = (&found.pressure - &expected.pressure).iter().fold(0.0, |m: f64, e| m.max(e.abs()));
+        assert!(error < 1e-4 * expected.max_pressure(), "{boundary:?}: {error:e}");
+    }
+}
+
+#[test]
 fn a_start_near_the_solution_saves_work() {
     let drawn = draw(7, 64);
     let cold = solve(&drawn, Device::Host, None).unwrap();
@@ -154,4 +176,71 @@ fn an_operator_that_is_computed_when_needed_is_the_operator() {
     made.apply(&drawn.gap, &mut one);
     deferred.apply(&drawn.gap, &mut other);
     assert_eq!(one, other);
+}
+
+/// The records of a motion.
+#[derive(Default)]
+struct Records {
+    passes: Vec<PassRecord>,
+    steps: Vec<StepRecord>,
+}
+
+impl Output for Records {
+    fn step(&mut self, step: &Step<'_>) -> Result<(), Error> {
+        if let Step::Pass(pass) = step {
+            self.passes.push(pass.record.clone());
+            self.steps.extend_from_slice(pass.steps);
+        }
+        Ok(())
+    }
+}
+
+/// Two rough bodies of steel that yield, 32 × 24 cells of 1 µm.
+fn pair() -> Pair {
+    let grid = Grid::new([32, 24], [1e-6; 2]).unwrap();
+    let form =
+        SelfAffine { hurst: 0.8, rolloff: None, shortest: Some(6e-6), amplitude: Amplitude::Sq(60e-9) };
+    let surface = |seed| Topography::new(grid, form.generate(&grid, seed).unwrap().into_heights()).unwrap();
+    let steel = Material::new(210e9, 0.3, 4e9).unwrap();
+    Pair::new(surface(1), surface(2), [&steel, &steel]).unwrap()
+}
+
+#[test]
+fn passes_in_one_batch_are_those_of_the_processor() {
+    let shift = Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 };
+    let cases = [
+        (Strategy::Overlap, Boundary::FREE, Control::Load(0.05), LoadControl::Pass, PlasticUpdate::Pass),
+        (Strategy::Overlap, Boundary::FREE, Control::Load(0.02), LoadControl::Step, PlasticUpdate::Pass),
+        (Strategy::Overlap, Boundary::FREE, Control::Load(0.05), LoadControl::Pass, PlasticUpdate::Step),
+        (Strategy::Overlap, Boundary::FREE, Control::Approach(40e-9), LoadControl::Pass, PlasticUpdate::Pass),
+        (shift, Boundary::PERIODIC, Control::Load(0.1), LoadControl::Pass, PlasticUpdate::Pass),
+    ];
+    for (number, (strategy, boundary, control, load_control, update)) in cases.into_iter().enumerate() {
+        let run = |device: Device| {
+            let motion = Motion::new(strategy, control)
+                .with_passes(2)
+                .with_stride(5)
+                .with_load_control(load_control)
+                .with_plastic_update(update)
+                .with_load_tolerance(1e-6);
+            let params = Params::new().with_tolerance(1e-8).with_device(device);
+            let mut records = Records::default();
+            let mut simulation = Simulation::new(pair(), boundary, motion, params).unwrap();
+            simulation.run(&(), &mut [&mut records]).unwrap();
+            records
+        };
+        let (found, expected) = (run(Device::Host), run(Device::Cpu));
+        assert_eq!((found.passes.len(), found.steps.len()), (2, expected.steps.len()));
+        for (found, expected) in found.steps.iter().zip(&expected.steps) {
+            let close = |found: f64, expected: f64, scale: f64, what: &str| {
+                let error = (found - expected).abs() / scale;
+                assert!(error < 2e-5, "motion {number}: {what} {found:e}, on the processor {expected:e}");
+            };
+            close(found.approach, expected.approach, expected.approach.abs(), "approach");
+            close(found.load, expected.load, 0.05, "load");
+            close(found.max_pressure, expected.max_pressure, 4e9, "largest pressure");
+            close(found.plastic_volume, expected.plastic_volume, 1e-20, "plastic volume");
+            assert!(found.residual < 1e-8, "motion {number}: residual {:e}", found.residual);
+        }
+    }
 }

@@ -37,7 +37,12 @@ pub(super) const RULES: &[Rule] = &[
         message: "a device does not solve sliding whose shear displaces the bodies normally",
         hint: "set `coupling = \"goodman\"` or `\"none\"` in [friction]",
         at: "friction",
-        example: &[ON_DEVICE, r#"friction = { coefficient = 0.3, coupling = "full" }"#, AT_ANY_SPEED],
+        example: &[
+            ON_DEVICE,
+            r#"friction = { coefficient = 0.3, coupling = "full" }"#,
+            AT_ANY_SPEED,
+            "upper.young = inf",
+        ],
         broken: |tables| tables.on_device("friction", shear_displaces_normally),
     },
     Rule {
