@@ -4,7 +4,10 @@
 # than five minutes.
 #
 #     cargo bench -p asperity-contact --features cuda --bench gpu --no-run     # on any x86-64 machine; prints the program
+#     cargo build --release -p asperity-cli --features cuda
 #     benches/gpu/device.sh PROGRAM [agree|periodic|pass|free|challenge ...]    # on the machine with the GPU
+#
+# With ASPERITY=target/release/asperity and a Python it also runs the examples on the GPU and on the processor.
 set -euo pipefail
 
 program=$1
@@ -19,3 +22,7 @@ for library in libnvrtc libcufft; do
 done
 
 timeout 300 "$program" "$@"
+if [ -n "${ASPERITY:-}" ]; then
+    printf '\n== examples\n'
+    timeout 200 python3 "$(dirname "${BASH_SOURCE[0]}")/examples.py" "$ASPERITY" quickstart hertz measured running-in seal
+fi

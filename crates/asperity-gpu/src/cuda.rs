@@ -1042,3 +1042,28 @@ impl Fields for CudaFields {
         contacts.map(both).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_kernels_that_are_named_are_those_of_the_text() {
+        let of_macros = ["clear_outside", "clear_outside_single", "multiply", "multiply_single"];
+        let defined = KERNELS.matches("__global__ void ").count() - 2 + of_macros.len();
+        assert_eq!(defined, NAMES.len());
+        for name in NAMES {
+            let plain = KERNELS.contains(&format!("__global__ void {name}("));
+            assert!(plain || of_macros.contains(&name), "{name}");
+        }
+        assert!(NAMES.is_sorted());
+    }
+
+    #[test]
+    fn a_machine_without_a_gpu_says_what_is_missing() {
+        match Cuda::open() {
+            Ok(cuda) => assert!(cuda.card().unwrap().memory > 0.0),
+            Err(error) => assert!(matches!(error, Error::NoDevice { .. }), "{error}"),
+        }
+    }
+}

@@ -228,3 +228,80 @@ pub fn memory(cells: f64, padded: f64, capped: bool, tables: usize, precision: P
     let fields = if capped { 5.0 } else { 4.0 };
     cells * (fields * state + 5.0 + 0.25 * state) + padded * state * (2.0 + 0.25 * tables as f64)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::{Compliance, Harmonics};
+
+    fn levels(side: usize) -> Vec<Level> {
+        let level = |coarser: u32| Level {
+            padded: [side >> coarser; 2],
+            pitch: [f64::from(1u32 << coarser) / side as f64; 2],
+            compliance: Compliance::Harmonic,
+            harmonics: Harmonics::HalfSpaces(1.0),
+        };
+        (0..=side.ilog2() - 5).map(level).collect()
+    }
+
+    fn rough(side: usize) -> Rough {
+        let pitch = 1.0 / side as f64;
+        Rough { side, pitch, hurst: 0.8, longest: 0.25, shortest: 1.0 / 12.0, slope: 0.1, seed: 7 }
+    }
+
+    /// Root mean square of the slope along both axes, by differences of neighbours.
+    fn slope(gap: &Field, pitch: f64) -> f64 {
+        let [nx, ny] = [gap.nrows(), gap.ncols()];
+        let squares = gap.indexed_iter().map(|((i, j), h)| {
+            let along = [gap[[(i + 1) % nx, j]] - h, gap[[i, (j + 1) % ny]] - h];
+            along[0] * along[0] + along[1] * along[1]
+        });
+        (squares.sum::<f64>() / gap.len() as f64).sqrt() / pitch
+    }
+
+    #[test]
+    fn a_surface_is_the_same_on_a_finer_grid() {
+        let [coarse, fine] =
+            [64, 128].map(|side| Device::HOST.gap_of(&rough(side), &levels(side)[0]).unwrap());
+        assert!((slope(&fine, 1.0 / 128.0) / 0.1 - 1.0).abs() < 0.05, "{}", slope(&fine, 1.0 / 128.0));
+        let offset = fine[[0, 0]] - coarse[[0, 0]];
+        let largest = coarse.iter().fold(0.0, |m: f64, h| m.max(*h));
+        for ((i, j), h) in coarse.indexed_iter() {
+            assert!((fine[[2 * i, 2 * j]] - offset - h).abs() < 1e-12 * largest, "{i}, {j}");
+        }
+    }
+
+    #[test]
+    fn a_rough_contact_is_told_in_numbers() {
+        let (side, mean) = (64, 0.01);
+        let accuracy = Accuracy { tolerance: 1e-7, max_convolutions: 1000, precision: Precision::Double };
+        let grids = levels(side);
+        let found = Device::HOST.press(&rough(side), &grids, mean, &accuracy, (0.2, 400), &()).unwrap();
+        assert!(found.residual < 1e-7 && found.mean_gap > 0.0 && found.max_pressure > mean);
+        let counted: u64 = found.histogram.iter().sum();
+        assert_eq!(counted as f64, found.area * (side * side) as f64);
+        // The pressures of the bins carry the load.
+        let width = 0.2 / 400.0;
+        let borne: f64 =
+            found.histogram.iter().enumerate().map(|(bin, n)| (bin as f64 + 0.5) * width * *n as f64).sum();
+        assert!((borne / (side * side) as f64 / mean - 1.0).abs() < 0.01, "{borne}");
+        // The same contact from heights.
+        let gap = Device::HOST.gap_of(&rough(side), &grids[0]).unwrap();
+        let upper = asperity_base::grid::CellValues::Uniform(f64::INFINITY);
+        let problem = Problem {
+            contacts: &[crate::Contact { gap: &gap, upper: &upper, start: None }],
+            grids: &grids,
+            control: Control::PressureSum(mean * gap.len() as f64),
+            accuracy,
+        };
+        let same = Device::HOST.solve(&problem, &()).unwrap();
+        assert_eq!(same.residual, found.residual);
+    }
+
+    #[test]
+    fn memory_is_that_of_the_fields() {
+        let side = 64.0f64 * 64.0;
+        assert!(memory(side, side, false, 0, Precision::Double) / side <= 56.0);
+        assert!(memory(side, side, false, 0, Precision::Single) / side <= 30.0);
+    }
+}
