@@ -86,7 +86,7 @@ pub(crate) fn solve<D: Device>(
             let found = iteration.solve(&loose, MAX_COARSE_CONVOLUTIONS, true);
             spent.push([iteration.convolutions as f64, cells]);
             match found {
-                Ok(_) => guess = Some(device.into_pressure(iteration.fields)?),
+                Ok(_) => guess = Some(device.pressure_of(iteration.fields)?),
                 // Without a solution on the coarse grid there is no guess.
                 Err(Error::NotConverged { .. }) => {}
                 Err(other) => return Err(other),

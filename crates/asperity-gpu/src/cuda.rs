@@ -464,7 +464,7 @@ impl Device for Cuda {
         CudaFields::new(self, gaps, level)
     }
 
-    fn into_pressure(&self, mut fields: CudaFields) -> Result<Pressure> {
+    fn pressure_of(&self, mut fields: CudaFields) -> Result<Pressure> {
         let layout = Layout { shapes: std::mem::take(&mut fields.layout.shapes) };
         Ok(Pressure { layout, values: std::mem::replace(&mut fields.pressure, self.memory(0)?) })
     }
@@ -708,7 +708,7 @@ impl CudaFields {
             direction: cuda.memory(4 * cells)?,
             set: cuda.memory(cells)?,
             buffer: cuda.memory(contacts * rows * stride * bytes(precision))?,
-            work: work,
+            work,
             plans,
             parts: cuda.memory(BLOCKS as usize * PARTS * 8)?,
             results: cuda.memory(PARTS * 8)?,

@@ -29,7 +29,7 @@ pub(crate) trait Device {
     fn fields(&self, gaps: Self::Gaps, level: &Level) -> Result<Self::Fields>;
 
     /// Keeps the pressure alone.
-    fn into_pressure(&self, fields: Self::Fields) -> Result<Self::Pressure>;
+    fn pressure_of(&self, fields: Self::Fields) -> Result<Self::Pressure>;
 
     /// Sets the pressure of each cell to that of the coarse cell that covers it.
     fn prolong(&self, coarse: &Self::Pressure, fine: &mut Self::Fields) -> Result<()>;

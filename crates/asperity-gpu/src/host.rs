@@ -114,7 +114,7 @@ impl Device for Host {
         Ok(fields)
     }
 
-    fn into_pressure(&self, fields: HostFields) -> Result<Vec<Field>> {
+    fn pressure_of(&self, fields: HostFields) -> Result<Vec<Field>> {
         Ok(fields.cut(&fields.pressure))
     }
 

@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
+use crate::math::parallel;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
@@ -37,11 +38,9 @@ impl Solver<'_> {
     ) -> Result<Option<Pass>> {
         let count = self.positions.len() as f64;
         let friction = self.motion.friction;
-        let contacts: Vec<(Field, Bounds)> = self
-            .positions
-            .iter()
-            .map(|position| (pair.initial_gap(position), pair.bounds(position, friction.as_ref())))
-            .collect();
+        let contacts: Vec<(Field, Bounds)> = parallel::tasks(self.positions, |position| {
+            (pair.initial_gap(position), pair.bounds(position, friction.as_ref()))
+        });
         let bearable: f64 = contacts.iter().map(|(gap, bounds)| bounds.upper().sum(gap.len())).sum();
         let total = match control {
             Control::Load(load) if load * count >= pair.cell_area() * bearable => return Ok(None),
@@ -80,7 +79,7 @@ impl Solver<'_> {
             Contact::new(position, sliding.as_ref(), solution).with_gap(solution, self.gaps[index])
         };
         Pass {
-            contacts: solutions.iter().enumerate().map(contact).collect(),
+            contacts: parallel::tasks(solutions.iter().enumerate(), contact),
             pair: pair.clone(),
             lost: self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect(),
             has_changed: false,

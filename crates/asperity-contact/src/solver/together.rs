@@ -2,6 +2,7 @@
 
 use crate::error::Result;
 use crate::grid::{Field, Grid};
+use crate::math::parallel;
 use crate::operator::Definition;
 use crate::solver::active_set::NearCopies;
 use crate::solver::bounds::Bounds;
@@ -87,12 +88,12 @@ pub(crate) fn solve_batch(
     let device::Found { fields, approach, self_influence, stats, .. } =
         device::together(&device, definition, &sites, &settings, params)?;
     let solution = |((initial_gap, bounds), [pressure, displacement]): ((Field, Bounds), [Field; 2])| {
-        let residual =
-            residual(&pressure, &displacement, &initial_gap, &bounds, self_influence, Some(approach)).eta;
+        let at = Some(approach);
+        let residual = residual(&pressure, &displacement, &initial_gap, &bounds, self_influence, at).eta;
         let grid = Grid { shape: initial_gap.dim().into(), ..grid };
         Solution { grid, initial_gap, bounds, pressure, displacement, approach, residual, stats }
     };
-    Ok(contacts.into_iter().zip(fields).map(solution).collect())
+    Ok(parallel::tasks(contacts.into_iter().zip(fields), solution))
 }
 
 /// Returns the flat cells in contact, and their pressure.
