@@ -3,6 +3,8 @@
 //!
 //! Arguments are the parts to run: `agree`, `periodic`, `free`, `pass`, `challenge`; all without one.
 
+#![expect(clippy::print_stdout, reason = "a measurement prints its result")]
+
 use std::time::Instant;
 
 use asperity_base::{Field, Grid};
@@ -22,6 +24,8 @@ const PRESSURES: [(f64, &str); 3] = [(0.0023, "5 %"), (0.0095, "20 %"), (0.036, 
 const TOLERANCE: f64 = 1e-6;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
+/// A part of the measurements on a device.
+type Part<'a> = (&'a str, &'a dyn Fn(&asperity_gpu::Device) -> Outcome);
 
 fn main() -> Outcome {
     let asked: Vec<String> = std::env::args().skip(1).filter(|arg| !arg.starts_with("--")).collect();
@@ -36,7 +40,7 @@ fn main() -> Outcome {
         card.free / 1e9,
         rayon_core::current_num_threads()
     );
-    let parts: [(&str, &dyn Fn(&asperity_gpu::Device) -> Outcome); 5] = [
+    let parts: [Part; 5] = [
         ("agree", &agree),
         ("periodic", &periodic),
         ("pass", &pass),

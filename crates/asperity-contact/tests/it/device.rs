@@ -109,10 +109,8 @@ fn random_contacts_agree_with_those_of_the_processor() {
             found.residual
         );
     }
-    println!(
-        "convolutions and preconditioned residuals {}, on the processor {}",
-        convolutions[0], convolutions[1]
-    );
+    // Residuals that are preconditioned count, too; the processor does that without transforms.
+    assert!(convolutions[0] < 4.0 * convolutions[1], "{convolutions:?}");
 }
 
 #[test]
