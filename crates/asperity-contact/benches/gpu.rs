@@ -186,9 +186,9 @@ fn periodic(device: &asperity_gpu::Device) -> Outcome {
                 device.press(&rough, &grids, pressure * MODULUS, &accuracy, (1.0, 1), &())
             };
             let repeats = match side {
-                ..=2048 => 7,
-                ..=8192 => 5,
-                16384 => 3,
+                ..2049 => 7,
+                2049..8193 => 5,
+                8193..16385 => 3,
                 _ => 1,
             };
             let found: Vec<_> = (0..repeats).map(|_| press()).collect::<Result<_, _>>()?;
