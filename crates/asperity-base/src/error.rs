@@ -197,7 +197,7 @@ pub enum Error {
     NoDevice {
         /// The device, as the user named it.
         device: &'static str,
-        /// What is there.
+        /// The devices or libraries that are there, or what is missing.
         found: String,
     },
     /// A device has too little memory.
@@ -215,7 +215,7 @@ pub enum Error {
     DeviceFailed {
         /// Name of the device.
         device: String,
-        /// What the driver or the library said.
+        /// The message of the driver or of the library.
         reason: String,
     },
     /// The iteration stopped above the tolerance.

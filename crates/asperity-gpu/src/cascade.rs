@@ -17,7 +17,7 @@ const COMPLIANCE_FACTOR: f64 = 2.0;
 /// Fraction of the interference of a cell that its first pressure closes at an approach, as if the cell were alone.
 const FIRST_PRESSURE: f64 = 0.3;
 
-/// What is solved: the gaps on the device, and what presses the bodies.
+/// A contact to be solved: the gaps on the device, and the load or the approach.
 pub(crate) struct Task<'a, G> {
     /// Gaps and upper bounds on the finest grid.
     pub(crate) gaps: G,

@@ -547,7 +547,7 @@ struct Spectrum {
 
 /// A plan of transforms in place, whose work area is given.
 struct Plan {
-    /// What it transforms.
+    /// Kind, shape and number of its transforms.
     of: Transforms,
     handle: fft_sys::cufftHandle,
     /// Bytes of its work area.

@@ -24,7 +24,7 @@ enum Kind {
     Cuda(Cuda),
 }
 
-/// What a device is.
+/// Name and memory of a device.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Card {
     /// Its name.
@@ -93,7 +93,7 @@ impl Device {
     /// [`Problem`], periodic; `histogram` is the largest pressure of the histogram and its number of bins.
     ///
     /// # Errors
-    /// Those of [`Device::solve`].
+    /// The errors of [`Device::solve`].
     pub fn press(
         &self,
         rough: &Rough,

@@ -433,7 +433,7 @@ __device__ void amplitude(const Waves& w, long long k, long long l, double* re, 
     const double q = w.first * sqrt((double)k * (double)k + (double)l * (double)l);
     *re = *im = 0;
     if (q == 0 || q > w.shortest) return;
-    // Of a pair of waves with opposite signs one is drawn.
+    // One of a pair of waves with opposite signs is drawn.
     const double sign = l == 0 && k < 0 ? -1 : 1;
     const place at = mixed(mixed(w.seed) ^ (((place)(sign * k + 2147483648.0) << 32) | (place)l));
     const double u = ((at >> 11) + 0.5) / 9007199254740992.0, v = (mixed(at) >> 11) / 9007199254740992.0;

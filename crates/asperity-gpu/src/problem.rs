@@ -12,7 +12,7 @@ pub struct Problem<'a> {
     /// The grid of these contacts and the next coarser ones, from fine to coarse, as many as serve a first guess. Each has
     /// half as many cells along each axis as the one before, rounded up.
     pub grids: &'a [Level],
-    /// What presses the bodies.
+    /// The load or the approach of the bodies.
     pub control: Control,
     /// How exactly it is solved.
     pub accuracy: Accuracy,
@@ -40,7 +40,7 @@ pub struct Contact<'a> {
     pub start: Option<&'a Field>,
 }
 
-/// What is prescribed.
+/// The prescribed quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Control {
     /// The sum Σ p of the pressures of all cells, Pa.
@@ -73,7 +73,7 @@ pub struct Level {
 
 /// Displacement of the cells under the pressure of the others.
 pub enum Compliance {
-    /// That of the [`Harmonics`], along two periodic axes. The mean displacement is 0.
+    /// The displacement of the [`Harmonics`], along two periodic axes. The mean displacement is 0.
     Harmonic,
     /// The displacement at the distance of `[i, j]` cells per unit pressure on a cell, m/Pa, up to half of the padded shape.
     Influence(Field),

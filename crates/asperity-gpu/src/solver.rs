@@ -393,7 +393,7 @@ impl<'a, F: Fields> Iteration<'a, F> {
     }
 }
 
-/// What is left after conjugate gradients on a set of free cells, as displacements.
+/// Residual and violations after conjugate gradients on a set of free cells, as displacements.
 struct Left {
     /// Norm of the residual at the free cells.
     residual: f64,
@@ -405,5 +405,5 @@ struct Left {
     datum: Metre,
 }
 
-/// What is expected of each result.
+/// The expectation of each result.
 pub(crate) const FINITE: &str = "a number in double precision: check the units of moduli, heights and load";

@@ -111,7 +111,7 @@ pub(crate) struct Run {
     /// Number of threads, at most 1024; default: the limit of a scheduler or container, otherwise all cores
     #[arg(long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<usize>,
-    /// What solves the contact, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or host
+    /// Device that solves the contact, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or host
     #[arg(long, value_name = "DEVICE", value_parser = choice::<Device>())]
     pub(crate) device: Option<Device>,
     /// Print only warnings and errors
@@ -187,7 +187,7 @@ pub(crate) struct Check {
     /// Case file
     #[arg(value_name = "CASE.toml")]
     pub(crate) case: PathBuf,
-    /// What would solve the contact, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or host
+    /// Device that would solve the contact, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or host
     #[arg(long, value_name = "DEVICE", value_parser = choice::<Device>())]
     pub(crate) device: Option<Device>,
 }

@@ -43,7 +43,7 @@ pub(crate) struct Study {
     /// Number of threads, and of cases at a time, at most 1024; default: the limit of a scheduler or container, otherwise all cores
     #[arg(long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<usize>,
-    /// What solves the contacts, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or host
+    /// Device that solves the contacts, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or host
     #[arg(long, value_name = "DEVICE", value_parser = choice::<Device>())]
     pub(crate) device: Option<Device>,
     /// Print only warnings and errors

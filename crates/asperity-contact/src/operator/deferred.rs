@@ -9,7 +9,7 @@ use crate::math::parallel;
 use crate::operator::{Boundary, FreeFamily, Operator, PeriodicFft};
 use crate::units::Metre;
 
-/// What an operator is made of.
+/// Grid, boundary and bodies of an operator.
 #[derive(Debug, Clone)]
 pub struct Definition {
     /// The grid.

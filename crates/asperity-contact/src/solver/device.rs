@@ -16,7 +16,7 @@ use crate::solver::cascade::MIN_CELLS;
 use crate::solver::{Answer, Control, Method, Params, Problem, Settings, Stats, Watch};
 use crate::units::Metre;
 
-/// What solves a contact.
+/// The device that solves a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Device {
     /// The processor.

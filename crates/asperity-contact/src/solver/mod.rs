@@ -103,7 +103,7 @@ pub struct Params {
     pub tolerance: f64,
     /// Largest number of operator calls.
     pub max_convolutions: usize,
-    /// What solves the contact.
+    /// The device that solves the contact.
     pub device: Device,
 }
 

@@ -173,7 +173,7 @@ pub struct Contact {
     pub grid: GridMatch,
     /// The solver.
     pub method: Method,
-    /// What solves the contact.
+    /// The device that solves the contact.
     pub device: Device,
     /// Scale-free complementarity residual at which the solver stops, 0 < η < 1.
     pub tolerance: f64,

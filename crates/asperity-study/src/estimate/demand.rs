@@ -76,7 +76,7 @@ pub fn demand(case: &Case, given: &SurfaceInput, threads: usize) -> Result<Deman
 /// files are read.
 ///
 /// # Errors
-/// Those of [`demand`].
+/// The errors of [`demand`].
 pub fn memory_on_device(case: &Case, given: &SurfaceInput) -> Result<f64> {
     let [lower, upper] = grids(case, given)?;
     let overlaps: Vec<usize> = super::positions(case, [lower, upper]).iter().map(|p| p.columns).collect();
