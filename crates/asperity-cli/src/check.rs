@@ -44,7 +44,7 @@ fn text(
         ("contact", contact(case, estimate)),
         ("motion", motion(case, estimate)),
         ("memory", memory(demand)),
-        ("time", time(demand)),
+        ("time", format!("{}{}", time(demand), if device.is_some() { ", on the processor" } else { "" })),
     ];
     let friction = case.friction.as_ref().map(|spec| ("friction", friction(&spec.law, estimate)));
     let history = match &estimate.loading_path {

@@ -294,11 +294,11 @@ fn hint(error: &Error) -> Option<String> {
             "fewer cells take less: `shape` or `resample`; so do fewer threads, and `pressure_every = 0` in [output]"
                 .to_owned(),
         ),
-        Error::NoDevice { .. } => Some(
-            "leave `--device`, and `device` in [contact], out, and the processor solves it; `cargo install` builds a program for \
-             GPUs with `--features cuda`"
+        Error::NoDevice { found, .. } => Some(match found.contains("without the feature") {
+            true => "install the command with `--features cuda`; without `device` the processor solves the contact".to_owned(),
+            false => "`LD_LIBRARY_PATH` may name the folder of the libraries; without `device` the processor solves the contact"
                 .to_owned(),
-        ),
+        }),
         Error::DeviceMemory { .. } => {
             Some("fewer cells take less: `shape` or `resample`; or leave `device` out".to_owned())
         }

@@ -102,7 +102,7 @@ impl Cuda {
         // SAFETY: only libraries of CUDA are opened, whose initialisers are those of any program that uses them.
         let present = unsafe {
             [
-                ("the driver (libcuda)", driver_sys::is_culib_present()),
+                ("driver (libcuda)", driver_sys::is_culib_present()),
                 ("NVRTC (libnvrtc)", nvrtc_sys::is_culib_present()),
                 ("cuFFT (libcufft)", fft_sys::is_culib_present()),
             ]

@@ -5,6 +5,7 @@ mod check;
 mod command;
 #[cfg(unix)]
 mod damage;
+mod device;
 mod digests;
 mod directories;
 mod documents;
