@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::operator::{DirectSum, FreeFft, Operator, PeriodicFft};
 use crate::reference::rough::fully_plastic_area;
-use crate::solver::{Bounds, Control, Method, Params, solve_normal};
+use crate::solver::{Bounds, Control, Device, Method, solve_normal};
 use crate::surface::{Amplitude, SelfAffine};
 use crate::units::Pascal;
 
@@ -77,10 +77,13 @@ fn work() -> Result<Vec<Check>> {
     })
 }
 
-/// Three methods that share only the operator, on one rough contact. The direct one is exact. The bound is the tolerance of
+/// Three methods that share only the operator, and the solver of devices, on one rough contact. The direct one is exact. The bound is the tolerance of
 /// the others times the condition number of the contact.
-pub(super) const METHODS: Case =
-    Case { name: "rough contact: three methods", source: "uniqueness of the contact", checks: methods };
+pub(super) const METHODS: Case = Case {
+    name: "rough contact: three methods, device",
+    source: "uniqueness of the contact",
+    checks: methods,
+};
 
 fn methods() -> Result<Vec<Check>> {
     let checks = [
@@ -107,11 +110,15 @@ fn methods() -> Result<Vec<Check>> {
 /// Largest difference between the pressures of the iterative methods and the direct one, over the largest pressure.
 fn disagreement(operator: &mut dyn Operator, gap: &Field, hardness: Pascal) -> Result<f64> {
     let load = Control::Load(0.1 * MODULUS * SLOPE * operator.grid().area());
-    let mut pressure = |method| {
-        let params = Params { method, ..PARAMS };
+    let mut pressure = |method, device| {
+        let params = PARAMS.with_method(method).with_device(device);
         Ok(solve_normal(operator, gap, &Bounds::up_to(hardness), load, None, &params)?.pressure)
     };
-    let exact = pressure(Method::Direct)?;
-    let [conjugate, active] = [pressure(Method::PolonskyKeer)?, pressure(Method::ActiveSet)?];
-    Ok(largest(&[conjugate, active].map(|pressure| relative_max(&pressure, &exact))))
+    let exact = pressure(Method::Direct, Device::Cpu)?;
+    let others = [
+        pressure(Method::PolonskyKeer, Device::Cpu)?,
+        pressure(Method::ActiveSet, Device::Cpu)?,
+        pressure(Method::ActiveSet, Device::Host)?,
+    ];
+    Ok(largest(&others.map(|pressure| relative_max(&pressure, &exact))))
 }

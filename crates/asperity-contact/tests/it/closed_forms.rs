@@ -36,7 +36,7 @@ cases! {
     what_cannot_be_compressed_flows_out_of_the_gap: "Coated half-space: thin incompressible layer on a rigid body",
     what_flows_everywhere_bears_its_hardness: "fully plastic: W = 0.2 H A₀",
     the_bodies_store_the_work_of_the_load: "rough contact: work of the load",
-    the_contact_does_not_depend_on_how_it_is_found: "rough contact: three methods",
+    the_contact_does_not_depend_on_how_it_is_found: "rough contact: three methods, device",
     a_sphere_sticks_by_its_work_of_adhesion_alone: "JKR: sphere, range of the grid",
     a_long_attraction_reaches_beyond_the_contact: "Maugis: sphere, λ = 0.3",
     a_short_attraction_pulls_at_the_edge: "Maugis: sphere, λ = 1",
