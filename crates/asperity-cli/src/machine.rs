@@ -22,7 +22,7 @@ pub(crate) struct OnDevice {
 /// Opens the device that solves the case, if it is not the processor, before anything is computed.
 pub(crate) fn device(case: &Case) -> Result<Option<OnDevice>> {
     let Some(card) = case.contact.device.card()? else { return Ok(None) };
-    let needed = study::memory_on_device(case, &SurfaceInput::default())?;
+    let needed = study::memory_on_device(case, &SurfaceInput::default(), rayon::current_num_threads())?;
     if needed > card.free {
         return Err(Error::DeviceMemory { device: card.name, needed, free: card.free });
     }

@@ -72,12 +72,12 @@ pub fn demand(case: &Case, given: &SurfaceInput, threads: usize) -> Result<Deman
     Ok(Demand { surfaces, solver, together, results, memory, passes, convolutions, effort, drawing })
 }
 
-/// Returns an upper bound of the memory, bytes, that the contacts of `case` take on a device at a time. Only the sizes of
-/// files are read.
+/// Returns an upper bound of the memory, bytes, that the contacts of `case` take on a device at a time, on `threads` threads.
+/// Only the sizes of files are read.
 ///
 /// # Errors
 /// The errors of [`demand`].
-pub fn memory_on_device(case: &Case, given: &SurfaceInput) -> Result<f64> {
+pub fn memory_on_device(case: &Case, given: &SurfaceInput, threads: usize) -> Result<f64> {
     let [lower, upper] = grids(case, given)?;
     let overlaps: Vec<usize> = super::positions(case, [lower, upper]).iter().map(|p| p.columns).collect();
     let sizes = Sizes { case, lower, upper, overlaps: &overlaps };
@@ -90,7 +90,9 @@ pub fn memory_on_device(case: &Case, given: &SurfaceInput) -> Result<f64> {
     };
     let shapes: Vec<[usize; 2]> = match &case.motion {
         Some(motion) if is_batch(motion) => sizes.solved().iter().map(|columns| [*columns, ny]).collect(),
-        _ => vec![[nx, ny]],
+        // Each thread has a position.
+        Some(_) => vec![[nx, ny]; threads.clamp(1, overlaps.len().max(1))],
+        None => vec![[nx, ny]],
     };
     Ok(solver::memory_on_device(&shapes, case.contact.boundary, case.is_coated(), yields))
 }
