@@ -41,6 +41,18 @@ def test_fields_have_unit_pitch_and_origin(pair: Pair) -> None:
         c.fields["presure"]
 
 
+def test_a_device_solves_the_same_contact_or_says_why_not(pair: Pair) -> None:
+    here, there = (asp.contact(*pair, load="5 mN", device=device) for device in ("cpu", "host"))
+    assert np.allclose(there.pressure, here.pressure, atol=1e-5 * here.max_pressure)
+    assert there.case["contact"]["device"] == "host" and "device" not in here.case["contact"]
+    with pytest.raises(errors.BadInput, match="a device does not solve friction with stick"):
+        asp.contact(*pair, load="5 mN", device="host", friction={"coefficient": 0.3, "force": "1 mN"})
+    try:
+        asp.contact(*pair, load="5 mN", device="cuda")
+    except errors.NoDevice as error:
+        assert error.device == "cuda" and error.found and error.hint
+
+
 def test_the_upper_body_is_turned_over_unless_it_is_an_underside(steel: asp.Material) -> None:
     lower, upper = asp.Body(rough(1), steel), rough(2)
     turned = asp.contact(lower, asp.Body(upper, steel), load="5 mN")
