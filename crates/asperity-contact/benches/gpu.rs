@@ -105,7 +105,7 @@ fn agree(_: &asperity_gpu::Device) -> Outcome {
         };
         let solve = |device: Device| {
             let params = Params::new().with_tolerance(TOLERANCE).with_device(device);
-            solve_normal(operators.on_for(shape, device).as_mut(), &gap, &bounds, control, None, &params)
+            solve_normal(device.operator(&operators, shape).as_mut(), &gap, &bounds, control, None, &params)
         };
         let (found, again, expected) = (solve(Device::Cuda)?, solve(Device::Cuda)?, solve(Device::Cpu)?);
         println!(
@@ -247,7 +247,7 @@ fn free(device: &asperity_gpu::Device) -> Outcome {
         let params = Params::new().with_tolerance(TOLERANCE).with_device(Device::Cuda);
         let control = Control::Load(PRESSURES[1].0 * grid.area());
         let began = Instant::now();
-        let mut operator = operators.on_for(grid.shape, Device::Cuda);
+        let mut operator = Device::Cuda.operator(&operators, grid.shape);
         let found = solve_normal(operator.as_mut(), &gap, &Bounds::ELASTIC, control, None, &params)?;
         println!(
             "| {side}² | {:.2} % | {} | {:.1} | {:.1e} | {:.2} |",

@@ -17,7 +17,7 @@ use cudarc::cufft::{result as fft, sys as fft_sys};
 use cudarc::driver::{CudaContext, CudaFunction, DriverError, result as driver, sys as driver_sys};
 use cudarc::nvrtc::{CompileOptions, compile_ptx_with_opts, sys as nvrtc_sys};
 
-use crate::device::Card;
+use crate::card::Card;
 use crate::fields::{Device, Fields};
 use crate::problem::{Compliance, Contact, Harmonics, Level, Precision, Rough};
 use crate::waves::Waves;

@@ -5,6 +5,7 @@ use asperity_base::grid::Field;
 use asperity_base::units::Pascal;
 use web_time::Instant;
 
+use crate::card::Card;
 use crate::cascade::{Solved, Task};
 #[cfg(feature = "cuda")]
 use crate::cuda::Cuda;
@@ -22,19 +23,6 @@ enum Kind {
     Host,
     #[cfg(feature = "cuda")]
     Cuda(Cuda),
-}
-
-/// Name and memory of a device.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Card {
-    /// Its name.
-    pub name: String,
-    /// Its compute capability, if it is a GPU.
-    pub capability: Option<[u32; 2]>,
-    /// Its memory, bytes.
-    pub memory: f64,
-    /// Memory that is free, bytes.
-    pub free: f64,
 }
 
 impl Device {

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod card;
 mod cascade;
 #[cfg(feature = "cuda")]
 #[allow(unsafe_code)]
@@ -11,7 +12,8 @@ mod problem;
 mod solver;
 mod waves;
 
-pub use device::{Card, Device, memory};
+pub use card::Card;
+pub use device::{Device, memory};
 pub use problem::{
     Accuracy, Compliance, Contact, Control, Cost, Harmonics, Level, Precision, Problem, Rough, Solution,
     Statistics, Watch,

@@ -80,7 +80,7 @@ impl Contact {
                     .normal
             }
             _ => {
-                let mut operator = operators.on_for(shape, params.device);
+                let mut operator = params.device.operator(operators, shape);
                 solve_normal_watched(operator.as_mut(), &gap, &bounds, control, start, params, watch)?
             }
         };
@@ -271,7 +271,7 @@ pub fn press(
 ) -> Result<StaticContact> {
     let position = pair.at_rest();
     let (operators, gap) = facing(pair, boundary)?;
-    let mut operator = operators.on_for(pair.lower_grid().shape, params.device);
+    let mut operator = params.device.operator(&operators, pair.lower_grid().shape);
     let bounds = pair.bounds(&position, None);
     let watch = StaticWatch::new(watch, 0, 1, control);
     let solution = press_from(pair, operator.as_mut(), &gap, &bounds, control, None, params, &watch)?;

@@ -229,7 +229,7 @@ impl<'a> Bodies<'a> {
         let (operators, gap) = facing(pair, boundary)?;
         let shape = pair.lower_grid().shape;
         let solver = match friction {
-            None => Solver::Frictionless(pair, operators.on_for(shape, params.device)),
+            None => Solver::Frictionless(pair, params.device.operator(&operators, shape)),
             Some(friction) => {
                 pair.check_no_adhesion()?;
                 pair.check_shear()?;

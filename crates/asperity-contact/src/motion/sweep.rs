@@ -62,7 +62,7 @@ pub fn sweep(
         points,
         params,
         gap,
-        normal: operators.on_for(shape, params.device),
+        normal: params.device.operator(&operators, shape),
         coupled: rolls.then(|| operators.coupled_on(shape)),
         records,
         last: None,

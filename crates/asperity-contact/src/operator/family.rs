@@ -9,7 +9,6 @@ use crate::operator::shared::Shared;
 use crate::operator::{
     Boundary, CoupledOperator, Deferred, Definition, FreeFamily, Operator, PeriodicKernel,
 };
-use crate::solver::Device;
 
 /// Creates operators for one cell size, pair of bodies and boundary. They share the spectra of their coefficients.
 ///
@@ -57,16 +56,12 @@ impl Operators {
         }
     }
 
-    /// Returns the normal operator on `shape` cells for contacts that this device solves. A GPU needs neither its transforms nor
-    /// its coefficients, which are then computed only if the processor needs them.
-    pub fn on_for(&self, shape: [usize; 2], device: Device) -> Box<dyn Operator> {
-        match device {
-            Device::Cpu => self.on(shape),
-            Device::Cuda | Device::Host => Box::new(Deferred::new(self.definition(shape))),
-        }
+    /// Returns the normal operator on `shape` cells, whose transforms and coefficients are computed when they are needed.
+    pub fn deferred_on(&self, shape: [usize; 2]) -> Box<dyn Operator> {
+        Box::new(Deferred::new(self.definition(shape)))
     }
 
-    /// Returns what the normal operator on `shape` cells is made of.
+    /// Returns the definition of the normal operator on `shape` cells.
     pub(crate) fn definition(&self, shape: [usize; 2]) -> Definition {
         let datum = self.boundary.datum(&self.largest);
         Definition { grid: self.grid(shape), boundary: self.boundary, response: self.response.clone(), datum }

@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::math::fft::angular_frequency;
 use crate::math::parallel;
-use crate::operator::{Boundary, Definition};
+use crate::operator::{Boundary, Definition, Operator, Operators};
 use crate::solver::bounds::Bounds;
 use crate::solver::cascade::MIN_CELLS;
 use crate::solver::{Answer, Control, Method, Params, Problem, Settings, Stats, Watch};
@@ -47,6 +47,15 @@ impl Device {
                 }
                 Ok(open.clone())
             }
+        }
+    }
+
+    /// Returns the normal operator on `shape` cells for contacts that it solves. A device needs neither its transforms nor its
+    /// coefficients, which are then computed only if the processor needs them.
+    pub fn operator(self, operators: &Operators, shape: [usize; 2]) -> Box<dyn Operator> {
+        match self {
+            Self::Cpu => operators.on(shape),
+            Self::Cuda | Self::Host => operators.deferred_on(shape),
         }
     }
 
@@ -127,9 +136,7 @@ pub(super) fn together(
     params: &Params,
 ) -> Result<Found> {
     if !matches!(params.method, Method::Auto | Method::ActiveSet) {
-        return Err(Error::Unsupported(
-            "a device solves contacts by the active set: leave `method` out, or set it to \"active-set\"",
-        ));
+        return Err(Error::Unsupported("a device solves contacts by the active set only"));
     }
     if sites.iter().any(|site| site.bounds.lower().min() < 0.0) {
         return Err(Error::Unsupported("a device does not solve adhesive contacts"));
