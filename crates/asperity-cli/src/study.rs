@@ -37,6 +37,7 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
         let message = format!("the study has {} cases", study.len());
         return Err(Failure::usage(message, Some("`--yes` computes them, `--list` prints them")));
     }
+    study.open_devices()?;
     let folder = Folder::enter(&directory, &study).map_err(|error| changed(error.into()))?;
     foresee(&study, &folder)?;
     compute(&Queue::new(&study, &folder, task, arguments.retry)?, arguments.quiet).map_err(changed)?;

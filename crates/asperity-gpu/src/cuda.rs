@@ -725,7 +725,7 @@ impl CudaFields {
         fields.buffer.clear()?;
         fields.buffer.set_state(0, &[1.0], precision)?;
         fields.filter(fields.compliance, false)?;
-        fields.self_influence = fields.buffer.read_state(0, 1, precision)?[0];
+        fields.self_influence = level.self_influence(fields.buffer.read_state(0, 1, precision)?[0]);
         fields.bounds = fields.sums("bounds", 1, &[])?;
         Ok(fields)
     }

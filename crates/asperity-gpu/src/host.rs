@@ -110,7 +110,7 @@ impl Device for Host {
         fields.pressure[0] = 1.0;
         fields.buffer.copy_from_slice(&fields.pressure);
         fields.filter(|fields| &fields.compliance);
-        fields.self_influence = fields.buffer[0];
+        fields.self_influence = level.self_influence(fields.buffer[0]);
         Ok(fields)
     }
 

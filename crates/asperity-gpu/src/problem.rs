@@ -84,7 +84,7 @@ pub enum Harmonics {
     /// 2/(E* |q|) for the composite modulus E* of half-spaces.
     HalfSpaces(Pascal),
     /// The displacement per unit pressure, m/Pa, > 0, of the frequencies up to half of the padded shape along x and y, as
-    /// rows of one x; the first is not used.
+    /// rows of one x. In place of the uniform pressure, the first is a wave as long as a cell along x.
     Table(Field),
 }
 
@@ -179,6 +179,18 @@ impl Level {
     /// Returns the angular wavenumber of the first frequency along each axis.
     pub(crate) fn wavenumbers(&self) -> [f64; 2] {
         [0, 1].map(|axis| TAU / (self.padded[axis] as f64 * self.pitch[axis]))
+    }
+
+    /// Returns the displacement of a cell per unit pressure on itself, from the one that its convolution `found`. A single
+    /// periodic cell has none, because its mean is free; the displacement of a wave of this length then serves as a scale.
+    pub(crate) fn self_influence(&self, found: f64) -> f64 {
+        if found > 0.0 {
+            return found;
+        }
+        match &self.harmonics {
+            Harmonics::HalfSpaces(modulus) => 2.0 / (modulus * TAU / self.pitch[0]),
+            Harmonics::Table(table) => table[[0, 0]],
+        }
     }
 
     /// Returns the factor of the preconditioner for a uniform pressure, which has no wavenumber: that of half of the longest

@@ -386,7 +386,8 @@ impl<'a, F: Fields> Iteration<'a, F> {
             Control::Approach(_) => approach,
         };
         let [slope, curvature] = self.fields.descent(datum)?;
-        let share = if slope > 0.0 && curvature > 0.0 { (slope / curvature).min(1.0) } else { 0.0 };
+        // Without curvature, as of a uniform periodic pressure, the energy falls all the way.
+        let share = if slope > 0.0 { (slope / curvature.max(0.0)).min(1.0) } else { 0.0 };
         self.fields.step_from_kept(share)?;
         self.fields.keep()?;
         Ok(share)

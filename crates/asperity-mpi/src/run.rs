@@ -23,7 +23,7 @@ use asperity_base::io::atomic::Token;
 use asperity_base::ranks::{Largest, Ranks};
 use asperity_contact::motion::Pair;
 use asperity_contact::operator::{Boundary, Edge};
-use asperity_contact::solver::Method;
+use asperity_contact::solver::{Device, Method};
 use asperity_study::SurfaceInput;
 use asperity_study::case::Case;
 use asperity_study::io::fields::FieldFile;
@@ -209,6 +209,7 @@ fn check(case: &Case) -> Result<()> {
         ("output.paraview", case.output.paraview),
         ("contact.sweep", !case.contact.sweep.is_empty()),
         ("contact.method", matches!(case.contact.method, Method::Direct | Method::PolonskyKeer)),
+        ("contact.device", case.contact.device != Device::Cpu),
     ];
     let tables = tables.map(|(table, given)| (table.to_owned(), given));
     match tables.into_iter().chain(of_bodies).find(|(_, given)| *given) {
@@ -536,6 +537,7 @@ mod tests {
     fn what_is_not_computed_on_ranks_is_refused_at_its_line() {
         for (table, key) in [
             ("method = \"direct\"", "contact.method"),
+            ("device = \"host\"", "contact.device"),
             ("[friction]\ncoefficient = inf", "friction"),
             ("[subsurface]\nto = \"5 um\"", "subsurface"),
             ("[flow]\nviscosity = \"1 mPa s\"", "flow"),

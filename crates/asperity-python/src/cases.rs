@@ -75,6 +75,7 @@ impl CoreStudy {
     ) -> PyResult<Vec<(usize, String)>> {
         let [number, of] = task;
         work::run(py, threads, progress.as_ref(), |looking| {
+            self.study.open_devices()?;
             let folder = Folder::enter(&self.directory, &self.study)?;
             let queue = Queue::new(&self.study, &folder, Task { number, of }, retry)?;
             let ended = |_: usize, _: &Computed| looking.over(queue.len());

@@ -20,6 +20,8 @@ topography = { form = "flat" }
 load = "0.1 N"
 "#;
 
+const STUDY: &str = "base = \"case.toml\"\n[axes]\n\"contact.load\" = [\"0.1 N\", \"0.2 N\"]\n";
+
 fn with(text: &str) -> TempDir {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("case.toml"), text).unwrap();
@@ -72,12 +74,16 @@ fn a_contact_on_a_device_is_that_of_the_processor_and_says_so_in_its_case() {
 #[test]
 fn without_a_gpu_the_error_says_what_was_looked_for_and_found() {
     let folder = with(CASE);
-    for command in ["run case.toml --device cuda", "check case.toml --device cuda"] {
+    fs::write(folder.path().join("study.toml"), STUDY).unwrap();
+    for command in
+        ["run case.toml --device cuda", "check case.toml --device cuda", "study study.toml --device cuda"]
+    {
         let output = asperity(&folder, command);
         if !output.status.success() {
             let error = refused(&output);
             assert!(error.contains("no device for `cuda`: looked for a GPU of NVIDIA"), "{error}");
             assert!(error.contains("found") && error.contains("the processor solves the contact"), "{error}");
+            assert!(!folder.path().join("study").exists(), "nothing is begun");
         }
     }
     assert!(refused(&asperity(&folder, "run case.toml --device gpu")).contains("cpu, cuda, host"));
@@ -94,8 +100,7 @@ fn a_device_named_on_the_command_line_breaks_the_rules_of_the_case() {
 #[test]
 fn a_study_on_a_device_has_it_in_its_cases() {
     let folder = with(CASE);
-    let study = "base = \"case.toml\"\n[axes]\n\"contact.load\" = [\"0.1 N\", \"0.2 N\"]\n";
-    fs::write(folder.path().join("study.toml"), study).unwrap();
+    fs::write(folder.path().join("study.toml"), STUDY).unwrap();
     ok(&asperity(&folder, "study study.toml --device host --quiet"));
     let case = fs::read_to_string(folder.path().join("study/cases/0002/case.toml")).unwrap();
     assert!(case.contains(r#"device = "host""#), "{case}");

@@ -1,5 +1,6 @@
 //! Contacts that a device solves.
 
+use std::f64::consts::TAU;
 use std::sync::{Mutex, PoisonError};
 
 use asperity_base::choice::choice;
@@ -198,7 +199,8 @@ fn level(definition: &Definition) -> Level {
         Some(modulus) => Harmonics::HalfSpaces(modulus),
         None => Harmonics::Table(parallel::field(half, |k, l| {
             let q = |bin: usize, axis: usize| angular_frequency(bin, padded[axis], pitch[axis]);
-            response.harmonic_displacement(q(k, 0), q(l, 1))
+            let [qx, qy] = if [k, l] == [0, 0] { [TAU / pitch[0], 0.0] } else { [q(k, 0), q(l, 1)] };
+            response.harmonic_displacement(qx, qy)
         })),
     };
     let compliance = if boundary.leaves_mean_free() {

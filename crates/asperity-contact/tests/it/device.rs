@@ -131,6 +131,34 @@ fn coated_contacts_agree_with_those_of_the_processor() {
 }
 
 #[test]
+fn flat_bodies_agree_with_those_of_the_processor() {
+    let soft = Material::elastic(1.0, 0.3).unwrap().coated(Coating::new(3.0, 5.0, 0.25).unwrap());
+    let rigid = Material::elastic(f64::INFINITY, 0.3).unwrap();
+    for shape in [[1, 1], [1, 5], [6, 6], [66, 70]] {
+        let grid = Grid::new(shape, [1.0; 2]).unwrap();
+        // At this approach a periodic contact has all its cells at the hardness.
+        for control in [Control::Load(0.01 * grid.area()), Control::Approach(0.03)] {
+            for (boundary, coated) in
+                [(Boundary::PERIODIC, false), (Boundary::FREE, false), (Boundary::PERIODIC, true)]
+            {
+                let operators = match coated {
+                    true => Operators::new(grid, response(&soft, &rigid).unwrap(), boundary),
+                    false => Operators::new(grid, 1.0, boundary),
+                };
+                let bounds = Bounds::up_to(0.05);
+                let drawn = Drawn { operators, gap: grid.zeros(), bounds, control, grid };
+                let [found, expected] =
+                    [Device::Host, Device::Cpu].map(|device| solve(&drawn, device, None).unwrap());
+                for (found, expected) in found.pressure.iter().zip(&expected.pressure) {
+                    let error = (found - expected).abs();
+                    assert!(error < 1e-6, "{shape:?}, {boundary:?}, {control:?}: {found}, not {expected}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn a_start_near_the_solution_saves_work() {
     let drawn = draw(7, 64);
     let cold = solve(&drawn, Device::Host, None).unwrap();

@@ -67,6 +67,16 @@ impl Study {
         Ok(self)
     }
 
+    /// Opens the devices of the cases, so that one that is not there is reported before anything is computed.
+    ///
+    /// # Errors
+    /// [`Error::NoDevice`], [`Error::DeviceFailed`], and those of the cases.
+    pub fn open_devices(&self) -> Result<()> {
+        let differ = self.axes().iter().any(|axis| ["contact", "contact.device"].contains(&axis.key()));
+        let cases = if differ { self.tried() } else { vec![1] };
+        cases.into_iter().try_for_each(|number| self.case(number)?.contact.device.card().map(drop))
+    }
+
     /// The title; by default the file name.
     pub fn title(&self) -> &str {
         &self.file.title
