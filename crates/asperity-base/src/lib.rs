@@ -13,6 +13,7 @@
 //! | [`grid`] | [`Grid`], [`Field`], [`CellValues`], the placement of a grid on another |
 //! | `io`, a feature | atomic writing, reading of regular files |
 //! | [`ranks`] | processes that share the rows of one grid |
+//! | [`watch`] | [`watch::Watch`]: observation of a contact while it is solved |
 //! | [`math`] | transforms of real fields, work in bands of rows, quadrature, sums |
 
 // A module may use those above it, never those below.
@@ -24,6 +25,7 @@ pub mod record;
 #[cfg(feature = "io")]
 pub mod io;
 pub mod ranks;
+pub mod watch;
 pub mod math;
 
 pub use ndarray;

@@ -150,6 +150,12 @@ fn levels(side: usize, pitch: f64, modulus: f64) -> Vec<Level> {
     }
 }
 
+/// The surface of the timed contacts, which is made on the device.
+fn on_device(side: usize) -> Rough {
+    let longest = side as f64 / 4.0;
+    Rough { side, pitch: 1.0, hurst: 0.8, longest, shortest: 8.0, slope: SLOPE, seed: 11 }
+}
+
 fn median(mut times: Vec<f64>) -> f64 {
     times.sort_by(f64::total_cmp);
     times[times.len() / 2]
@@ -166,15 +172,7 @@ fn periodic(device: &asperity_gpu::Device) -> Outcome {
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|");
     for side in [512usize, 1024, 2048, 4096, 8192, 16384, 32768] {
-        let rough = Rough {
-            side,
-            pitch: 1.0,
-            hurst: 0.8,
-            longest: side as f64 / 4.0,
-            shortest: 8.0,
-            slope: SLOPE,
-            seed: 11,
-        };
+        let rough = on_device(side);
         let grids = levels(side, 1.0, MODULUS);
         let convolution = device.time_of_convolutions(&grids[0], side, 10)?;
         for (pressure, _) in PRESSURES {
@@ -232,15 +230,7 @@ fn free(device: &asperity_gpu::Device) -> Outcome {
     println!("| grid | area | iterations | convolutions | η | from heights to fields, s |");
     println!("|---|---|---|---|---|---|");
     for side in [1024usize, 4096, 8192] {
-        let rough = Rough {
-            side,
-            pitch: 1.0,
-            hurst: 0.8,
-            longest: side as f64 / 4.0,
-            shortest: 8.0,
-            slope: SLOPE,
-            seed: 11,
-        };
+        let rough = on_device(side);
         let gap = device.gap_of(&rough, &levels(side, 1.0, MODULUS)[0])?;
         let grid = Grid::new([side; 2], [1.0; 2])?;
         let operators = Operators::new(grid, MODULUS, Boundary::FREE);

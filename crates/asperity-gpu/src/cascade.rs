@@ -2,21 +2,15 @@
 
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::Field;
+use asperity_base::math::active_set::{COMPLIANCE_FACTOR, FIRST_PRESSURE, coarse_tolerance};
+use asperity_base::watch::{InnerWatch, Watch};
 
 use crate::fields::{Device, Fields};
-use crate::problem::{Accuracy, Control, Cost, Level, Watch};
+use crate::problem::{Accuracy, Control, Cost, Level};
 use crate::solver::{Iteration, State};
 
-/// Tolerance of the coarse grids, relative to std(u). If smaller, the scale is the displacement of a cell by its own pressure
-/// at the largest upper bound, which φ never exceeds.
-const COARSE_TOLERANCE: f64 = 1e-2;
 /// Largest number of convolutions on a coarse grid.
 const MAX_COARSE_CONVOLUTIONS: usize = 200;
-/// Compliance for the first prediction of the sets from a given start, as a multiple of the self-influence.
-const COMPLIANCE_FACTOR: f64 = 2.0;
-/// Fraction of the interference of a cell that its first pressure closes at an approach, as if the cell were alone.
-const FIRST_PRESSURE: f64 = 0.3;
-
 /// A contact to be solved: the gaps on the device, and the load or the approach.
 pub(crate) struct Task<'a, G> {
     /// Gaps and upper bounds on the finest grid.
@@ -78,11 +72,11 @@ pub(crate) fn solve<D: Device>(
         }
         let (cells, saturation) = (fields.cells() as f64, fields.self_influence() * most);
         let factor = if starts.is_some() { COMPLIANCE_FACTOR } else { 1.0 };
-        let inner = Inner(watch);
+        let inner = InnerWatch(watch);
         let watch: &dyn Watch = if number == 0 { watch } else { &inner };
         let mut iteration = Iteration::new(fields, control, precision, factor, watch)?;
         if number > 0 {
-            let loose = |state: &State| tolerance.max(COARSE_TOLERANCE * (saturation / state.scale).min(1.0));
+            let loose = |state: &State| coarse_tolerance(tolerance, saturation, state.scale);
             let found = iteration.solve(&loose, MAX_COARSE_CONVOLUTIONS, true);
             spent.push([iteration.convolutions as f64, cells]);
             match found {
@@ -102,16 +96,5 @@ pub(crate) fn solve<D: Device>(
             state,
             cost: Cost { iterations, convolutions, restarts },
         });
-    }
-}
-
-/// Stops when another watch does, but reports nothing.
-struct Inner<'a>(&'a dyn Watch);
-
-impl Watch for Inner<'_> {
-    fn iteration(&self, _: f64, _: f64) {}
-
-    fn stop(&self) -> bool {
-        self.0.stop()
     }
 }

@@ -11,7 +11,7 @@ use std::ptr::{from_ref, null_mut};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use asperity_base::error::{Error, Result};
-use asperity_base::grid::{CellValues, Field};
+use asperity_base::grid::{CellValues, Field, flat, in_rows};
 use asperity_base::units::{Metre, Pascal};
 use cudarc::cufft::{result as fft, sys as fft_sys};
 use cudarc::driver::{CudaContext, CudaFunction, DriverError, result as driver, sys as driver_sys};
@@ -84,7 +84,7 @@ struct Shared {
     card: Card,
     /// Plans that no contact uses now. To make one takes longer than many transforms of a small grid.
     plans: Mutex<Vec<Plan>>,
-    /// The compiled kernels, in double and in single precision, and memory for the sums of the blocks.
+    /// The compiled kernels, in double and in single precision.
     kernels: Mutex<[Option<Arc<Kernels>>; 2]>,
 }
 
@@ -344,7 +344,7 @@ impl Device for Cuda {
         let (starts, bytes) = (layout.starts(), layout.cells() * bytes(precision));
         let gap = self.memory(bytes)?;
         for (contact, start) in contacts.iter().zip(&starts) {
-            gap.set_state(*start as usize, &flat(contact.gap), precision)?;
+            gap.set_state(*start as usize, flat(&in_rows(contact.gap)), precision)?;
         }
         let first = contacts[0].upper.uniform();
         let alike = contacts.iter().all(|contact| contact.upper.uniform() == first);
@@ -355,7 +355,7 @@ impl Device for Cuda {
                 for (contact, start) in contacts.iter().zip(&starts) {
                     match contact.upper {
                         CellValues::Field(field) => {
-                            upper.set_state(*start as usize, &flat(field), precision)?
+                            upper.set_state(*start as usize, flat(&in_rows(field)), precision)?
                         }
                         CellValues::Uniform(cap) => {
                             upper.set_state(*start as usize, &vec![*cap; contact.gap.len()], precision)?;
@@ -478,14 +478,6 @@ impl Device for Cuda {
     }
 }
 
-/// Returns the values of a field, row by row.
-fn flat(field: &Field) -> std::borrow::Cow<'_, [f64]> {
-    match field.as_slice() {
-        Some(values) => values.into(),
-        None => field.iter().copied().collect::<Vec<f64>>().into(),
-    }
-}
-
 /// A pointer to an argument of a kernel.
 fn arg<T: Copy>(value: &T) -> *mut c_void {
     from_ref(value).cast_mut().cast()
@@ -494,13 +486,12 @@ fn arg<T: Copy>(value: &T) -> *mut c_void {
 impl Cuda {
     /// Starts a kernel.
     fn launch(&self, kernels: &Kernels, name: &str, blocks: u32, arguments: &[*mut c_void]) -> Result<()> {
-        let kernel = &kernels[name];
         let mut arguments = arguments.to_vec();
         // SAFETY: each call passes the arguments that the kernel of this name has, of the same types; memory that it reaches
         // is that of the fields, and is freed after the kernel by a call that waits.
         let launched = unsafe {
             driver::launch_kernel(
-                kernel_of(kernel),
+                kernels[name].cu_function(),
                 (blocks, 1, 1),
                 (THREADS, 1, 1),
                 0,
@@ -510,10 +501,6 @@ impl Cuda {
         };
         self.checked(launched)
     }
-}
-
-fn kernel_of(kernel: &CudaFunction) -> driver_sys::CUfunction {
-    kernel.cu_function()
 }
 
 /// The structure `Contacts` of the kernels.
@@ -737,14 +724,14 @@ impl CudaFields {
         if let Harmonics::Table(table) = &level.harmonics {
             let inverse =
                 |(at, value): (usize, &f64)| if at == 0 { level.stiffness_at_zero() } else { 1.0 / value };
-            let stiffness: Vec<f64> = flat(table).iter().enumerate().map(inverse).collect();
+            let stiffness: Vec<f64> = flat(&in_rows(table)).iter().enumerate().map(inverse).collect();
             let stiffness = self.cuda.state_of(&stiffness, self.precision)?;
             self.stiffness.table = stiffness.at;
             self.spectra.push(stiffness);
         }
         match (&level.compliance, &level.harmonics) {
             (Compliance::Influence(influence), _) => {
-                let influence = self.cuda.state_of(&flat(influence), self.precision)?;
+                let influence = self.cuda.state_of(flat(&in_rows(influence)), self.precision)?;
                 let spectrum = self.cuda.memory((rows / 2 + 1) * half * bytes(self.precision))?;
                 let (rows, columns, stride) = (rows as i32, columns as i32, 2 * half as i32);
                 self.buffer.clear()?;
@@ -760,7 +747,7 @@ impl CudaFields {
                 self.spectra.push(spectrum);
             }
             (Compliance::Harmonic, Harmonics::Table(table)) => {
-                let mut values = flat(table).into_owned();
+                let mut values = flat(&in_rows(table)).to_vec();
                 values[0] = 0.0;
                 let compliance = self.cuda.state_of(&values, self.precision)?;
                 self.compliance.table = compliance.at;
@@ -889,7 +876,7 @@ impl Fields for CudaFields {
 
     fn set_pressure(&mut self, pressure: &[&Field]) -> Result<()> {
         for (field, start) in pressure.iter().zip(self.layout.starts()) {
-            self.pressure.set_state(start as usize, &flat(field), self.precision)?;
+            self.pressure.set_state(start as usize, flat(&in_rows(field)), self.precision)?;
         }
         Ok(())
     }

@@ -3,6 +3,7 @@
 use asperity_base::error::{Result, check};
 use asperity_base::grid::Field;
 use asperity_base::units::Pascal;
+use asperity_base::watch::Watch;
 use web_time::Instant;
 
 use crate::card::Card;
@@ -11,7 +12,7 @@ use crate::cascade::{Solved, Task};
 use crate::cuda::Cuda;
 use crate::fields::Fields;
 use crate::host::Host;
-use crate::problem::{Accuracy, Control, Level, Precision, Problem, Rough, Solution, Statistics, Watch};
+use crate::problem::{Accuracy, Control, Level, Precision, Problem, Rough, Solution, Statistics};
 use crate::{cascade, fields, solver};
 
 /// A device on which contacts are solved.
@@ -23,6 +24,20 @@ enum Kind {
     Host,
     #[cfg(feature = "cuda")]
     Cuda(Cuda),
+}
+
+/// Evaluates an expression with the device of a [`Device`].
+macro_rules! on {
+    ($device:expr, $name:ident => $expression:expr) => {
+        match &$device.0 {
+            Kind::Host => {
+                let $name = &Host;
+                $expression
+            }
+            #[cfg(feature = "cuda")]
+            Kind::Cuda($name) => $expression,
+        }
+    };
 }
 
 impl Device {
@@ -58,8 +73,8 @@ impl Device {
     /// Solves contacts.
     ///
     /// # Errors
-    /// [`asperity_base::Error::NotConverged`], [`asperity_base::Error::Interrupted`], [`asperity_base::Error::DeviceMemory`], [`asperity_base::Error::DeviceFailed`],
-    /// [`asperity_base::Error::OutOfRange`] for results that are not finite.
+    /// [`asperity_base::Error::NotConverged`], [`asperity_base::Error::Interrupted`], [`asperity_base::Error::DeviceMemory`],
+    /// [`asperity_base::Error::DeviceFailed`], [`asperity_base::Error::OutOfRange`] for results that are not finite.
     ///
     /// # Panics
     /// If there is no contact or no grid, or if a contact is larger than the transforms of its grid.
@@ -70,11 +85,7 @@ impl Device {
             problem.contacts.iter().all(|contact| fits(contact.gap.shape())),
             "contacts within their grid"
         );
-        match &self.0 {
-            Kind::Host => solve(&Host, problem, watch),
-            #[cfg(feature = "cuda")]
-            Kind::Cuda(cuda) => solve(cuda, problem, watch),
-        }
+        on!(self, device => solve(device, problem, watch))
     }
 
     /// Solves the elastic contact of a rough surface that is made on the device, under a mean pressure. `grids` are those of
@@ -82,6 +93,9 @@ impl Device {
     ///
     /// # Errors
     /// The errors of [`Device::solve`].
+    ///
+    /// # Panics
+    /// If the finest of the `grids` is not that of the surface.
     pub fn press(
         &self,
         rough: &Rough,
@@ -91,23 +105,18 @@ impl Device {
         histogram: (Pascal, usize),
         watch: &dyn Watch,
     ) -> Result<Statistics> {
-        match &self.0 {
-            Kind::Host => press(&Host, rough, grids, mean_pressure, accuracy, histogram, watch),
-            #[cfg(feature = "cuda")]
-            Kind::Cuda(cuda) => press(cuda, rough, grids, mean_pressure, accuracy, histogram, watch),
-        }
+        on!(self, device => press(device, rough, grids, mean_pressure, accuracy, histogram, watch))
     }
 
     /// Returns the gap between a rough surface and a plane that touches its highest summit.
     ///
     /// # Errors
     /// [`asperity_base::Error::DeviceMemory`], [`asperity_base::Error::DeviceFailed`].
+    ///
+    /// # Panics
+    /// If `level` is not the grid of the surface.
     pub fn gap_of(&self, rough: &Rough, level: &Level) -> Result<Field> {
-        match &self.0 {
-            Kind::Host => gap_of(&Host, rough, level),
-            #[cfg(feature = "cuda")]
-            Kind::Cuda(cuda) => gap_of(cuda, rough, level),
-        }
+        on!(self, device => gap_of(device, rough, level))
     }
 
     /// Returns the time, s, of a convolution on a periodic grid with `side` cells along each axis, in single and in double
@@ -116,11 +125,7 @@ impl Device {
     /// # Errors
     /// [`asperity_base::Error::DeviceMemory`], [`asperity_base::Error::DeviceFailed`].
     pub fn time_of_convolutions(&self, level: &Level, side: usize, times: usize) -> Result<[f64; 2]> {
-        match &self.0 {
-            Kind::Host => time_of_convolutions(&Host, level, side, times),
-            #[cfg(feature = "cuda")]
-            Kind::Cuda(cuda) => time_of_convolutions(cuda, level, side, times),
-        }
+        on!(self, device => time_of_convolutions(device, level, side, times))
     }
 }
 
@@ -150,6 +155,7 @@ fn press<D: fields::Device>(
     (largest, bins): (Pascal, usize),
     watch: &dyn Watch,
 ) -> Result<Statistics> {
+    assert_eq!(grids[0].padded, [rough.side; 2], "the grid of the surface");
     let began = Instant::now();
     let gaps = device.rough(rough, &grids[0], accuracy.precision)?;
     let made = began.elapsed().as_secs_f64();
@@ -174,6 +180,7 @@ fn press<D: fields::Device>(
 }
 
 fn gap_of<D: fields::Device>(device: &D, rough: &Rough, level: &Level) -> Result<Field> {
+    assert_eq!(level.padded, [rough.side; 2], "the grid of the surface");
     let gaps = device.rough(rough, level, Precision::Double)?;
     Ok(device.fields(gaps, level)?.gaps()?.remove(0))
 }
@@ -204,16 +211,16 @@ fn time_of_convolutions<D: fields::Device>(
 }
 
 /// Returns an upper bound of the memory, bytes, that contacts of `cells` cells in all take on a device, with transforms of
-/// `padded` values in all. `capped` says whether the upper bounds differ between cells, `tables` how many tables of the
+/// `padded` values in all. `caps_differ` says whether the upper bounds differ between cells, `tables` how many tables of the
 /// displacement there are.
-pub fn memory(cells: f64, padded: f64, capped: bool, tables: usize, precision: Precision) -> f64 {
+pub fn memory(cells: f64, padded: f64, caps_differ: bool, tables: usize, precision: Precision) -> f64 {
     let state = match precision {
         Precision::Double => 8.0,
         Precision::Single => 4.0,
     };
     // Pressure, h + u, gap, last feasible pressure and bounds; direction and set; buffer and work area; a quarter for each
     // table; the pressure of the next coarser grid.
-    let fields = if capped { 5.0 } else { 4.0 };
+    let fields = if caps_differ { 5.0 } else { 4.0 };
     cells * (fields * state + 5.0 + 0.25 * state) + padded * state * (2.0 + 0.25 * tables as f64)
 }
 

@@ -1,7 +1,7 @@
 //! The processor in plain loops: the reference of the kernels, which needs no device.
 
 use asperity_base::error::Result;
-use asperity_base::grid::{CellValues, Field, coarse_means};
+use asperity_base::grid::{CellValues, Field, coarse_means, in_rows};
 use asperity_base::math::fft::RealFft2;
 use asperity_base::units::{Metre, Pascal};
 use asperity_transforms::num_complex::Complex64;
@@ -52,7 +52,7 @@ impl Device for Host {
     type Pressure = Vec<Field>;
 
     fn gaps(&self, contacts: &[Contact], _: Precision) -> Result<Gaps> {
-        let gaps = contacts.iter().map(|contact| contact.gap.as_standard_layout().into_owned()).collect();
+        let gaps = contacts.iter().map(|contact| in_rows(contact.gap).into_owned()).collect();
         Ok(Gaps { gaps, uppers: contacts.iter().map(|contact| contact.upper.clone()).collect() })
     }
 

@@ -320,13 +320,13 @@ CLEAR_OUTSIDE(clear_outside, state)
 CLEAR_OUTSIDE(clear_outside_single, float)
 
 // Multiplies the transforms by a spectrum over the number of values: a table of the frequencies up to half of each axis,
-// or `constant` |q|^`power`, in which `at_zero` stands for q = 0.
+// or, without a table, the factor `constant`/|q| if `inverse` is 1 and `constant` |q| if it is 0, with `at_zero` at q = 0.
 struct Spectrum {
     const state* table;
     double constant;
     double at_zero;
     double unit[2]; // angular wavenumber of the first frequency along each axis
-    int inverse; // the power: 1 for 1/|q|, 0 for |q|
+    int inverse;
 };
 
 #define MULTIPLY(name, real)                                                                       \
@@ -415,8 +415,8 @@ __global__ void gap_below(Contacts f, const state* buffer, double summit) {
 // Waves of a rough surface.
 struct Waves {
     double first; // wavenumber of the first wave along x and y
-    double longest, shortest; // wavenumbers
-    double power; // of the amplitude
+    double longest, shortest; // wavenumbers of the longest wave of the power law, and of the shortest wave
+    double power; // the amplitude is proportional to the wavenumber to this power
     place seed;
 };
 
@@ -442,7 +442,7 @@ __device__ void amplitude(const Waves& w, long long k, long long l, double* re, 
     *im = sign * size * sinpi(2 * v);
 }
 
-// Sum of the squared slopes of all waves, and of the squared heights.
+// Adds the squared slopes of all waves.
 __global__ void wave_sums(Waves w, int side, double* parts) {
     double own[1] = {0};
     const int half = side / 2 + 1;

@@ -16,5 +16,5 @@ pub use card::Card;
 pub use device::{Device, memory};
 pub use problem::{
     Accuracy, Compliance, Contact, Control, Cost, Harmonics, Level, Precision, Problem, Rough, Solution,
-    Statistics, Watch,
+    Statistics,
 };

@@ -157,24 +157,6 @@ pub struct Cost {
     pub restarts: usize,
 }
 
-/// Observes a contact while it is solved.
-pub trait Watch {
-    /// Reports the residual of an iteration and the required `tolerance`.
-    fn iteration(&self, residual: f64, tolerance: f64);
-
-    /// Whether to stop.
-    fn stop(&self) -> bool;
-}
-
-/// A watch that does nothing.
-impl Watch for () {
-    fn iteration(&self, _: f64, _: f64) {}
-
-    fn stop(&self) -> bool {
-        false
-    }
-}
-
 impl Level {
     /// Returns the angular wavenumber of the first frequency along each axis.
     pub(crate) fn wavenumbers(&self) -> [f64; 2] {

@@ -4,44 +4,15 @@
 //! cell, and sums. The preconditioner is the inverse of the displacement of harmonics, restricted to the free cells.
 
 use asperity_base::error::{Error, Result, check};
+use asperity_base::math::active_set::{
+    CG_TOLERANCE, Caution, MAX_CG_STEPS, MAX_SCALINGS, MIN_SEARCH_STEP, TOLERANCE_REDUCTION, offset_for_sum,
+    residual_scale,
+};
 use asperity_base::units::{Metre, Pascal};
+use asperity_base::watch::{Watch, check_stop};
 
 use crate::fields::Fields;
-use crate::problem::{Control, Precision, Watch};
-
-/// Largest number of conjugate gradient steps on one predicted active set.
-const MAX_CG_STEPS: usize = 60;
-/// Conjugate gradients stop when the residual on the free cells is below this multiple of the violation of the bounds, because
-/// the set is about to change.
-const CG_EXIT: f64 = 3.0;
-/// With each outer step without progress [`CG_EXIT`] is divided by this.
-const CG_EXIT_DIVISOR: f64 = 3.0;
-/// Smallest ratio of residual to violation at which conjugate gradients stop.
-const MIN_CG_EXIT: f64 = 0.05;
-/// With each outer step with progress this ratio is multiplied by this factor, up to [`CG_EXIT`].
-const CG_EXIT_GROWTH: f64 = 1.5;
-/// Conjugate gradients also stop when the largest residual is below this fraction of the target residual of the solution.
-const CG_TOLERANCE: f64 = 0.9;
-/// An outer step makes progress if its norm is below this fraction of the best norm so far.
-const PROGRESS: f64 = 0.7;
-/// Number of consecutive outer steps without progress before a line search lowers the energy.
-const MAX_STAGNATIONS: usize = 2;
-/// With each outer step without progress the compliance in the prediction of the sets is multiplied by this factor.
-const COMPLIANCE_GROWTH: f64 = 4.0;
-/// With each outer step with progress this compliance is multiplied by this factor, down to the self-influence.
-const COMPLIANCE_REDUCTION: f64 = 0.5;
-/// A line search with a smaller step fraction makes no progress.
-const MIN_SEARCH_STEP: f64 = 1e-3;
-/// After a line search the best norm is multiplied by this factor.
-const BEST_AFTER_SEARCH: f64 = 2.0;
-/// If a feasible solution misses the tolerance, it is solved again to this fraction of the previous target residual.
-const TOLERANCE_REDUCTION: f64 = 0.3;
-/// Displacements with a deviation below this fraction of their size count as uniform.
-const UNIFORM: f64 = 1e-4;
-/// Number of scalings of the pressures to a sum; afterwards they are offset.
-const MAX_SCALINGS: usize = 60;
-/// Largest number of Newton steps and bisections for the offset.
-const MAX_OFFSETS: usize = 200;
+use crate::problem::{Control, Precision};
 
 /// The state of an iteration that counts.
 #[derive(Debug, Clone, Copy)]
@@ -63,11 +34,10 @@ pub(crate) struct Iteration<'a, F> {
     accuracy: f64,
     /// Whether t is that of the present pressure by one convolution, and the pressure is feasible.
     exact: bool,
+    /// Number of free cells.
     free_cells: f64,
-    cg_exit: f64,
-    compliance_factor: f64,
-    best: f64,
-    stagnations: usize,
+    caution: Caution,
+    /// Number of consecutive outer steps from pressures that are all at their bounds.
     bound_steps: usize,
     pub(crate) iterations: usize,
     pub(crate) convolutions: usize,
@@ -94,10 +64,7 @@ impl<'a, F: Fields> Iteration<'a, F> {
             accuracy,
             exact: false,
             free_cells: 0.0,
-            cg_exit: CG_EXIT,
-            compliance_factor,
-            best: f64::INFINITY,
-            stagnations: 0,
+            caution: Caution::new(compliance_factor),
             bound_steps: 0,
             iterations: 0,
             convolutions: 0,
@@ -127,9 +94,7 @@ impl<'a, F: Fields> Iteration<'a, F> {
         loop {
             let mut tolerance = wanted(&state);
             self.watch.iteration(state.eta, tolerance);
-            if self.watch.stop() {
-                return Err(Error::Interrupted);
-            }
+            check_stop(self.watch)?;
             if state.eta < tightening * tolerance || (self.exact && state.eta < tolerance) {
                 // The solution is the nearest feasible pressure, and its own residual decides.
                 if guess {
@@ -168,7 +133,7 @@ impl<'a, F: Fields> Iteration<'a, F> {
         let [sum, squares, largest, pressure, displacement] = self.fields.residual(approach)?;
         let cells = self.fields.cells() as f64;
         let deviation = (squares / cells - (sum / cells).powi(2)).max(0.0).sqrt();
-        let scale = deviation.max(UNIFORM * displacement.max(self.fields.self_influence() * pressure));
+        let scale = residual_scale(deviation, displacement.max(self.fields.self_influence() * pressure));
         // NaN stays NaN.
         let eta =
             if largest == 0.0 && sum.is_finite() { 0.0 } else { largest / (scale + 0.0 * (sum + squares)) };
@@ -209,32 +174,12 @@ impl<'a, F: Fields> Iteration<'a, F> {
         Ok(())
     }
 
-    /// Returns the offset with which the proposed pressures, between the two of `range`, have this sum after clipping. The sum
-    /// is piecewise linear, so a bracketed Newton iteration is exact to round-off in a few steps.
+    /// Returns the offset with which the proposed pressures, between the two of `range`, have this sum after clipping.
     fn offset(&mut self, [min, max]: [Pascal; 2], wanted: Pascal) -> Result<Pascal> {
         let [_, upper] = self.fields.upper();
         let each = if upper.is_finite() { upper.max(wanted / self.fields.cells() as f64) } else { wanted };
-        let [mut low, mut high] = [-max, each - min];
-        let mut offset = high.min(0.0).max(low);
-        for _ in 0..MAX_OFFSETS {
-            let [sum, between] = self.fields.proposed_sum(offset)?;
-            let excess = sum - wanted;
-            if excess.abs() <= self.accuracy * wanted {
-                break;
-            }
-            if excess < 0.0 {
-                low = offset;
-            } else {
-                high = offset;
-            }
-            let newton = offset - excess / between;
-            let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
-            if next <= low || next >= high {
-                break;
-            }
-            offset = next;
-        }
-        Ok(offset)
+        let accuracy = self.accuracy * wanted;
+        offset_for_sum([-max, each - min], wanted, accuracy, |offset| self.fields.proposed_sum(offset))
     }
 
     /// Returns the mean over the free cells of values with this sum under a load, along which the load does not change; 0 at
@@ -249,7 +194,7 @@ impl<'a, F: Fields> Iteration<'a, F> {
     /// Performs an outer step: predicts the sets, moves the other cells to their bounds, and solves for the free cells by
     /// conjugate gradients.
     fn outer_step(&mut self, state: State, wanted: f64) -> Result<State> {
-        let stiffness = 1.0 / (self.compliance_factor * self.fields.self_influence());
+        let stiffness = 1.0 / (self.caution.compliance_factor * self.fields.self_influence());
         let range = self.fields.propose(state.approach, stiffness)?;
         let offset = match self.control {
             Control::PressureSum(wanted) => self.offset(range, wanted)?,
@@ -315,7 +260,7 @@ impl<'a, F: Fields> Iteration<'a, F> {
             datum += step * self.mean(sum);
             left = self.advance(step, datum)?;
             self.iterations += 1;
-            if left.residual <= self.cg_exit * left.violation
+            if left.residual <= self.caution.cg_exit * left.violation
                 || left.largest < CG_TOLERANCE * wanted * state.scale
             {
                 break;
@@ -332,17 +277,7 @@ impl<'a, F: Fields> Iteration<'a, F> {
     /// Safeguards the iteration against cycles of the predicted sets. After some outer steps without progress it returns to a
     /// feasible pressure, from which an exact line search lowers the energy. Returns whether it did so.
     fn safeguard(&mut self, norm: f64, approach: Metre) -> Result<bool> {
-        if norm < PROGRESS * self.best {
-            self.best = norm;
-            self.stagnations = 0;
-            self.cg_exit = CG_EXIT.min(CG_EXIT_GROWTH * self.cg_exit);
-            self.compliance_factor = (COMPLIANCE_REDUCTION * self.compliance_factor).max(1.0);
-            return Ok(false);
-        }
-        self.stagnations += 1;
-        self.cg_exit = (self.cg_exit / CG_EXIT_DIVISOR).max(MIN_CG_EXIT);
-        self.compliance_factor *= COMPLIANCE_GROWTH;
-        if self.stagnations < MAX_STAGNATIONS {
+        if !self.caution.demands_a_search(norm) {
             return Ok(false);
         }
         self.become_feasible()?;
@@ -352,7 +287,7 @@ impl<'a, F: Fields> Iteration<'a, F> {
             self.step_along_gap(datum)?;
             self.search(approach)?;
         }
-        self.best *= BEST_AFTER_SEARCH;
+        self.caution.after_search();
         self.restarts += 1;
         Ok(true)
     }

@@ -33,7 +33,7 @@ impl Waves {
     }
 
     /// Returns the amplitude of the wave with `k` periods along x and `l` ≥ 0 along y, without the factor of the slope: real
-    /// and imaginary part. Of a pair of waves with opposite signs one is drawn.
+    /// and imaginary part. One of a pair of waves with opposite signs is drawn.
     pub(crate) fn amplitude(&self, k: i64, l: i64) -> [f64; 2] {
         let q = self.first * ((k * k + l * l) as f64).sqrt();
         if q == 0.0 || q > self.shortest {

@@ -1,5 +1,7 @@
-//! Mathematics that topography and mechanics share: transforms, work shared by threads, quadrature, sums.
+//! Mathematics that topography and mechanics share: transforms, work shared by threads, quadrature, sums, rules of
+//! the active set.
 
+pub mod active_set;
 pub mod fft;
 pub mod good_size;
 pub mod kernel;

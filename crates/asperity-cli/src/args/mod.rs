@@ -10,12 +10,11 @@ mod values;
 
 use std::path::PathBuf;
 
+use asperity::solver::Device;
 use clap::error::Error;
 use clap::{Args, Parser, Subcommand};
 
 use crate::report::{Failure, Outcome, written};
-use asperity::solver::Device;
-
 use values::{choice, threads};
 
 pub(crate) use drawing::{Drawing, RangedDrawing};

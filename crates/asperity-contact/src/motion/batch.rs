@@ -8,22 +8,12 @@ use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::record::LostVolume;
 use crate::motion::watch::OneOfMany;
-use crate::motion::{LoadControl, PlasticUpdate};
-use crate::solver::{Bounds, Control, Device, Params, Solution, solve_batch};
+use crate::solver::{Bounds, Control, Params, Solution, Stats, solve_batch};
 
 /// Number of batches, each to a tenth of the residual before, until the load is met by positions that are accurate alone.
 const MAX_BATCHES: usize = 3;
 
 impl Solver<'_> {
-    /// Whether a device solves all positions of this pair at once: none depends on another, and they share an approach.
-    pub(super) fn is_one_batch(&self, pair: &Pair, device: Device) -> bool {
-        let motion = self.motion;
-        let frozen = motion.plastic_update == PlasticUpdate::Pass || !pair.yields();
-        let shared =
-            matches!(motion.control, Control::Approach(_)) || motion.load_control == LoadControl::Pass;
-        device != Device::Cpu && frozen && shared && pair.adhesion().is_none()
-    }
-
     /// Solves all positions as one batch, at an approach, or at the one at which they bear a mean load. Returns none if this
     /// pass takes the search for an approach: its loads are at a limit, or it exceeds the memory of the device.
     ///
@@ -54,14 +44,17 @@ impl Solver<'_> {
             self.positions.iter().map(|position| position.columns).max().expect("a pass has positions");
         let definition = self.operators.definition([largest, width]);
         let watch = OneOfMany(self.watch);
-        let mut batch = *params;
+        let (mut batch, mut spent) = (*params, Stats::default());
         for _ in 0..MAX_BATCHES {
             let solved = solve_batch(&definition, contacts.clone(), total, start.as_deref(), &batch, &watch);
-            let solutions = match solved {
+            let mut solutions = match solved {
                 Ok(solutions) => solutions,
                 Err(Error::DeviceMemory { .. } | Error::NotConverged { .. }) => return Ok(None),
                 Err(other) => return Err(other),
             };
+            // Each position takes part in all transforms of the batch.
+            spent = spent.and(&solutions[0].stats);
+            solutions.iter_mut().for_each(|solution| solution.stats = spent);
             if solutions.iter().all(|solution| solution.residual < params.tolerance) {
                 return Ok(Some(self.pass(pair, &solutions)));
             }

@@ -314,11 +314,22 @@ impl Motion {
         returns && self.offset_y == OffsetY::NONE
     }
 
+    /// Whether the bodies stay as they are during a pass. `yields` says whether a cell of them can deform plastically.
+    pub fn is_frozen(&self, yields: bool) -> bool {
+        self.plastic_update == PlasticUpdate::Pass || !yields
+    }
+
+    /// Whether a device solves all positions of a pass as one batch: none depends on another, and they share an approach.
+    pub fn is_one_batch(&self, yields: bool) -> bool {
+        let shared = matches!(self.control, Control::Approach(_)) || self.load_control == LoadControl::Pass;
+        self.is_frozen(yields) && shared
+    }
+
     /// Returns how many of the `positions` of a pass must be solved, the first ones. If the bodies do not change, the
     /// return stroke repeats the contacts of the forward stroke, unless friction displaces the surfaces normally.
     pub fn distinct(&self, positions: usize, yields: bool, couples: bool) -> usize {
         let follows = self.adhesion_history == AdhesionHistory::Path;
-        let stays = (self.plastic_update == PlasticUpdate::Pass || !yields) && !follows;
+        let stays = self.is_frozen(yields) && !follows;
         let pushed =
             self.sliding(Stroke::Forth).is_some_and(|sliding| sliding.shear_displaces_normally(couples));
         if self.path == Path::Reciprocating && stays && !pushed { positions / 2 } else { positions }

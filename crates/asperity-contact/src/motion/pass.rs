@@ -14,7 +14,7 @@ use crate::motion::plastic_volume::ElastoPlasticPass;
 use crate::motion::record::LostVolume;
 use crate::motion::rim::Interior;
 use crate::motion::watch::{Progress, Watch};
-use crate::motion::{AdhesionHistory, Motion, PlasticUpdate};
+use crate::motion::{AdhesionHistory, Motion};
 use crate::operator::Operators;
 use crate::solver::{Control, Params, Solution};
 use crate::units::Newton;
@@ -178,7 +178,7 @@ impl Solver<'_> {
         let mut after = pair.clone();
         let mut lost: Vec<LostVolume> = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
         let position_data = self.motion.position_data(pair.pitch()[0]);
-        if pair.yields() && self.motion.plastic_update == PlasticUpdate::Step {
+        if !self.motion.is_frozen(pair.yields()) {
             let mut contacts = Vec::with_capacity(self.positions.len());
             let mut last = None;
             for index in 0..self.positions.len() {

@@ -10,7 +10,7 @@ use crate::motion::pair::Pair;
 use crate::motion::pass::Solver;
 use crate::motion::path::Position;
 use crate::motion::watch::{OneOfMany, Progress};
-use crate::motion::{LoadControl, Motion, PlasticUpdate};
+use crate::motion::{LoadControl, Motion};
 use crate::operator::{Operator, Operators};
 use crate::solver::Control;
 use crate::solver::{Bounds, Friction, Method, Params, Residual, Site, coarse_site, solve_together};
@@ -39,10 +39,10 @@ pub fn memory_together(
     width: usize,
 ) -> Option<f64> {
     let cells = width * columns.iter().sum::<usize>();
-    let frozen = motion.plastic_update == PlasticUpdate::Pass || !yields;
     let iterative = matches!(method, Method::Auto | Method::ActiveSet);
     let searched = matches!((motion.control, motion.load_control), (Control::Load(_), LoadControl::Pass));
-    (frozen && iterative && searched && cells <= MAX_CELLS).then_some(BYTES_PER_CELL * cells as f64)
+    (motion.is_frozen(yields) && iterative && searched && cells <= MAX_CELLS)
+        .then_some(BYTES_PER_CELL * cells as f64)
 }
 
 /// Fraction of the first residual below which the iteration goes even from a good start. After a change of the geometry,

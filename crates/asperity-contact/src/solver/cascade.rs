@@ -1,26 +1,20 @@
 //! The cascade: an initial guess of the pressure from successively coarser grids.
 
+use asperity_base::math::active_set::{COMPLIANCE_FACTOR, coarse_tolerance};
+
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::math::parallel;
 use crate::ranks::{Largest, Slab};
 use crate::solver::active_set::{self, Answer, Stage};
 use crate::solver::site::Site;
-use crate::solver::watch::InnerWatch;
 use crate::solver::{Residual, Settings, Stats, attraction};
+use asperity_base::watch::InnerWatch;
 
-/// Tolerance of the coarse grids, relative to std(u). If smaller, the scale is the displacement of a cell by its own
-/// pressure at the largest upper bound, which φ never exceeds.
-const COARSE_TOLERANCE: f64 = 1e-2;
 /// Largest number of convolutions on a coarse grid.
 const MAX_COARSE_CONVOLUTIONS: usize = 100;
 /// Grids with fewer cells along each axis are not coarsened.
 pub(super) const MIN_CELLS: usize = 64;
-
-/// Compliance for the first prediction of the sets from a given start, as a multiple of the self-influence. A guess
-/// from coarse grids has smooth errors. The solution at another approach or of another geometry has errors at single
-/// cells, and so have the sets predicted from it.
-const COMPLIANCE_FACTOR: f64 = 2.0;
 
 /// Solves from the `start` of each contact. Without a start it solves on a cascade of grids, from the coarsest to the
 /// finest. Each grid has twice the pitch of the next, and its pressure is the initial guess of the next. `tolerance`
@@ -88,8 +82,7 @@ fn first_guess(
     let Largest(most) =
         slab.merged(Largest(coarse.iter().map(|site| site.bounds().upper().max()).fold(0.0, f64::max)));
     let saturation = coarse_settings.self_influence * most;
-    let loose =
-        |state: &Residual| tolerance(state).max(COARSE_TOLERANCE * (saturation / state.scale).min(1.0));
+    let loose = |state: &Residual| coarse_tolerance(tolerance(state), saturation, state.scale);
     match active_set::solve(
         &coarse,
         &coarse_settings,

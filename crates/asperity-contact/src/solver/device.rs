@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use asperity_base::choice::choice;
 pub use asperity_gpu::Card;
-use asperity_gpu::{Accuracy, Compliance, Harmonics, Level, Precision};
+use asperity_gpu::{Accuracy, Compliance, Contact, Harmonics, Level, Precision};
 
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
@@ -14,8 +14,7 @@ use crate::math::parallel;
 use crate::operator::{Boundary, Definition, Operator, Operators};
 use crate::solver::bounds::Bounds;
 use crate::solver::cascade::MIN_CELLS;
-use crate::solver::{Answer, Control, Method, Params, Problem, Settings, Stats, Watch};
-use crate::units::Metre;
+use crate::solver::{Answer, Control, Method, Params, Problem, Stats, Watch};
 
 /// The device that solves a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -88,23 +87,6 @@ pub fn memory_on_device(shapes: &[[usize; 2]], boundary: Boundary, coated: bool,
     asperity_gpu::memory(cells as f64, padded, caps_differ, tables, Precision::Double)
 }
 
-/// One of the contacts that a device solves together.
-pub(super) struct Site<'a> {
-    pub(super) gap: &'a Field,
-    pub(super) bounds: &'a Bounds,
-    pub(super) start: Option<&'a Field>,
-}
-
-/// Contacts in equilibrium under one approach.
-pub(super) struct Found {
-    /// Pressure and displacement of each contact.
-    pub(super) fields: Vec<[Field; 2]>,
-    pub(super) approach: Metre,
-    pub(super) residual: f64,
-    pub(super) self_influence: f64,
-    pub(super) stats: Stats,
-}
-
 /// Solves one contact by the device of the `params`.
 pub(super) fn solve(
     device: &asperity_gpu::Device,
@@ -121,62 +103,69 @@ pub(super) fn solve(
             "a device does not solve contacts whose cells wear or creep while they are pressed",
         ));
     };
-    let site = Site { gap: problem.initial_gap, bounds: problem.bounds, start };
-    let mut found = together(device, &definition, &[site], &problem.settings, params)?;
+    let contact = contact(problem.initial_gap, problem.bounds, start)?;
+    let settings = &problem.settings;
+    let mut found = together(device, &definition, &[contact], settings.control, params, settings.watch)?;
     let [pressure, displacement] = found.fields.pop().expect("one contact");
-    let Found { approach, residual, stats, .. } = found;
-    Ok(Answer { pressure, displacement, approach, residual, stats })
+    let stats = stats(&found);
+    Ok(Answer { pressure, displacement, approach: found.approach, residual: found.residual, stats })
+}
+
+/// Returns one of the contacts that a device solves together.
+pub(super) fn contact<'a>(
+    gap: &'a Field,
+    bounds: &'a Bounds,
+    start: Option<&'a Field>,
+) -> Result<Contact<'a>> {
+    if bounds.lower().min() < 0.0 {
+        return Err(Error::Unsupported("a device does not solve adhesive contacts"));
+    }
+    Ok(Contact { gap, upper: bounds.upper(), start })
+}
+
+/// Returns the cost of a solution.
+pub(super) fn stats(found: &asperity_gpu::Solution) -> Stats {
+    let asperity_gpu::Cost { iterations, convolutions, restarts } = found.cost;
+    Stats { iterations, convolutions, restarts, ..Stats::default() }
 }
 
 /// Solves contacts of one pair of bodies under one approach. The `definition` is that of the largest.
 pub(super) fn together(
     device: &asperity_gpu::Device,
     definition: &Definition,
-    sites: &[Site],
-    settings: &Settings,
+    contacts: &[Contact],
+    control: Control,
     params: &Params,
-) -> Result<Found> {
+    watch: &dyn Watch,
+) -> Result<asperity_gpu::Solution> {
     if !matches!(params.method, Method::Auto | Method::ActiveSet) {
         return Err(Error::Unsupported("a device solves contacts by the active set only"));
     }
-    if sites.iter().any(|site| site.bounds.lower().min() < 0.0) {
-        return Err(Error::Unsupported("a device does not solve adhesive contacts"));
-    }
-    let uniform = |site: &Site| site.bounds.upper().uniform();
-    let caps_differ = sites.iter().any(|site| uniform(site).is_none() || uniform(site) != uniform(&sites[0]));
     if let Some(Card { name, free, .. }) = device.card()? {
-        let shapes: Vec<[usize; 2]> = sites.iter().map(|site| site.gap.dim().into()).collect();
+        let shapes: Vec<[usize; 2]> = contacts.iter().map(|contact| contact.gap.dim().into()).collect();
         let coated = definition.response.half_space_modulus().is_none();
+        let first = contacts[0].upper.uniform();
+        let caps_differ = first.is_none() || contacts.iter().any(|contact| contact.upper.uniform() != first);
         let needed = memory_on_device(&shapes, definition.boundary, coated, caps_differ);
         if needed > free {
             return Err(Error::DeviceMemory { device: name, needed, free });
         }
     }
-    let contacts: Vec<asperity_gpu::Contact> = sites
-        .iter()
-        .map(|site| asperity_gpu::Contact { gap: site.gap, upper: site.bounds.upper(), start: site.start })
-        .collect();
     let warm = contacts.iter().all(|contact| contact.start.is_some());
-    let grids = levels(definition, warm);
-    let control = match settings.control {
-        Control::Load(load) => asperity_gpu::Control::PressureSum(load / settings.cell_area),
-        Control::Approach(approach) => asperity_gpu::Control::Approach(approach),
-    };
     let problem = asperity_gpu::Problem {
-        contacts: &contacts,
-        grids: &grids,
-        control,
+        contacts,
+        grids: &levels(definition, warm),
+        control: match control {
+            Control::Load(load) => asperity_gpu::Control::PressureSum(load / definition.grid.cell_area()),
+            Control::Approach(approach) => asperity_gpu::Control::Approach(approach),
+        },
         accuracy: Accuracy {
             tolerance: params.tolerance,
             max_convolutions: params.max_convolutions,
             precision: Precision::Double,
         },
     };
-    let found = device.solve(&problem, &Watched(settings.watch))?;
-    let asperity_gpu::Cost { iterations, convolutions, restarts } = found.cost;
-    let stats = Stats { iterations, convolutions, restarts, ..Stats::default() };
-    let asperity_gpu::Solution { fields, approach, residual, self_influence, .. } = found;
-    Ok(Found { fields, approach, residual, self_influence, stats })
+    device.solve(&problem, watch)
 }
 
 /// Returns the grids of a cascade; of a `warm` start only the grid itself.
@@ -209,17 +198,4 @@ fn level(definition: &Definition) -> Level {
         Compliance::Influence(definition.influence().table(half, pitch))
     };
     Level { padded, pitch, compliance, harmonics }
-}
-
-/// A watch of the solver as one of the device.
-struct Watched<'a>(&'a dyn Watch);
-
-impl asperity_gpu::Watch for Watched<'_> {
-    fn iteration(&self, residual: f64, tolerance: f64) {
-        self.0.iteration(residual, tolerance);
-    }
-
-    fn stop(&self) -> bool {
-        self.0.stop()
-    }
 }

@@ -8,9 +8,9 @@ use crate::math::Cholesky;
 use crate::operator::Operator;
 use crate::solver::feasible::{Bounded, make_feasible};
 use crate::solver::sets::Set;
-use crate::solver::watch::check_stop;
 use crate::solver::{Answer, Control, Params, Problem, Settings, Stats};
 use crate::units::Metre;
+use asperity_base::watch::check_stop;
 
 /// Largest number of cells between the bounds; the dense matrix then takes 3 GB.
 const MAX_FREE_CELLS: usize = 20_000;

@@ -1,5 +1,9 @@
 //! Feasible pressures: within their bounds, and with a given sum under load control.
 
+use std::convert::Infallible;
+
+use asperity_base::math::active_set::{self, MAX_SCALINGS};
+
 use crate::grid::{CellValues, Field};
 use crate::math::sum::sums;
 use crate::ranks::Merged;
@@ -11,10 +15,6 @@ use crate::units::Pascal;
 const LOAD_ACCURACY: f64 = 1e-11;
 /// Relative tolerance of a sum of pressures, above the rounding of millions of terms.
 const SUM_ACCURACY: f64 = 1e-13;
-/// Number of scalings of the pressures to a sum; afterwards they are offset.
-const MAX_SCALINGS: usize = 60;
-/// Largest number of Newton steps and bisections for the offset.
-const MAX_OFFSETS: usize = 200;
 
 /// Pressures with bounds that are summed and changed together.
 pub(super) trait Cells {
@@ -207,37 +207,15 @@ impl Merged for Range {
     }
 }
 
-/// Computes the offset c with Σ clip(y + c) = `wanted`, for a sum within the bounds and values y in the `range`. This
-/// is the Euclidean projection onto the bounds and the sum, with the `accuracy` of the sum. `sums` returns the sum
-/// and the number of values strictly between their bounds.
-///
-/// The sum is piecewise linear in c, so a bracketed Newton iteration is exact to round-off in a few passes.
+/// [`active_set::offset_for_sum`] for values y in the `range` and sums that cannot fail.
 pub(super) fn offset_for_sum(
     range: Range,
     wanted: f64,
     accuracy: f64,
     mut sums: impl FnMut(f64) -> [f64; 2],
 ) -> f64 {
-    let [mut low, mut high] = range.bracket(wanted);
-    let mut offset = high.min(0.0).max(low);
-    for _ in 0..MAX_OFFSETS {
-        let [sum, between] = sums(offset);
-        let excess = sum - wanted;
-        if excess.abs() <= accuracy {
-            break;
-        }
-        if excess < 0.0 {
-            low = offset;
-        } else {
-            high = offset;
-        }
-        let newton = offset - excess / between;
-        let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
-        if next <= low || next >= high {
-            break;
-        }
-        offset = next;
-    }
+    let sums = |offset| Ok::<_, Infallible>(sums(offset));
+    let Ok(offset) = active_set::offset_for_sum(range.bracket(wanted), wanted, accuracy, sums);
     offset
 }
 

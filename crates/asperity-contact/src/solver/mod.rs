@@ -20,11 +20,11 @@ mod site;
 mod stiffness;
 mod together;
 mod uniform;
-mod watch;
 
 use active_set::NearCopies;
 pub use adhesive::solve_adhesive;
 pub(crate) use adhesive::solve_adhesive_watched;
+pub use asperity_base::watch::Watch;
 pub use bounds::Bounds;
 pub use device::{Card, Device, memory_on_device};
 pub use equilibrium::Equilibrium;
@@ -40,7 +40,6 @@ pub(crate) use site::{OwnedSite, Site, coarse_site};
 pub use stiffness::normal_stiffness;
 pub(crate) use together::{solve_batch, solve_together};
 pub use uniform::{UniformDisplacement, displace_uniformly};
-pub use watch::Watch;
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;
@@ -549,8 +548,6 @@ fn finite(quantity: &'static str, value: f64) -> Result<()> {
     )
 }
 
-/// If a feasible solution misses the tolerance, it is solved again to this fraction of the previous target residual.
-const TOLERANCE_REDUCTION: f64 = 0.3;
 /// Error of a displacement in single precision, relative to its largest value.
 const SINGLE_PRECISION: f64 = 4e-7;
 /// Relative error of the load at which a solution is accepted.

@@ -4,8 +4,8 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::operator::Operator;
 use crate::solver::feasible::{Bounded, make_feasible};
-use crate::solver::watch::check_stop;
 use crate::solver::{Answer, Control, Params, Problem, Stats, finite};
+use asperity_base::watch::check_stop;
 
 /// Relative distance from its upper bound below which a pressure differs from it only by rounding.
 const ROUNDING: f64 = 1e-12;

@@ -1,5 +1,7 @@
 //! The complementarity residual η, the measure of every solution.
 
+use asperity_base::math::active_set::residual_scale;
+
 use crate::grid::Field;
 use crate::ranks::Merged;
 use crate::solver::bounds::{Bounds, Interval, with_bounds};
@@ -53,16 +55,6 @@ pub fn residual(
         ResidualSums::of(cells(), approach, self_influence).residual(approach, self_influence)
     })
 }
-
-/// Returns the scale of a residual: the `deviation` of the displacements, unless they are uniform compared with their
-/// `size`. The size is the largest displacement, or the largest displacement of a cell by itself.
-pub(super) fn scale(deviation: Metre, size: Metre) -> Metre {
-    if deviation < UNIFORM * size { UNIFORM * size } else { deviation }
-}
-
-/// Displacements with a deviation below this fraction of their size count as uniform, as under flat bodies and in
-/// full contact. Their deviation may be round-off, 10⁻¹⁵ of their size in double precision and 10⁻⁷ in single.
-const UNIFORM: f64 = 1e-4;
 
 /// The state of a cell that determines its residual.
 #[derive(Clone, Copy)]
@@ -200,7 +192,7 @@ impl ResidualSums {
     pub(super) fn residual(&self, approach: Metre, self_influence: f64) -> Residual {
         let deviation = (self.squares.max(0.0) / self.cells).sqrt();
         let local = self_influence * self.max_pressure;
-        let scale = scale(deviation, local.max(self.max_displacement));
+        let scale = residual_scale(deviation, local.max(self.max_displacement));
         // A NaN is no solution, although a maximum would ignore it.
         let eta = if self.largest == 0.0 && !self.squares.is_nan() { 0.0 } else { self.largest / scale };
         Residual { eta, approach, scale }

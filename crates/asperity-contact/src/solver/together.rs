@@ -73,20 +73,15 @@ pub(crate) fn solve_batch(
 ) -> Result<Vec<Solution>> {
     let device = params.device.open()?.expect("a device beside the processor");
     let grid = definition.grid;
-    let settings = Settings {
-        control,
-        self_influence: 0.0,
-        cell_area: grid.cell_area(),
-        attraction: 0.0,
-        watch,
-        near_copies: NearCopies::Large,
-    };
     let starts = (0..contacts.len()).map(|number| start.map(|start| &start[number]));
-    let sites = contacts.iter().zip(starts);
-    let sites: Vec<device::Site> =
-        sites.map(|((gap, bounds), start)| device::Site { gap, bounds, start }).collect();
-    let device::Found { fields, approach, self_influence, stats, .. } =
-        device::together(&device, definition, &sites, &settings, params)?;
+    let of_device: Vec<asperity_gpu::Contact> = contacts
+        .iter()
+        .zip(starts)
+        .map(|((gap, bounds), start)| device::contact(gap, bounds, start))
+        .collect::<Result<_>>()?;
+    let found = device::together(&device, definition, &of_device, control, params, watch)?;
+    let stats = device::stats(&found);
+    let asperity_gpu::Solution { fields, approach, self_influence, .. } = found;
     let solution = |((initial_gap, bounds), [pressure, displacement]): ((Field, Bounds), [Field; 2])| {
         let at = Some(approach);
         let residual = residual(&pressure, &displacement, &initial_gap, &bounds, self_influence, at).eta;

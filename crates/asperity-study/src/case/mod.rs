@@ -51,12 +51,12 @@ use crate::io::regular;
 use asperity_base::choice::choice;
 use asperity_base::error::{Error, Result};
 use asperity_base::units::SquareMetre;
-use asperity_contact::material::{Coating, Material};
+use asperity_contact::material::{Coating, Compliances, Material};
 use asperity_contact::motion::{
     Acceleration, AdhesionHistory, LoadControl, Motion, OffsetY, Path as MotionPath, PlasticUpdate, Strategy,
 };
 pub use asperity_contact::operator::{Boundary, Edge};
-use asperity_contact::solver::Control;
+use asperity_contact::solver::{Control, Sliding};
 pub use asperity_contact::solver::{Device, Method};
 use asperity_contact::temperature::Thermal;
 
@@ -346,6 +346,20 @@ impl Case {
     /// Whether a body is coated.
     pub fn is_coated(&self) -> bool {
         [&self.lower, &self.upper].into_iter().any(|body| body.material.coating.is_some())
+    }
+
+    /// Whether a body yields at a hardness.
+    pub(crate) fn yields(&self) -> bool {
+        [&self.lower, &self.upper].into_iter().any(|body| body.hardness.yields())
+    }
+
+    /// Whether the shear of bodies that slide displaces them normally.
+    pub(crate) fn shear_displaces_normally(&self) -> bool {
+        let compliances = Compliances::new(&self.lower.material, &self.upper.material);
+        let couples = compliances.is_ok_and(|compliances| compliances.coupling != 0.0);
+        self.friction.as_ref().is_some_and(|friction| {
+            Sliding { friction: friction.law, direction: [1.0, 0.0] }.shear_displaces_normally(couples)
+        })
     }
 
     /// Reads a case file. Paths of files are relative to its folder.

@@ -12,7 +12,7 @@ use asperity_base::units::Second;
 use asperity_contact::material::Compliances;
 use asperity_contact::motion::{PlasticUpdate, memory_together};
 use asperity_contact::operator::{FreeFft, Operator};
-use asperity_contact::solver::{self, Control, Coupling, Friction, Method, Sliding};
+use asperity_contact::solver::{self, Control, Coupling, Method};
 
 /// Cost of a run. Memory in bytes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,14 +82,11 @@ pub fn memory_on_device(case: &Case, given: &SurfaceInput, threads: usize) -> Re
     let overlaps: Vec<usize> = super::positions(case, [lower, upper]).iter().map(|p| p.columns).collect();
     let sizes = Sizes { case, lower, upper, overlaps: &overlaps };
     let [nx, ny] = sizes.facing().map(|n| n as usize);
-    let bodies = [&case.lower, &case.upper];
-    let yields = bodies.iter().any(|body| body.hardness.yields());
-    // The positions of a pass that share an approach and do not depend on each other are one batch.
-    let is_batch = |motion: &MotionSpec| {
-        motion.control != ControlKind::StepLoad && (motion.plastic_update == PlasticUpdate::Pass || !yields)
-    };
-    let shapes: Vec<[usize; 2]> = match &case.motion {
-        Some(motion) if is_batch(motion) => sizes.solved().iter().map(|columns| [*columns, ny]).collect(),
+    let yields = case.yields();
+    let shapes: Vec<[usize; 2]> = match case.motion(1.0) {
+        Some(motion) if motion.is_one_batch(yields) => {
+            sizes.solved().iter().map(|columns| [*columns, ny]).collect()
+        }
         // Each thread has a position.
         Some(_) => vec![[nx, ny]; threads.clamp(1, overlaps.len().max(1))],
         None => vec![[nx, ny]],
@@ -229,10 +226,15 @@ impl Sizes<'_> {
         let volume = |(cells, periodic)| cells * (kept + if periodic { 350.0 } else { 500.0 });
         let volumes: f64 = self.volumes().map(volume).sum();
         let motion = case.motion(nx * ny * self.lower.cell_area());
-        let yields = case.lower.hardness.yields() || case.upper.hardness.yields();
         let together = motion
             .and_then(|motion| {
-                memory_together(&motion, case.contact.method, yields, self.solved(), self.lower.shape[1])
+                memory_together(
+                    &motion,
+                    case.contact.method,
+                    case.yields(),
+                    self.solved(),
+                    self.lower.shape[1],
+                )
             })
             .unwrap_or(0.0);
         // The fields besides the bodies, and one while it is written.
@@ -253,8 +255,7 @@ impl Sizes<'_> {
     /// Number of overlap columns at the solved positions.
     fn solved(&self) -> &[usize] {
         let couples = self.compliances().is_some_and(|compliances| compliances.coupling != 0.0);
-        let yields = self.case.lower.hardness.yields() || self.case.upper.hardness.yields();
-        let all = self.overlaps.len();
+        let (yields, all) = (self.case.yields(), self.overlaps.len());
         &self.overlaps[..self.case.motion(1.0).map_or(all, |motion| motion.distinct(all, yields, couples))]
     }
 
@@ -296,16 +297,8 @@ impl Sizes<'_> {
 
     /// Whether tangential tractions are computed.
     fn is_coupled(&self) -> bool {
-        let sliding = |friction: Friction| Sliding { friction, direction: [1.0, 0.0] };
-        let shear_displaces_normally = |friction| {
-            self.compliances().is_some_and(|compliances| {
-                sliding(friction).shear_displaces_normally(compliances.coupling != 0.0)
-            })
-        };
-        self.case.friction.as_ref().is_some_and(|friction| {
-            (self.case.motion.is_none() && self.case.sliding.is_none())
-                || shear_displaces_normally(friction.law)
-        })
+        let rests = self.case.motion.is_none() && self.case.sliding.is_none();
+        self.case.friction.is_some() && (rests || self.case.shear_displaces_normally())
     }
 
     /// Estimates the number of computed passes from the stability limit and the largest wear of an extrapolation.

@@ -92,8 +92,7 @@ fn says_wear(_: &Case, broken: &BrokenLimit) -> String {
 }
 
 fn says_pressure(case: &Case, broken: &BrokenLimit) -> String {
-    let advice = match (case.plasticity, [&case.lower, &case.upper].iter().any(|body| body.hardness.yields()))
-    {
+    let advice = match (case.plasticity, case.yields()) {
         (Some(_), _) => "check `yield_stress`",
         (None, true) => "check `hardness`",
         (None, false) => "give a `hardness`, or [plasticity]",

@@ -25,7 +25,7 @@ use crate::motion::together::memory_together;
 use crate::motion::volumes::Volumes;
 use crate::motion::warm_start::WarmStart;
 use crate::motion::watch::{Progress, Watch};
-use crate::motion::{AdhesionHistory, Motion, PlasticUpdate, Strategy, check_limit};
+use crate::motion::{AdhesionHistory, Motion, Strategy, check_limit};
 use crate::operator::{Boundary, Operators};
 use crate::plasticity::{FlowParams, PlasticBody, PlasticState};
 use crate::solver::{Control, Coupling, Device, Params};
@@ -81,6 +81,7 @@ impl Simulation {
         let columns: Vec<usize> = positions[..distinct].iter().map(|p| p.columns).collect();
         let largest = pair.grid(pair.lower.columns().min(pair.upper.columns()));
         if pair.adhesion().is_some() {
+            params.device.only_processor("a device does not solve adhesive contacts")?;
             let follows = motion.adhesion_history == AdhesionHistory::Path;
             if follows && motion.strategy == Strategy::Overlap {
                 return Err(Error::Unsupported("adhesion follows the path of the bodies only in a shift"));
@@ -231,8 +232,7 @@ impl Simulation {
 
     /// Whether the bodies change position by position.
     fn changes_at_every_step(&self) -> bool {
-        let by_laws = self.motion.plastic_update == PlasticUpdate::Step && self.pair.yields();
-        by_laws || self.volumes.is_some()
+        !self.motion.is_frozen(self.pair.yields()) || self.volumes.is_some()
     }
 
     /// Adds plastic flow below the surfaces of the given `bodies`, lower one first. Plastic strain moves with the material

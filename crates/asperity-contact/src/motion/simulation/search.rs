@@ -11,7 +11,7 @@ use crate::motion::pass::Pass;
 use crate::motion::path::Position;
 use crate::motion::warm_start::Guess;
 use crate::motion::watch::Watch;
-use crate::solver::{Control, Params};
+use crate::solver::{Control, Device, Params};
 use crate::units::{Metre, Newton};
 
 impl Simulation {
@@ -21,7 +21,8 @@ impl Simulation {
         let positions = &self.positions[..self.distinct];
         let mut earlier: Vec<Vec<Contact>> = self.warm.contacts(pair, positions).into_iter().collect();
         let mut solver = self.solver(watch);
-        if self.volumes.is_none() && solver.is_one_batch(pair, self.params.device) {
+        let on_device = self.params.device != Device::Cpu && self.volumes.is_none();
+        if on_device && self.motion.is_one_batch(pair.yields()) {
             let start = earlier.first();
             if let Some(pass) = solver.solve_batch(pair, self.motion.control, &self.params, start)? {
                 let slope = self.warm.guess.map_or(1.0 / height_scale(pair), |guess| guess.slope);

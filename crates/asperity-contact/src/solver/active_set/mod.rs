@@ -6,6 +6,10 @@
 
 mod block;
 
+use asperity_base::math::active_set::{
+    CG_TOLERANCE, Caution, FIRST_PRESSURE, MAX_CG_STEPS, MIN_SEARCH_STEP, TOLERANCE_REDUCTION,
+};
+
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::math::parallel;
@@ -14,26 +18,11 @@ use crate::solver::bounds::Interval;
 use crate::solver::feasible::{Cells, Range, make_feasible, offset_for_sum};
 use crate::solver::residual::Residual;
 use crate::solver::site::Site;
-use crate::solver::watch::check_stop;
-use crate::solver::{Control, Settings, Stats, TOLERANCE_REDUCTION, finite};
+use crate::solver::{Control, Settings, Stats, finite};
 use crate::units::{Metre, Pascal};
+use asperity_base::watch::check_stop;
 
 use block::{Block, ResidualNorms};
-
-/// Largest number of conjugate gradient steps on one predicted active set.
-const MAX_CG_STEPS: usize = 60;
-/// Conjugate gradients stop when the residual on the free cells is below this multiple of the violation of the
-/// bounds, because the set is about to change.
-const CG_EXIT: f64 = 3.0;
-/// With each outer step without progress [`CG_EXIT`] is divided by this.
-const CG_EXIT_DIVISOR: f64 = 3.0;
-/// Smallest ratio of residual to violation at which conjugate gradients stop.
-const MIN_CG_EXIT: f64 = 0.05;
-/// With each outer step with progress this ratio is multiplied by this factor, up to [`CG_EXIT`].
-const CG_EXIT_GROWTH: f64 = 1.5;
-/// Conjugate gradients also stop when the largest residual is below this fraction of the target residual of the
-/// solution.
-const CG_TOLERANCE: f64 = 0.9;
 
 /// Initial damping of the preconditioned step that is combined with the step to the bounds. Later it is a running
 /// mean of the step lengths of conjugate gradients.
@@ -42,20 +31,6 @@ const FIRST_DAMPING: f64 = 0.8;
 const DAMPING_WEIGHTS: [f64; 2] = [0.7, 0.3];
 /// Largest step length in the running mean of the damping.
 const MAX_STEP_IN_DAMPING: f64 = 1.2;
-
-/// An outer step makes progress if its norm is below this fraction of the best norm so far.
-const PROGRESS: f64 = 0.7;
-/// Number of consecutive outer steps without progress before a line search lowers the energy.
-const MAX_STAGNATIONS: usize = 2;
-/// With each outer step without progress the compliance in the prediction of the sets is multiplied by this factor.
-const COMPLIANCE_GROWTH: f64 = 4.0;
-/// With each outer step with progress this compliance is multiplied by this factor, down to the self-influence.
-const COMPLIANCE_REDUCTION: f64 = 0.5;
-/// A line search with a smaller step fraction makes no progress.
-const MIN_SEARCH_STEP: f64 = 1e-3;
-/// After a line search the best norm is multiplied by this factor, so that the next outer step may increase it a
-/// little.
-const BEST_AFTER_SEARCH: f64 = 2.0;
 
 /// Fewest cells of a contact that is solved with the near copy.
 const MIN_NEAR_CELLS: usize = 1 << 19;
@@ -74,9 +49,6 @@ const MAX_POOR_CORRECTIONS: usize = 3;
 
 /// Largest error of the displacement due to single precision, as a fraction of the target residual.
 const MAX_ROUNDING: f64 = 0.1;
-/// Fraction of the interference of a cell that its first pressure closes under approach control, as if the cell were
-/// alone.
-const FIRST_PRESSURE: f64 = 0.3;
 
 /// Stage of a solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -220,16 +192,10 @@ struct Iteration<'a> {
     slab: Slab,
     /// Number of free cells of all blocks.
     free_cells: f64,
-    /// Ratio of the residual to the violation of the bounds at which conjugate gradients stop.
-    cg_exit: f64,
+    /// Caution against cycles of the predicted sets.
+    caution: Caution,
     /// Damping of the preconditioned step that is combined with the step to the bounds.
     damping: f64,
-    /// The compliance in the prediction of the sets, as a multiple of the self-influence, ≥ 1.
-    compliance_factor: f64,
-    /// Smallest norm after an outer step.
-    best: f64,
-    /// Number of consecutive outer steps without progress.
-    stagnations: usize,
     /// Number of consecutive outer steps from pressures that are all at their bounds.
     bound_steps: usize,
     iterations: usize,
@@ -266,11 +232,8 @@ impl<'a> Iteration<'a> {
             blocks,
             slab: sites[0].slab(),
             free_cells: 0.0,
-            cg_exit: CG_EXIT,
+            caution: Caution::new(compliance_factor),
             damping: FIRST_DAMPING,
-            compliance_factor,
-            best: f64::INFINITY,
-            stagnations: 0,
             bound_steps: 0,
             iterations: 0,
             restarts: 0,
@@ -424,7 +387,8 @@ impl<'a> Iteration<'a> {
         let settings = self.settings;
         make_feasible(self, &settings);
         self.each(|block| block.correct(max_rounding));
-        (self.best, self.stagnations, self.bound_steps) = (f64::INFINITY, 0, 0);
+        self.caution.forget_norms();
+        self.bound_steps = 0;
     }
 
     /// Continues without near copies from the last correction.
@@ -497,7 +461,7 @@ impl<'a> Iteration<'a> {
     /// Predicts the sets by one diagonal Newton step: a cell whose proposed pressure is beyond a bound belongs to
     /// it. Under load control the approach is chosen so that the clipped proposed pressures carry the load.
     fn predict_sets(&mut self, approach: Metre) {
-        let stiffness = 1.0 / (self.compliance_factor * self.settings.self_influence);
+        let stiffness = 1.0 / (self.caution.compliance_factor * self.settings.self_influence);
         let settings = self.settings;
         let offset = match settings.pressure_sum() {
             Some(wanted) => {
@@ -582,7 +546,7 @@ impl<'a> Iteration<'a> {
             self.iterations += 1;
             let [old, new] = DAMPING_WEIGHTS;
             self.damping = old * self.damping + new * step.min(MAX_STEP_IN_DAMPING);
-            if left.residual <= self.cg_exit * left.violation
+            if left.residual <= self.caution.cg_exit * left.violation
                 || left.max_residual < CG_TOLERANCE * wanted * state.scale
             {
                 break;
@@ -602,17 +566,7 @@ impl<'a> Iteration<'a> {
     /// returns to a feasible pressure, from which an exact line search lowers the energy. Returns whether it did
     /// so.
     fn safeguard(&mut self, norm: f64, approach: Metre) -> bool {
-        if norm < PROGRESS * self.best {
-            self.best = norm;
-            self.stagnations = 0;
-            self.cg_exit = CG_EXIT.min(CG_EXIT_GROWTH * self.cg_exit);
-            self.compliance_factor = (COMPLIANCE_REDUCTION * self.compliance_factor).max(1.0);
-            return false;
-        }
-        self.stagnations += 1;
-        self.cg_exit = (self.cg_exit / CG_EXIT_DIVISOR).max(MIN_CG_EXIT);
-        self.compliance_factor *= COMPLIANCE_GROWTH;
-        if self.stagnations < MAX_STAGNATIONS {
+        if !self.caution.demands_a_search(norm) {
             return false;
         }
         self.become_feasible(0.0);
@@ -629,7 +583,7 @@ impl<'a> Iteration<'a> {
             block.step_from_feasible(share);
             block.end_line_search();
         });
-        self.best *= BEST_AFTER_SEARCH;
+        self.caution.after_search();
         self.restarts += 1;
         true
     }

@@ -19,11 +19,11 @@ use crate::adhesion::{Adhesion, Potential};
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, in_rows};
 use crate::operator::Operator;
-use crate::solver::watch::check_stop;
 use crate::solver::{
     Bounds, Control, Params, Solution, Stats, Watch, residual, self_influence, solve_normal_watched,
 };
 use crate::units::Newton;
+use asperity_base::watch::check_stop;
 
 use forecast::Changes;
 use newton::NewtonIteration;

@@ -10,9 +10,9 @@ use crate::solver::adhesive::Problem;
 use crate::solver::adhesive::forecast::Forecast;
 use crate::solver::preconditioner::Preconditioner;
 use crate::solver::sets::{Set, Sets};
-use crate::solver::watch::check_stop;
 use crate::solver::{Control, Solution, Stats, residual};
 use crate::units::Metre;
+use asperity_base::watch::check_stop;
 
 /// Largest number of steps.
 const MAX_STEPS: usize = 12;

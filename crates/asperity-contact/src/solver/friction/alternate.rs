@@ -11,10 +11,11 @@ use crate::solver::friction::shear::{Answer, Method, Rigid, Task, method};
 use crate::solver::friction::transport::History;
 use crate::solver::friction::yielding::{bounds_under_shear, shear_limits, start_within};
 use crate::solver::friction::{Friction, FrictionalSolution, Loading, Tangential, self_compliance};
-use crate::solver::residual::{Residual, residual, scale};
-use crate::solver::watch::InnerWatch;
+use crate::solver::residual::{Residual, residual};
 use crate::solver::{Bounds, Params, Solution, Stats, Watch, solve_normal_watched};
 use crate::units::Metre;
+use asperity_base::math::active_set::residual_scale;
+use asperity_base::watch::InnerWatch;
 
 /// Tolerance of the first round if pressure and shear influence each other.
 const FIRST_TOLERANCE: f64 = 3e-2;
@@ -323,7 +324,7 @@ fn shear_scale(normal: &Solution, limit: &Field, operator: &dyn CoupledOperator)
     let deviation = normal.displacement.std(0.0);
     let share = (limit.sum() / normal.pressure.sum()).min(1.0);
     let largest = normal.displacement.iter().fold(local, |most, u| most.max(u.abs()));
-    let scale = share * scale(deviation, largest);
+    let scale = share * residual_scale(deviation, largest);
     // Without contact, or without friction, there is no scale.
     if scale > 0.0 { scale } else { 1.0 }
 }

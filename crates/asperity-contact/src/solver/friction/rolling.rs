@@ -8,9 +8,9 @@ use crate::solver::friction::transport::{ShiftByCell, SteadyMethod, Transport};
 use crate::solver::friction::{
     Friction, FrictionalSolution, History, Loading, Start, Tangential, solve_frictional_from,
 };
-use crate::solver::watch::InnerWatch;
 use crate::solver::{Bounds, Control, Params, Stats, Watch};
 use crate::units::{Joule, Newton};
+use asperity_base::watch::InnerWatch;
 
 /// Largest distance of rolling cell by cell, in lengths of the grid.
 const MAX_LENGTHS: usize = 50;

@@ -1,7 +1,6 @@
 //! Rules of contacts that a device solves.
 
-use asperity_contact::material::Compliances;
-use asperity_contact::solver::{Device, Method, Sliding};
+use asperity_contact::solver::{Device, Method};
 
 use super::examples::{AT_ANY_SPEED, FLOWS, ON_DEVICE, RUBS, SLIDES, VOLUME, WEARS};
 use super::{Case, Entry, Rule, Tables};
@@ -43,7 +42,9 @@ pub(super) const RULES: &[Rule] = &[
             AT_ANY_SPEED,
             "upper.young = inf",
         ],
-        broken: |tables| tables.on_device("friction", shear_displaces_normally),
+        broken: |tables| {
+            tables.on_device("friction", |case| case.motion.is_some() && case.shear_displaces_normally())
+        },
     },
     Rule {
         this: "[adhesion]",
@@ -79,12 +80,4 @@ impl<'a> Tables<'a> {
     fn on_device(&self, key: &str, is: impl Fn(&Case) -> bool) -> Option<Entry<'a>> {
         self.at(key).filter(|_| self.case.contact.device != Device::Cpu && is(self.case))
     }
-}
-
-fn shear_displaces_normally(case: &Case) -> bool {
-    let compliances = Compliances::new(&case.lower.material, &case.upper.material);
-    let couples = compliances.is_ok_and(|compliances| compliances.coupling != 0.0);
-    case.friction.as_ref().filter(|_| case.motion.is_some()).is_some_and(|friction| {
-        Sliding { friction: friction.law, direction: [1.0, 0.0] }.shear_displaces_normally(couples)
-    })
 }

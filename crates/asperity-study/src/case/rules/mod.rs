@@ -172,7 +172,7 @@ impl<'a> Tables<'a> {
     }
 
     fn yields(&self) -> bool {
-        [&self.case.lower, &self.case.upper].iter().any(|body| body.hardness.yields())
+        self.case.yields()
     }
 
     /// Whether passes are extrapolated.

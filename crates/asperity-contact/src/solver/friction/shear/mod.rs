@@ -9,9 +9,10 @@ use crate::grid::Field;
 use crate::operator::CoupledOperator;
 use crate::solver::friction::disc::{Vector, add, dot, length, minus, times};
 use crate::solver::friction::transport::History;
-use crate::solver::watch::check_stop;
-use crate::solver::{Stats, TOLERANCE_REDUCTION, Watch};
+use crate::solver::{Stats, Watch};
 use crate::units::{Metre, SquareMetre};
+use asperity_base::math::active_set::TOLERANCE_REDUCTION;
+use asperity_base::watch::check_stop;
 
 use influence::{Influence, at};
 use state::{Freedom, State};

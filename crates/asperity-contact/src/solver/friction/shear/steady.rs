@@ -10,9 +10,10 @@ use crate::solver::friction::shear::influence::{Influence, at};
 use crate::solver::friction::shear::state::{Freedom, State};
 use crate::solver::friction::shear::{Answer, Method, PROGRESS, Task};
 use crate::solver::friction::transport::{ShiftByCell, SteadyMethod};
-use crate::solver::watch::check_stop;
-use crate::solver::{Stats, TOLERANCE_REDUCTION, Watch};
+use crate::solver::{Stats, Watch};
 use crate::units::SquareMetre;
+use asperity_base::math::active_set::TOLERANCE_REDUCTION;
+use asperity_base::watch::check_stop;
 
 /// Largest number of consecutive Newton steps without progress. The first steps may increase the residual: in initial
 /// full stick the shear is large at the trailing edge.

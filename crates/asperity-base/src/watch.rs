@@ -21,7 +21,7 @@ impl Watch for () {
 }
 
 /// Stops when another watch does, but reports nothing; for the inner solutions of an iteration.
-pub(super) struct InnerWatch<'a>(pub(super) &'a dyn Watch);
+pub struct InnerWatch<'a>(pub &'a dyn Watch);
 
 impl Watch for InnerWatch<'_> {
     fn iteration(&self, _: f64, _: f64) {}
@@ -32,6 +32,9 @@ impl Watch for InnerWatch<'_> {
 }
 
 /// Returns [`Error::Interrupted`] if the watch requests a stop.
-pub(super) fn check_stop(watch: &dyn Watch) -> Result<()> {
+///
+/// # Errors
+/// [`Error::Interrupted`].
+pub fn check_stop(watch: &dyn Watch) -> Result<()> {
     if watch.stop() { Err(Error::Interrupted) } else { Ok(()) }
 }
