@@ -18,7 +18,7 @@ from ._core import __version__
 from ._conductance import Conductance, conductance
 from ._contact import Contact, contact, slide
 from ._gap_flow import GapFlow, flow
-from ._plastic_flow import PlasticFlow
+from ._plastic_state import PlasticState
 from ._progress import Progress
 from ._run import Run, open, run
 from ._stress import Extreme, Stress, SubsurfaceStress, stress
@@ -67,7 +67,7 @@ __all__ = [
     "Parameter",
     "Parameters",
     "Pass",
-    "PlasticFlow",
+    "PlasticState",
     "Plasticity",
     "Profile",
     "Progress",

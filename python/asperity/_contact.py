@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from . import _case, _conductance, _core, _gap_flow, fields
 from ._keywords import ContactKeywords, SlideKeywords, takes
-from ._plastic_flow import PlasticFlow, of_results
+from ._plastic_state import PlasticState, of_results
 from ._progress import Teller
 from ._show import unit_of
 from ._solved import Solved
@@ -118,8 +118,8 @@ class Contact(Solved):
         Warnings about doubtful input and results.
     case : dict
         The resolved case, SI.
-    plastic_flow : dict
-        Plastic state of elasto-plastic bodies, a :class:`PlasticFlow` for ``"lower"`` and for ``"upper"``.
+    plastic_state : dict
+        Plastic state of elasto-plastic bodies, a :class:`PlasticState` for ``"lower"`` and for ``"upper"``.
     closed_form : dict or None
         Closed form of the contact of two smooth forms (Hertz, Sneddon) at the same load, and the deviation of the computed contact
         from it: the keys `theory`, `theory_max_pressure`, `max_pressure_deviation` and others of `closed_form` in `summary.json`.
@@ -167,7 +167,7 @@ class Contact(Solved):
     leakages: dict[str, Table]
     warnings: list[str]
     case: dict[str, Any]
-    plastic_flow: dict[str, PlasticFlow]
+    plastic_state: dict[str, PlasticState]
     closed_form: dict[str, Any] | None
     adhesion: dict[str, Any] | None
     directory: pathlib.Path | None
@@ -182,12 +182,12 @@ class Contact(Solved):
         found: Fields,
         warnings: list[str],
         case: dict[str, Any],
-        plastic_flow: dict[str, PlasticFlow],
+        plastic_state: dict[str, PlasticState],
         closed_form: dict[str, Any] | None = None,
         adhesion: dict[str, Any] | None = None,
         directory: pathlib.Path | None = None,
     ) -> None:
-        self.plastic_flow = plastic_flow
+        self.plastic_state = plastic_state
         self.fields = found
         self.increments = records(increments, _core.INCREMENT_COLUMNS)
         self.updates = records(updates, ["update", "distance"])
@@ -590,7 +590,7 @@ def _solved(pair: tuple[Body, Body], keywords: Any, options: Mapping[str, Any]) 
             arrays,
             found["warnings"],
             found["case"],
-            {body: PlasticFlow(**volume) for body, volume in found.get("flow", {}).items()},
+            {body: PlasticState(**volume) for body, volume in found.get("plastic_state", {}).items()},
             found["closed_form"],
             found["adhesion"],
         )

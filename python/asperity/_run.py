@@ -13,7 +13,7 @@ from ._contact import Contact
 from ._keywords import Execution, takes
 from ._progress import Teller
 from ._optional import need
-from ._plastic_flow import PlasticFlow, of_results
+from ._plastic_state import PlasticState, of_results
 from ._same import Comparable
 from ._table import by_direction, records, Table, Units
 from ._temporary import Temporary
@@ -157,7 +157,7 @@ class Run(Comparable):
         """Return the stress under the surface in a pass, if the argument `subsurface` was given."""
         return fields.stored(self._core, "subsurface", self._number(number))
 
-    def plastic_flow(self, number: int | None = None) -> dict[str, PlasticFlow]:
+    def plastic_state(self, number: int | None = None) -> dict[str, PlasticState]:
         """Return the plastic state of elasto-plastic bodies after a pass, by ``"lower"`` and ``"upper"``.
 
         Parameters

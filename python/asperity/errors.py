@@ -31,7 +31,7 @@ __all__ = [
     "FailedCases",
     "File",
     "FileProblem",
-    "FlowNotConverged",
+    "PlasticNotConverged",
     "GridMismatch",
     "InUse",
     "InternalError",
@@ -290,7 +290,7 @@ class WornAway(Failed):
     length: float
 
 
-class FlowNotConverged(Failed):
+class PlasticNotConverged(Failed):
     """The return mapping of plastic strain did not converge: `products`, `mismatch` over the yield stress, `tolerance`."""
 
     products: int

@@ -49,7 +49,7 @@ def everything(directory: pathlib.Path) -> None:
         found._repr_html_()
     else:
         _ = {name: field.values for name, field in found.fields.items()}
-        _ = found.numbers, found.increments, found.updates, found.sweep, found.warnings, found.case, found.plastic_flow
+        _ = found.numbers, found.increments, found.updates, found.sweep, found.warnings, found.case, found.plastic_state
         _ = found.contact_fraction, found.lower, found.upper
         found._repr_html_()
 

@@ -53,7 +53,7 @@ def test_flow_that_does_not_settle_says_in_which_increment() -> None:
     with pytest.raises(asp.errors.AtIncrement, match=r"increment 1: the plastic strain did not converge") as raised:
         asp.contact(asp.form.flat((16, 16), pitch="6 um"), ball, soft, soft, load="100 N", plasticity=flows, progress=False)
     cause = raised.value.cause
-    assert raised.value.increment == 1 and isinstance(cause, asp.errors.FlowNotConverged)
+    assert raised.value.increment == 1 and isinstance(cause, asp.errors.PlasticNotConverged)
     assert cause.mismatch > cause.tolerance == 1e-14 and cause.products > 0
     assert raised.value.hint is not None and "increments" in raised.value.hint
 

@@ -359,7 +359,7 @@ pub enum Error {
     #[error(
         "the plastic strain did not converge in {products} operator applications: return-mapping residual {mismatch:.2e} of the yield stress, tolerance {tolerance:.2e}"
     )]
-    FlowNotConverged {
+    PlasticNotConverged {
         /// Applications of the residual-stress operator.
         products: usize,
         /// Return-mapping residual over the yield stress.
@@ -509,7 +509,7 @@ impl Error {
             Self::NotFinite { .. }
             | Self::WornAway { .. }
             | Self::NotConverged { .. }
-            | Self::FlowNotConverged { .. } => at(Box::new(self)),
+            | Self::PlasticNotConverged { .. } => at(Box::new(self)),
             other => other,
         }
     }
@@ -543,7 +543,7 @@ impl Error {
             Self::UndefinedSamples { .. } => {
                 Some("fill them, from the nearest sample or by a membrane over each hole".into())
             }
-            Self::FlowNotConverged { .. } => {
+            Self::PlasticNotConverged { .. } => {
                 Some("use more increments, with less plastic strain in each".into())
             }
             Self::NotFinite { .. } => Some(

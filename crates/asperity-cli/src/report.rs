@@ -143,7 +143,7 @@ fn code(error: &Error) -> u8 {
         Error::BeyondPlasticLimit { .. }
         | Error::BeyondFriction { .. }
         | Error::NotConverged { .. }
-        | Error::FlowNotConverged { .. }
+        | Error::PlasticNotConverged { .. }
         | Error::Memory { .. }
         | Error::DeviceMemory { .. }
         | Error::DeviceFailed { .. }
@@ -345,7 +345,7 @@ fn hint(error: &Error) -> Option<String> {
              `dimensionless`; or slide a shorter distance"
                 .to_owned(),
         ),
-        Error::FlowNotConverged { .. } => {
+        Error::PlasticNotConverged { .. } => {
             Some("raise `increments` in [plasticity], so that each of them flows less".to_owned())
         }
         Error::ResultsExist { results: true, .. } => Some(

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use asperity::motion::FlowResult;
+use asperity::motion::PlasticResult;
 use asperity::study::case::Case;
 use asperity::study::{self, NamedField, Outcome, StaticResult, SurfaceInput};
 use numpy::ndarray::{Array4, ArrayD};
@@ -89,7 +89,7 @@ pub(crate) fn rest<'py>(
         fields,
         adhesion,
         closed_form,
-        flow_result,
+        plastic_result,
         conductance,
         gap_flow,
         warnings,
@@ -118,22 +118,22 @@ pub(crate) fn rest<'py>(
         arrays.set_item(name, (array(py, values), unit))?;
     }
     contact.set_item("fields", arrays)?;
-    if let Some(flow_result) = flow_result {
-        contact.set_item("flow", flow(py, flow_result)?)?;
+    if let Some(plastic_result) = plastic_result {
+        contact.set_item("plastic_state", plastic_state(py, plastic_result)?)?;
     }
     Ok(contact)
 }
 
 /// Returns the plastic state below the surfaces: the arrays of each body, by their names in files.
-fn flow<'py>(py: Python<'py>, flow_result: FlowResult) -> PyResult<Bound<'py, PyDict>> {
+fn plastic_state<'py>(py: Python<'py>, plastic_result: PlasticResult) -> PyResult<Bound<'py, PyDict>> {
     let bodies = PyDict::new(py);
     let layers_last = |values: ArrayD<f64>, axes: &[usize]| {
         values.permuted_axes(axes).as_standard_layout().into_owned().into_pyarray(py)
     };
     // From [layer, component, ix, iy] and [layer, ix, iy].
     let tensor = |values: Array4<f64>| layers_last(values.into_dyn(), &[1, 2, 3, 0]);
-    let left = flow_result.residual.into_iter().map(Some).chain(std::iter::repeat_with(|| None));
-    for (volume, left) in flow_result.volumes.into_iter().zip(left) {
+    let left = plastic_result.residual.into_iter().map(Some).chain(std::iter::repeat_with(|| None));
+    for (volume, left) in plastic_result.volumes.into_iter().zip(left) {
         let body = PyDict::new(py);
         let left = left.unwrap_or_else(|| volume.clone());
         body.set_item("depths", volume.faces)?;

@@ -123,7 +123,7 @@ impl CoreResults {
             "pass" => self.results.fields_after(number.unwrap_or(0)),
             "point" => self.results.point_fields(number.unwrap_or(1)),
             "subsurface" => self.results.subsurface_fields(number),
-            "plasticity" => self.results.flow_fields(number),
+            "plasticity" => self.results.plastic_fields(number),
             _ => self.results.static_fields(),
         }
     }

@@ -7,8 +7,8 @@ use super::subsurface::SubsurfaceRecord;
 use super::summary::{CONVERGED, RunningIn};
 use asperity_base::units::Dimension;
 use asperity_contact::motion::{
-    AdhesionPassRecord, AdhesionRecord, Column, ENDINGS, FlowRecord, FlowStepRecord, HeatRecord,
-    IncrementRecord, PassFlowRecord, PassRecord, Presence, ResidualRecord, RunningRecord, ShearRecord,
+    AdhesionPassRecord, AdhesionRecord, Column, ENDINGS, HeatRecord, IncrementRecord, PassPlasticRecord,
+    PassRecord, PlasticRecord, PlasticStepRecord, Presence, ResidualRecord, RunningRecord, ShearRecord,
     StaticRecord, StepRecord, SweepRecord, UpdateRecord,
 };
 
@@ -23,7 +23,7 @@ pub const RECORDS: [(&str, &[Column]); 25] = [
     ("AdhesionRecord", AdhesionRecord::OWN_COLUMNS),
     ("AdhesionPassRecord", AdhesionPassRecord::OWN_COLUMNS),
     ("AdhesionSummary", AdhesionSummary::OWN_COLUMNS),
-    ("FlowRecord", FlowRecord::OWN_COLUMNS),
+    ("PlasticRecord", PlasticRecord::OWN_COLUMNS),
     ("ResidualRecord", ResidualRecord::OWN_COLUMNS),
     ("ClosedFormRecord", ClosedFormRecord::OWN_COLUMNS),
     ("SubsurfaceRecord", SubsurfaceRecord::OWN_COLUMNS),
@@ -33,11 +33,11 @@ pub const RECORDS: [(&str, &[Column]); 25] = [
     ("GapFlowRecord", GapFlowRecord::OWN_COLUMNS),
     ("SweepRecord", SweepRecord::OWN_COLUMNS),
     ("IncrementRecord", IncrementRecord::OWN_COLUMNS),
-    ("FlowStepRecord", FlowStepRecord::OWN_COLUMNS),
+    ("PlasticStepRecord", PlasticStepRecord::OWN_COLUMNS),
     ("UpdateRecord", UpdateRecord::OWN_COLUMNS),
     ("PassRecord", PassRecord::OWN_COLUMNS),
     ("RunningRecord", RunningRecord::OWN_COLUMNS),
-    ("PassFlowRecord", PassFlowRecord::OWN_COLUMNS),
+    ("PassPlasticRecord", PassPlasticRecord::OWN_COLUMNS),
     ("StepRecord", StepRecord::OWN_COLUMNS),
     ("HeatRecord", HeatRecord::OWN_COLUMNS),
     ("RunningIn", RunningIn::OWN_COLUMNS),

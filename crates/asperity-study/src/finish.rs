@@ -13,7 +13,7 @@ use crate::subsurface::SubsurfaceRecord;
 use crate::summary::{Outcome, RunningIn, Summary};
 use asperity_base::error::Result;
 use asperity_base::units::Metre;
-use asperity_contact::motion::{FlowRecord, Pair, UpdateRecord};
+use asperity_contact::motion::{Pair, PlasticRecord, UpdateRecord};
 use asperity_contact::solver::{Control, Params};
 
 /// Results of a run for its summary.
@@ -23,7 +23,7 @@ pub struct Computed {
     /// The last update of a contact that wears in place.
     pub(super) sliding: Option<UpdateRecord>,
     /// The plastic flow of a motion of elasto-plastic bodies.
-    pub(super) flow: Option<FlowRecord>,
+    pub(super) plasticity: Option<PlasticRecord>,
     /// Adhesion of the bodies in numbers.
     pub(super) adhesion: Option<AdhesionSummary>,
     /// The closed form of the contact of smooth forms.
@@ -46,7 +46,7 @@ impl Computed {
             outcome,
             subsurface: Vec::new(),
             sliding: None,
-            flow: None,
+            plasticity: None,
             adhesion: None,
             closed_form: None,
             conductance: Vec::new(),
@@ -61,7 +61,7 @@ pub fn conclude(
     writer: &Writer,
     resolved: Value,
     began: Instant,
-    Computed { outcome, subsurface, sliding, flow, adhesion, closed_form, conductance, gap_flow }: Computed,
+    Computed { outcome, subsurface, sliding, plasticity, adhesion, closed_form, conductance, gap_flow }: Computed,
     mut warnings: Vec<String>,
 ) -> Result<Summary> {
     outcome.check()?;
@@ -76,7 +76,7 @@ pub fn conclude(
     let summary = Summary {
         running_in,
         sliding,
-        plasticity: flow,
+        plasticity,
         adhesion,
         closed_form,
         version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -97,7 +97,7 @@ pub fn conclude(
 pub fn closed_form(case: &Case, extent: [Metre; 2], outcome: &Outcome) -> Option<ClosedFormRecord> {
     let computed: ElasticContact = match outcome {
         Outcome::Static(record) => {
-            let yields = record.flow.as_ref().is_some_and(|flow| flow.max_plastic_strain > 0.0);
+            let yields = record.plastic.as_ref().is_some_and(|plastic| plastic.max_plastic_strain > 0.0);
             (record.plastic_cells == 0 && !yields).then(|| (&**record).into())
         }
         Outcome::Sweep(points) => points.last().filter(|point| point.plastic_area == 0.0).map(Into::into),

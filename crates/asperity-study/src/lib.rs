@@ -80,7 +80,7 @@ mod closed_form; // closed forms beside computed contacts
 mod estimate; // cost and warnings of a case in advance
 mod fields; // the fields of a static contact
 mod finish; // beginning and end of every run
-mod flow; // elasto-plastic bodies of a case
+mod elasto_plastic; // elasto-plastic bodies of a case
 mod given; // surfaces in memory that a case names
 mod identity; // identity of a run, to resume it
 pub mod io; // fields in HDF5 and for ParaView, digests, locks

@@ -7,9 +7,9 @@ use web_time::Instant;
 
 use crate::adhesion::{self, AdhesionSummary};
 use crate::case::{Case, CounterBody};
+use crate::elasto_plastic;
 use crate::estimate::{Estimate, estimate};
 use crate::finish::{Computed, conclude, pair, params};
-use crate::flow;
 use crate::given::SurfaceInput;
 use crate::identity;
 use crate::io::lock::Lock;
@@ -22,7 +22,7 @@ use crate::review;
 use crate::summary::{Outcome, Summary};
 use asperity_base::error::{Error, Result};
 use asperity_contact::motion::{
-    Body, FlowRecord, Motion, Output, Pair, PassRecord, Simulation, SolvedPass, Watch,
+    Body, Motion, Output, Pair, PassRecord, PlasticRecord, Simulation, SolvedPass, Watch,
 };
 use asperity_surface::{NEVER, Stop};
 
@@ -195,11 +195,11 @@ impl Passes {
         self.warnings.extend(review::motion(&self.case, shapes, &passes));
         self.warnings.extend(adhesion::depends_on_history(&passes));
         let left = self.simulation.plastic_volumes();
-        let flow = (!left.is_empty()).then(|| -> Result<FlowRecord> {
+        let plasticity = (!left.is_empty()).then(|| -> Result<PlasticRecord> {
             let steps = self.writer.results().steps()?;
             let pitch = pair.pitch()[0];
             self.warnings.extend(review::rolled(&self.case, pitch, &steps, &passes, &left));
-            Ok(FlowRecord::of_passes(&left, &steps, &passes))
+            Ok(PlasticRecord::of_passes(&left, &steps, &passes))
         });
         let subsurface = self.output.subsurface(passes.len())?;
         let Observations { conductance, flow: gap_flow, .. } = self.observers.finish()?;
@@ -211,7 +211,7 @@ impl Passes {
             outcome: Outcome::Passes(passes),
             subsurface,
             sliding: None,
-            flow: flow.transpose()?,
+            plasticity: plasticity.transpose()?,
             closed_form: None,
         };
         let summary = conclude(&self.case, &self.writer, self.resolved, self.began, outcome, self.warnings)?;
@@ -233,11 +233,11 @@ fn simulation(
     let simulation = match &case.plasticity {
         None => simulation,
         Some(spec) => {
-            let bodies = flow::bodies(case, spec, simulation.pair())?;
-            let flowing = simulation.with_flow(bodies, spec.params())?;
+            let bodies = elasto_plastic::bodies(case, spec, simulation.pair())?;
+            let yielding = simulation.with_plastic(bodies, spec.params())?;
             match look {
-                None => flowing,
-                Some(position) => flowing.with_state_under_load(position),
+                None => yielding,
+                Some(position) => yielding.with_state_under_load(position),
             }
         }
     };

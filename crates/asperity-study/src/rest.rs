@@ -4,10 +4,10 @@
 use crate::adhesion::{self, AdhesionSummary};
 use crate::case::{Case, LoadingPath, PlasticitySpec};
 use crate::closed_form::ClosedFormRecord;
+use crate::elasto_plastic;
 use crate::estimate::{Estimate, estimate};
 use crate::fields::{NamedField, RestFields};
 use crate::finish::{closed_form, pair, params};
-use crate::flow;
 use crate::given::SurfaceInput;
 use crate::limits::Limits;
 use crate::observe::{self, Observations, Observers};
@@ -20,7 +20,7 @@ use crate::tables;
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::{CellValues, Field, check_finite};
 use asperity_contact::motion::{
-    ElastoPlasticContact, FILM, FlowResult, IncrementRecord, LoadedContact, Output, Pair, PlasticVolume,
+    ElastoPlasticContact, FILM, IncrementRecord, LoadedContact, Output, Pair, PlasticResult, PlasticVolume,
     Point, Slide, SlidingState, Stage, State, StaticContact, StaticRecord, UpdateRecord, WEAR, Watch,
     WearInPlace, WornContact, load_in_stages, press, press_elasto_plastic, roll, sweep,
 };
@@ -44,7 +44,7 @@ pub struct StaticResult {
     /// The closed form of the contact, if both bodies are smooth forms; `None` for others.
     pub closed_form: Option<ClosedFormRecord>,
     /// The plastic state below the surfaces; `None` for other than elasto-plastic bodies.
-    pub flow_result: Option<FlowResult>,
+    pub plastic_result: Option<PlasticResult>,
     /// The conductance of the observed contacts, if requested.
     pub conductance: Vec<ConductanceRecord>,
     /// The flow through the gap of the observed contacts, if requested.
@@ -82,7 +82,7 @@ impl StaticResult {
             fields,
             adhesion: None,
             closed_form: None,
-            flow_result: None,
+            plastic_result: None,
             conductance: Vec::new(),
             gap_flow: Vec::new(),
             warnings: Vec::new(),
@@ -109,9 +109,9 @@ impl StaticResult {
             check_finite(name, values.shape(), values)?;
         }
         for volume in self
-            .flow_result
+            .plastic_result
             .iter()
-            .flat_map(|flow_result| [&flow_result.volumes, &flow_result.residual])
+            .flat_map(|plastic_result| [&plastic_result.volumes, &plastic_result.residual])
             .flatten()
         {
             let PlasticVolume { state, residual_stress, displacement, .. } = volume;
@@ -146,7 +146,7 @@ pub(super) fn solve(
         return contact.slide(slide);
     }
     let rest = match (case.loading_path(apparent_area), law, &case.plasticity) {
-        (Some(LoadingPath::Stages(stages)), _, Some(spec)) => contact.flow(spec, stages),
+        (Some(LoadingPath::Stages(stages)), _, Some(spec)) => contact.press_elasto_plastic(spec, stages),
         (Some(LoadingPath::Sweep(points)), ..) => contact.sweep(&points),
         (Some(LoadingPath::Rolling(rolling)), Some(friction), _) => contact.roll(friction, rolling),
         (Some(LoadingPath::Stages(stages)), law, _) if law.is_some() || stages.len() > 1 => {
@@ -255,9 +255,10 @@ impl StaticProblem<'_> {
     }
 
     /// Solves the stages of elasto-plastic bodies.
-    fn flow(self, spec: &PlasticitySpec, stages: Vec<Stage>) -> Result<StaticResult> {
+    fn press_elasto_plastic(self, spec: &PlasticitySpec, stages: Vec<Stage>) -> Result<StaticResult> {
         let case = self.case;
-        let (bodies, path) = (flow::bodies(self.case, spec, &self.pair)?, flow::path(spec, stages));
+        let (bodies, path) =
+            (elasto_plastic::bodies(self.case, spec, &self.pair)?, elasto_plastic::path(spec, stages));
         self.begin()?;
         let mut kept = self.writer.map(|writer| writer.increments(&[])).transpose()?;
         let (mut observers, mut limits) = (self.observers(None)?, self.limits(None)?);
@@ -266,14 +267,14 @@ impl StaticProblem<'_> {
         let contact =
             press_elasto_plastic(pair, boundary, self.law, bodies, &path, &self.params, self.watch, outputs)?;
         let of_answer = self.review(contact.solution.normal());
-        let of_flow = review::elasto_plastic(self.case, &self.pair, &contact);
-        let warnings = [limits.all(), of_flow, of_answer].concat();
-        let ElastoPlasticContact { record, solution, slip, flow_result, .. } = contact;
+        let of_bodies = review::elasto_plastic(self.case, &self.pair, &contact);
+        let warnings = [limits.all(), of_bodies, of_answer].concat();
+        let ElastoPlasticContact { record, solution, slip, plastic_result, .. } = contact;
         let nothing = self.pair.lower_grid().zeros();
-        let fields = fields(flow_result.displaced(self.pair), solution, nothing, slip);
-        let increments = flow_result.increments.clone();
+        let fields = fields(plastic_result.displaced(self.pair), solution, nothing, slip);
+        let increments = plastic_result.increments.clone();
         let result = StaticResult::of(record, fields);
-        StaticResult { increments, flow_result: Some(flow_result), warnings, ..result }
+        StaticResult { increments, plastic_result: Some(plastic_result), warnings, ..result }
             .seen_by(case, observers)
     }
 

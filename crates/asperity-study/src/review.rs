@@ -7,7 +7,7 @@ use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, attraction_cut_off, cut_off, 
 use asperity_base::grid::Field;
 use asperity_base::units::{self, Dimension, Joule, Metre, SquareMetre};
 use asperity_contact::motion::{
-    ElastoPlasticContact, Interior, LoadedContact, Pair, PassFlowRecord, PassRecord, PlasticVolume,
+    ElastoPlasticContact, Interior, LoadedContact, Pair, PassPlasticRecord, PassRecord, PlasticVolume,
     ShearRecord, StaticRecord, StepRecord, SweepRecord,
 };
 use asperity_contact::operator::Boundary;
@@ -62,15 +62,15 @@ fn inaccurate(error: Joule, shear: &ShearRecord) -> Option<String> {
 pub(super) fn elasto_plastic(case: &Case, pair: &Pair, contact: &ElastoPlasticContact) -> Vec<String> {
     /// Step of the load, relative to the load reached, above which the loading path is resolved only roughly.
     const STEP: f64 = 0.15;
-    let ElastoPlasticContact { record, flow_result, .. } = contact;
-    let mut warnings = volumes(case.contact.boundary, &flow_result.volumes);
-    let Some(flow) = &record.flow else { return warnings };
+    let ElastoPlasticContact { record, plastic_result, .. } = contact;
+    let mut warnings = volumes(case.contact.boundary, &plastic_result.volumes);
+    let Some(plastic) = &record.plastic else { return warnings };
     let spot = spot_width(record, pair.cell_area());
-    warnings.extend(thick_layers(&flow_result.volumes, flow.max_plastic_strain, spot));
+    warnings.extend(thick_layers(&plastic_result.volumes, plastic.max_plastic_strain, spot));
     let mut before = 0.0;
-    let coarse = flow_result.increments.iter().any(|increment| {
+    let coarse = plastic_result.increments.iter().any(|increment| {
         let step = increment.load - std::mem::replace(&mut before, increment.load);
-        let flows = increment.flow.is_some_and(|flow| flow.yielded_cells > 0);
+        let flows = increment.plastic.is_some_and(|plastic| plastic.yielded_cells > 0);
         flows && increment.increment > 1 && step.abs() > STEP * record.load.max(increment.load)
     });
     if coarse {
@@ -151,8 +151,9 @@ pub(super) fn rolled(
     /// Largest acceptable share of the plastic work at the rim.
     const RIM: f64 = 0.1;
     let mut warnings = volumes(case.contact.boundary, left);
-    let flows = |step: &StepRecord| step.flow.is_some_and(|flow| flow.yielded_cells > 0);
-    let strain = steps.iter().filter_map(|step| step.flow).fold(0.0, |m: f64, f| m.max(f.max_plastic_strain));
+    let flows = |step: &StepRecord| step.plastic.is_some_and(|plastic| plastic.yielded_cells > 0);
+    let strain =
+        steps.iter().filter_map(|step| step.plastic).fold(0.0, |m: f64, f| m.max(f.max_plastic_strain));
     let widest = steps.iter().filter(|step| flows(step)).map(|step| step.largest_spot_cells).max();
     let Some(widest) = widest.map(|cells| cells as f64) else { return warnings };
     warnings.extend(thick_layers(left, strain, widest * pitch));
@@ -175,11 +176,11 @@ pub(super) fn rolled(
             100.0 * stride / widest
         ));
     }
-    let sum = |value: fn(&PassFlowRecord) -> f64| -> f64 {
-        passes.iter().filter_map(|pass| pass.flow).map(|flow| value(&flow)).sum()
+    let sum = |value: fn(&PassPlasticRecord) -> f64| -> f64 {
+        passes.iter().filter_map(|pass| pass.plastic).map(|plastic| value(&plastic)).sum()
     };
-    let work = sum(|flow| flow.plastic_work_lower + flow.plastic_work_upper);
-    let rim = sum(|flow| flow.plastic_work_rim);
+    let work = sum(|plastic| plastic.plastic_work_lower + plastic.plastic_work_upper);
+    let rim = sum(|plastic| plastic.plastic_work_rim);
     if rim > RIM * work {
         warnings.push(format!(
             "{:.0} % of the plastic work is under the outer two columns of the overlap, where free edges plough; add a sphere or a cylinder to \
@@ -252,7 +253,7 @@ fn settled(passes: &[PassRecord]) -> Option<String> {
     /// Volume of a pass relative to the largest of all passes, below which a pass changes nothing.
     const NONE: f64 = 1e-6;
     // Plastic flow below the surfaces has a separate warning.
-    if passes.iter().any(|pass| pass.flow.is_some()) {
+    if passes.iter().any(|pass| pass.plastic.is_some()) {
         return None;
     }
     let moved = |pass: &PassRecord| {

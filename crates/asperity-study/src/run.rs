@@ -66,7 +66,7 @@ pub(super) fn run_with(
         outcome,
         updates,
         fields,
-        flow_result,
+        plastic_result,
         adhesion,
         closed_form,
         conductance,
@@ -77,11 +77,11 @@ pub(super) fn run_with(
     warnings.extend(of_answer);
     let below = subsurface.map(|plan| (plan, fields.tractions()));
     writer.write_rest(fields)?;
-    let volumes = match &flow_result {
+    let volumes = match &plastic_result {
         None => &[][..],
-        Some(flow_result) => {
-            writer.write_flow(flow_result)?;
-            &flow_result.volumes
+        Some(plastic_result) => {
+            writer.write_plastic(plastic_result)?;
+            &plastic_result.volumes
         }
     };
     let stress =
@@ -89,8 +89,16 @@ pub(super) fn run_with(
     let (subsurface, sliding) = (stress.into_iter().collect(), updates.last().cloned());
     let conductance = conductance.last().cloned().into_iter().collect();
     let gap_flow = GapFlowRecord::last(&gap_flow).to_vec();
-    let computed =
-        Computed { outcome, subsurface, sliding, flow: None, adhesion, closed_form, conductance, gap_flow };
+    let computed = Computed {
+        outcome,
+        subsurface,
+        sliding,
+        plasticity: None,
+        adhesion,
+        closed_form,
+        conductance,
+        gap_flow,
+    };
     let summary = conclude(case, &writer, resolved, began, computed, warnings)?;
     writer.results().remove_state()?;
     Ok((summary, writer))

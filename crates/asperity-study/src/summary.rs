@@ -14,7 +14,7 @@ use crate::{json, tables};
 use asperity_base::error::{Error, Result};
 use asperity_base::record::columns;
 use asperity_base::units::{CubicMetre, Metre, Second};
-use asperity_contact::motion::{Column, FlowRecord, PassRecord, StaticRecord, SweepRecord, UpdateRecord};
+use asperity_contact::motion::{Column, PassRecord, PlasticRecord, StaticRecord, SweepRecord, UpdateRecord};
 
 /// The content of `summary.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -36,7 +36,7 @@ pub struct Summary {
     /// Residual plastic state after the passes of elasto-plastic bodies, with its long-term regime; `None` for others. The
     /// residual state of a static contact is in its record.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub plasticity: Option<FlowRecord>,
+    pub plasticity: Option<PlasticRecord>,
     /// Adhesion of the bodies in numbers; `None` without adhesion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adhesion: Option<AdhesionSummary>,
@@ -186,7 +186,7 @@ mod tests {
             residual: 3e-7,
             shear: None,
             adhesion: None,
-            flow: None,
+            plastic: None,
         };
         let summary = Summary {
             version: "0.1.0".into(),

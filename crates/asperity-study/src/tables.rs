@@ -352,7 +352,7 @@ mod tests {
             max_pressure: 4e9,
             heat: None,
             adhesion: None,
-            flow: None,
+            plastic: None,
             plastic_cells: 0,
             plastic_volume: 0.0,
             plastic_volume_interior: 0.0,
@@ -366,7 +366,7 @@ mod tests {
         PassRecord {
             running: None,
             adhesion: None,
-            flow: None,
+            plastic: None,
             pass: 1,
             approach: 1e-7,
             mean_load: 2.0,

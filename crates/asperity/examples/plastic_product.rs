@@ -17,7 +17,7 @@ use std::time::Instant;
 use asperity::material::Material;
 use asperity::operator::Boundary;
 use asperity::plasticity::{
-    Action, FlowParams, Hardening, J2, Layers, Loading, PlasticBody, SurfaceDisplacement, TensorField,
+    Action, Hardening, J2, Layers, Loading, PlasticBody, PlasticParams, SurfaceDisplacement, TensorField,
     Volume, advance,
 };
 use asperity::subsurface::Tractions;
@@ -83,7 +83,7 @@ fn measure(side: usize, layers: usize, boundary: Boundary) -> Result<(), Box<dyn
     for peak in [2.5, 2.8, 3.0] {
         pressure.peak = peak;
         let start = now();
-        let increment = advance(&mut [&mut body], &mut pressure, None, &FlowParams::new())?;
+        let increment = advance(&mut [&mut body], &mut pressure, None, &PlasticParams::new())?;
         // The first one also makes the operators of the tractions.
         if peak > 2.5 {
             seconds += now() - start;

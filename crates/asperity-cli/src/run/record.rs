@@ -1,6 +1,6 @@
 //! Summary of a contact at the end of a run: a line for each number.
 
-use asperity::motion::{FlowRecord, StaticRecord};
+use asperity::motion::{PlasticRecord, StaticRecord};
 use asperity::study::{AdhesionSummary, Case, ClosedFormRecord, Outcome, SubsurfaceRecord, Summary};
 use asperity::units::{Dimension, format, format_number};
 
@@ -17,7 +17,7 @@ pub fn text(case: &Case, summary: &Summary) -> String {
         Outcome::Sweep(_) | Outcome::Passes(_) => String::new(),
     };
     let theory = summary.closed_form.as_ref().map_or(String::new(), theory_lines);
-    let flow = summary.plasticity.as_ref().map_or(String::new(), flow_line);
+    let plastic = summary.plasticity.as_ref().map_or(String::new(), plastic_line);
     let passes =
         |rows: Vec<(String, String)>| rows.iter().map(|(name, value)| line(name, value)).collect::<String>();
     let conductance =
@@ -27,7 +27,7 @@ pub fn text(case: &Case, summary: &Summary) -> String {
     contact
         + &adhesion
         + &theory
-        + &flow
+        + &plastic
         + &conductance
         + &leakage
         + &summary.subsurface.iter().map(stress_line).collect::<String>()
@@ -61,8 +61,8 @@ fn theory_lines(record: &ClosedFormRecord) -> String {
 }
 
 /// Describes the response of elasto-plastic bodies to repeated passes.
-fn flow_line(flow: &FlowRecord) -> String {
-    let rate = match (flow.strain_per_pass, flow.shift_per_pass) {
+fn plastic_line(plastic: &PlasticRecord) -> String {
+    let rate = match (plastic.strain_per_pass, plastic.shift_per_pass) {
         (Some(strain), Some(shift)) => {
             let (strain, shift) = (format_number(100.0 * strain), format(shift, Dimension::Length));
             format!(": strain grows by {strain} %, the surface moves by {shift} a pass")
@@ -71,10 +71,10 @@ fn flow_line(flow: &FlowRecord) -> String {
     };
     format!(
         "{}{rate}; largest plastic strain {}, plastic work {}, residual tension up to {}\n",
-        flow.regime,
-        format_number(flow.max_plastic_strain),
-        format(flow.plastic_work, Dimension::Energy),
-        format(flow.max_residual_tension, Dimension::Pressure)
+        plastic.regime,
+        format_number(plastic.max_plastic_strain),
+        format(plastic.plastic_work, Dimension::Energy),
+        format(plastic.max_residual_tension, Dimension::Pressure)
     )
 }
 
@@ -160,14 +160,15 @@ fn static_table(record: &StaticRecord, planes: &str) -> String {
             rows.push(("moment", format!("{} N m", format_number(moment))));
         }
     }
-    if let Some(flow) = &record.flow {
-        let residual = flow.residual.as_ref();
-        let tension = residual.map_or(flow.max_residual_tension, |left| left.residual_max_residual_tension);
-        let dent = residual.map_or(flow.residual_displacement, |left| left.residual_residual_displacement);
+    if let Some(plastic) = &record.plastic {
+        let residual = plastic.residual.as_ref();
+        let tension =
+            residual.map_or(plastic.max_residual_tension, |left| left.residual_max_residual_tension);
+        let dent = residual.map_or(plastic.residual_displacement, |left| left.residual_residual_displacement);
         rows.extend([
-            ("plastic strain", format_number(flow.max_plastic_strain)),
-            ("yielded volume", format(flow.yielded_volume, Dimension::Volume)),
-            ("plastic work", format(flow.plastic_work, Dimension::Energy)),
+            ("plastic strain", format_number(plastic.max_plastic_strain)),
+            ("yielded volume", format(plastic.yielded_volume, Dimension::Volume)),
+            ("plastic work", format(plastic.plastic_work, Dimension::Energy)),
             ("residual tension", format(tension, Dimension::Pressure)),
             ("dent left", format(dent, Dimension::Length)),
         ]);

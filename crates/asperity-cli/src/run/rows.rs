@@ -64,8 +64,8 @@ impl Rows {
             let plastic = pass.lost_inside("plastic")[0] + pass.lost_inside("plastic")[1];
             ranked.push((Rank::Plastic, Cell::of("plastic", "plastic_volume_lower_interior", plastic)));
         }
-        if let Some(flow) = &pass.flow {
-            let work = flow.plastic_work_lower + flow.plastic_work_upper;
+        if let Some(plastic) = &pass.plastic {
+            let work = plastic.plastic_work_lower + plastic.plastic_work_upper;
             ranked.push((Rank::Always, Cell::of("work", "plastic_work_lower", work)));
         }
         if let Some(adhesion) = &pass.adhesion {

@@ -240,7 +240,7 @@ impl Contact {
             residual: self.residual,
             heat: None,
             adhesion: self.adhesion,
-            flow: None,
+            plastic: None,
         }
     }
 }
@@ -302,7 +302,7 @@ impl StaticRecord {
             residual: solution.residual,
             shear: None,
             adhesion: None,
-            flow: None,
+            plastic: None,
         }
     }
 

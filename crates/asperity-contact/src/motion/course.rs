@@ -38,7 +38,7 @@ pub enum Step<'a> {
         of: usize,
     },
     /// An increment of a loading of elasto-plastic bodies.
-    Flow {
+    Plastic {
         /// The record of the increment.
         record: &'a IncrementRecord,
         /// The contact at its end; `None` while the bodies are unloaded at the end of their path.
@@ -125,7 +125,7 @@ impl<'a> Step<'a> {
     pub fn number(&self) -> usize {
         match self {
             Self::Increment { state, .. } => state.increments.len(),
-            Self::Flow { record, .. } => record.increment,
+            Self::Plastic { record, .. } => record.increment,
             Self::Update { state, .. } => state.updates.len() - 1,
             Self::Point { record, .. } => record.point,
             Self::Pass(report) => report.record.pass,
@@ -136,7 +136,7 @@ impl<'a> Step<'a> {
     pub fn is_last(&self) -> bool {
         match self {
             Self::Increment { of, .. }
-            | Self::Flow { of, .. }
+            | Self::Plastic { of, .. }
             | Self::Update { of, .. }
             | Self::Point { of, .. } => self.number() == *of,
             Self::Pass(_) => false,
@@ -163,7 +163,7 @@ impl<'a> Step<'a> {
                 report.pair.check_finite()?;
                 worn_away::check_pass(report.pair, report.record)
             }
-            Self::Increment { .. } | Self::Flow { .. } | Self::Point { .. } => Ok(()),
+            Self::Increment { .. } | Self::Plastic { .. } | Self::Point { .. } => Ok(()),
         }
     }
 
@@ -171,7 +171,7 @@ impl<'a> Step<'a> {
     fn at(&self, source: Box<Error>) -> Error {
         let number = self.number();
         match self {
-            Self::Increment { .. } | Self::Flow { .. } => Error::AtIncrement { increment: number, source },
+            Self::Increment { .. } | Self::Plastic { .. } => Error::AtIncrement { increment: number, source },
             Self::Update { .. } => Error::AtUpdate { update: number, source },
             Self::Point { of, .. } => Error::AtPoint { point: number, points: *of, source },
             Self::Pass(_) => Error::AtPass { pass: number, source },
@@ -186,7 +186,7 @@ impl<'a> Step<'a> {
         };
         match self {
             Self::Increment { state, of } => solved(state.contact.normal().load(), *of),
-            Self::Flow { record, of, .. } => solved(record.load, *of),
+            Self::Plastic { record, of, .. } => solved(record.load, *of),
             Self::Update { state, of, .. } => {
                 let update = state.updates.last().expect("the update just done");
                 solved(update.load, *of);

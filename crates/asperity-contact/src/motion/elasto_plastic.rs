@@ -6,12 +6,12 @@ use crate::motion::contact::facing;
 use crate::motion::course::{self, Course, Output, Step};
 use crate::motion::loading::{Stage, shear_record, static_record};
 use crate::motion::pair::Pair;
-use crate::motion::plastic_volume::{self, FlowSums, PlasticVolume};
-use crate::motion::record::{FlowRecord, FlowStepRecord, IncrementRecord, StaticRecord};
+use crate::motion::plastic_volume::{self, PlasticSums, PlasticVolume};
+use crate::motion::record::{IncrementRecord, PlasticRecord, PlasticStepRecord, StaticRecord};
 use crate::motion::state::Origin;
 use crate::motion::watch::{StaticWatch, Watch};
 use crate::operator::Boundary;
-use crate::plasticity::{FlowParams, Interface, PlasticBody, PlasticContact, RelativePosition};
+use crate::plasticity::{Interface, PlasticBody, PlasticContact, PlasticParams, RelativePosition};
 use crate::solver::{Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Tangential};
 use crate::units::Joule;
 
@@ -29,13 +29,13 @@ pub struct ElastoPlasticContact {
     /// [`FrictionalSolution::dissipation_error`](crate::solver::FrictionalSolution::dissipation_error).
     pub dissipation_error: Joule,
     /// The plastic state and its history.
-    pub flow_result: FlowResult,
+    pub plastic_result: PlasticResult,
 }
 
 /// Plastic state below the surfaces of a static contact, and its history.
 #[derive(Debug, Clone, Default)]
 #[non_exhaustive]
-pub struct FlowResult {
+pub struct PlasticResult {
     /// The increments, unloading included.
     pub increments: Vec<IncrementRecord>,
     /// The plastic state of each elasto-plastic body under the last load.
@@ -44,7 +44,7 @@ pub struct FlowResult {
     pub residual: Vec<PlasticVolume>,
 }
 
-impl FlowResult {
+impl PlasticResult {
     /// Returns a `pair` with its surfaces displaced by the plastic strain under the last load.
     pub fn displaced(&self, pair: Pair) -> Pair {
         plastic_volume::displaced(pair, &self.volumes, 1.0)
@@ -54,19 +54,19 @@ impl FlowResult {
 /// Loading path of elasto-plastic bodies.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub struct FlowPath {
+pub struct PlasticPath {
     /// The stages, one after another. Tangential loading counts only with friction.
     pub stages: Vec<Stage>,
     /// Number of equal unloading steps at the end, ≥ 1; `None` if the load stays.
     pub unloading: Option<usize>,
     /// Convergence criteria of a step.
-    pub flow: FlowParams,
+    pub plastic: PlasticParams,
 }
 
-impl FlowPath {
+impl PlasticPath {
     /// Creates a path through these stages, without unloading.
     pub fn new(stages: Vec<Stage>) -> Self {
-        Self { stages, unloading: None, flow: FlowParams::new() }
+        Self { stages, unloading: None, plastic: PlasticParams::new() }
     }
 
     /// Sets the number of unloading steps at the end.
@@ -82,8 +82,8 @@ impl FlowPath {
 
     /// Sets the convergence criteria of a step.
     #[must_use]
-    pub fn with_flow(self, flow: FlowParams) -> Self {
-        Self { flow, ..self }
+    pub fn with_plastic(self, plastic: PlasticParams) -> Self {
+        Self { plastic, ..self }
     }
 }
 
@@ -102,7 +102,7 @@ pub fn press_elasto_plastic(
     boundary: Boundary,
     friction: Option<&Friction>,
     bodies: [Option<PlasticBody>; 2],
-    path: &FlowPath,
+    path: &PlasticPath,
     params: &Params,
     watch: &dyn Watch,
     outputs: &mut [&mut dyn Output],
@@ -118,27 +118,27 @@ pub fn press_elasto_plastic(
         }
     };
     let facing = RelativePosition { interface, initial_gap, placements: pair.placements(&pair.at_rest()) };
-    let contact = PlasticContact::new(facing, bodies, path.flow, *params);
-    let mut flowing = ElastoPlasticLoading {
+    let contact = PlasticContact::new(facing, bodies, path.plastic, *params);
+    let mut yielding = ElastoPlasticLoading {
         contact,
         path,
         increments: Vec::new(),
-        sums: FlowSums::default(),
+        sums: PlasticSums::default(),
         slip: None,
         dissipation_error: 0.0,
         origin: None,
         loaded: None,
     };
-    course::run(&mut flowing, watch, outputs)?;
-    flowing.finish()
+    course::run(&mut yielding, watch, outputs)?;
+    yielding.finish()
 }
 
 /// A contact of elasto-plastic bodies on its loading path.
 struct ElastoPlasticLoading<'a> {
     contact: PlasticContact,
-    path: &'a FlowPath,
+    path: &'a PlasticPath,
     increments: Vec<IncrementRecord>,
-    sums: FlowSums,
+    sums: PlasticSums,
     slip: Option<[Field; 2]>,
     dissipation_error: Joule,
     /// State at the beginning of the current stage.
@@ -154,7 +154,7 @@ struct LastLoad {
     dissipation: Joule,
     dissipation_error: Joule,
     volumes: Vec<PlasticVolume>,
-    flow: FlowRecord,
+    plastic: PlasticRecord,
 }
 
 impl LastLoad {
@@ -191,7 +191,7 @@ impl Course for ElastoPlasticLoading<'_> {
         let loading = Stage::increments(&self.path.stages);
         let contact = self.contact.equilibrium().filter(|_| record.increment <= loading);
         let is_last_load = record.increment == loading;
-        Step::Flow { record, contact, is_last_load, of: self.path.increments() }
+        Step::Plastic { record, contact, is_last_load, of: self.path.increments() }
     }
 
     fn take(&mut self, record: IncrementRecord) {
@@ -223,7 +223,7 @@ impl ElastoPlasticLoading<'_> {
             slip: self.slip.take(),
             dissipation: self.increments.iter().map(|increment| increment.dissipation).sum(),
             dissipation_error: self.dissipation_error,
-            flow: FlowRecord::of(&volumes, &self.sums),
+            plastic: PlasticRecord::of(&volumes, &self.sums),
             volumes,
         })
     }
@@ -239,7 +239,7 @@ impl ElastoPlasticLoading<'_> {
         let before = contact.equilibrium().and_then(Equilibrium::frictional).cloned();
         let increment = contact.load(loading, watch)?;
         self.sums.add(&increment);
-        let flow = FlowStepRecord::of(std::slice::from_ref(&increment), contact);
+        let plastic = PlasticStepRecord::of(std::slice::from_ref(&increment), contact);
         let apart = || IncrementRecord { approach: f64::NAN, ..IncrementRecord::default() };
         let record = contact.equilibrium().map_or_else(apart, IncrementRecord::of);
         let solution = contact.equilibrium().and_then(Equilibrium::frictional);
@@ -253,27 +253,28 @@ impl ElastoPlasticLoading<'_> {
             });
         }
         let increment = self.increments.len() + 1;
-        Ok(IncrementRecord { increment, stage, dissipation, flow: Some(flow), ..record })
+        Ok(IncrementRecord { increment, stage, dissipation, plastic: Some(plastic), ..record })
     }
 
     /// Returns the contact at the end of its path.
     fn finish(mut self) -> Result<ElastoPlasticContact> {
         let loaded = self.loaded.take().expect("the end of the path");
-        let LastLoad { solution, slip, dissipation, dissipation_error, volumes, flow } = loaded;
+        let LastLoad { solution, slip, dissipation, dissipation_error, volumes, plastic } = loaded;
         let (residual, left) = match self.path.unloading {
             None => (Vec::new(), None),
             Some(_) => {
                 let residual = PlasticVolume::unloaded(&mut self.contact);
-                let left = FlowRecord::of(&residual, &self.sums).into_residual();
+                let left = PlasticRecord::of(&residual, &self.sums).into_residual();
                 (residual, Some(left))
             }
         };
-        let FlowSums { products, mismatch, .. } = self.sums;
-        let flow = FlowRecord { products, mismatch, residual: left, ..flow };
+        let PlasticSums { products, mismatch, .. } = self.sums;
+        let plastic = PlasticRecord { products, mismatch, residual: left, ..plastic };
         let shear = solution.frictional().map(|solution| shear_record(solution, dissipation));
-        let plastic = Field::zeros(solution.normal().pressure.raw_dim());
-        let record = StaticRecord { flow: Some(flow), shear, ..static_record(&solution, &plastic) };
-        let flow_result = FlowResult { increments: self.increments, volumes, residual };
-        Ok(ElastoPlasticContact { record, solution, slip, dissipation_error, flow_result })
+        let interference = Field::zeros(solution.normal().pressure.raw_dim());
+        let record =
+            StaticRecord { plastic: Some(plastic), shear, ..static_record(&solution, &interference) };
+        let plastic_result = PlasticResult { increments: self.increments, volumes, residual };
+        Ok(ElastoPlasticContact { record, solution, slip, dissipation_error, plastic_result })
     }
 }

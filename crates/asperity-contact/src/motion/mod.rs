@@ -18,7 +18,7 @@ mod observed;
 mod pair;
 mod pass;
 mod path;
-mod plastic;
+mod truncation;
 mod record;
 mod regime;
 mod report;
@@ -40,7 +40,7 @@ pub use asperity_base::record::{Column, Presence};
 pub use body::{Body, State};
 pub use contact::{Contact, StaticContact, press};
 pub use course::{Output, Step};
-pub use elasto_plastic::{ElastoPlasticContact, FlowPath, FlowResult, press_elasto_plastic};
+pub use elasto_plastic::{ElastoPlasticContact, PlasticPath, PlasticResult, press_elasto_plastic};
 pub use extrapolation::{Acceleration, LastExtrapolation};
 pub use film::{ACTIVATION_ENERGIES, ACTIVATION_VOLUMES, GROWTH_FACTORS, GROWTH_TEMPERATURES, REMOVAL_RATES};
 pub use film::{FILM, Film, FilmLaw, FilmStress, Films};
@@ -52,13 +52,12 @@ pub use pair::Pair;
 pub use pair::{initial_gap, opposing_values};
 use path::shift_positions_after;
 pub use path::{OffsetY, Path, Position, Stroke, overlap_positions, shift_positions};
-pub use plastic::PlasticFlow;
 pub use plastic_volume::PlasticVolume;
 pub use record::lost_volumes::{ENDINGS, is_volume_of_law};
 pub use record::{
-    AdhesionPassRecord, AdhesionRecord, FlowRecord, FlowStepRecord, HeatRecord, IncrementRecord, LostVolume,
-    PassFlowRecord, PassRecord, Regime, ResidualRecord, RunningRecord, ShearRecord, StaticRecord, StepRecord,
-    SweepRecord, UpdateRecord,
+    AdhesionPassRecord, AdhesionRecord, HeatRecord, IncrementRecord, LostVolume, PassPlasticRecord,
+    PassRecord, PlasticRecord, PlasticStepRecord, Regime, ResidualRecord, RunningRecord, ShearRecord,
+    StaticRecord, StepRecord, SweepRecord, UpdateRecord,
 };
 pub use report::PassReport;
 pub use rim::Interior;
@@ -68,6 +67,7 @@ pub use spot::largest_spot;
 pub use state::{Flattening, LoadedContact, LoadingState, Origin, SlidingState};
 pub use sweep::{Point, sweep};
 pub use together::memory_together;
+pub use truncation::Truncation;
 pub use warm_start::{Guess, LoadedCells, WarmStart};
 pub use watch::{Progress, Watch};
 pub use wear::{WEAR, Wear, WearCoefficient, WearDriver};

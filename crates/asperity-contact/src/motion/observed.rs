@@ -79,7 +79,7 @@ impl<'a> Step<'a> {
     pub fn contacts(&self) -> impl Iterator<Item = ObservedContact<'a>> + use<'a> {
         let (alone, pass) = match *self {
             Step::Increment { state, .. } => (Some(state.contact.normal()), None),
-            Step::Flow { contact, .. } => (contact.map(|contact| contact.normal()), None),
+            Step::Plastic { contact, .. } => (contact.map(|contact| contact.normal()), None),
             Step::Update { solution, .. } => (Some(solution), None),
             Step::Point { contact, .. } => (Some(contact.solution.normal()), None),
             Step::Pass(report) => (None, Some((report.contacts, report.pair.pitch()))),

@@ -2,7 +2,9 @@
 
 use crate::grid::{Field, Grid};
 use crate::motion::pair::Pair;
-use crate::motion::record::{FlowRecord, FlowStepRecord, PassFlowRecord, PassRecord, Regime, StepRecord};
+use crate::motion::record::{
+    PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Regime, StepRecord,
+};
 use crate::motion::regime;
 use crate::plasticity::{Increment, PlasticBody, PlasticContact, PlasticState, TensorField};
 use crate::stress::{Component, Stress};
@@ -37,9 +39,9 @@ pub(super) struct ElastoPlasticPass {
     /// The plastic state after unloading.
     pub(super) volumes: Vec<PlasticVolume>,
     /// The records of the positions.
-    pub(super) steps: Vec<FlowStepRecord>,
+    pub(super) steps: Vec<PlasticStepRecord>,
     /// The record of the pass.
-    pub(super) record: PassFlowRecord,
+    pub(super) record: PassPlasticRecord,
     /// The plastic state under the load at the selected position; empty if none is selected.
     pub(super) states_under_load: Vec<PlasticState>,
 }
@@ -150,14 +152,14 @@ pub(super) fn displace(pair: &mut Pair, body: usize, inward: &Field, sign: f64) 
 
 /// Sums over increments.
 #[derive(Default)]
-pub(super) struct FlowSums {
+pub(super) struct PlasticSums {
     pub(super) products: usize,
     /// The largest return-mapping residual.
     pub(super) mismatch: f64,
     pub(super) plastic_work: Joule,
 }
 
-impl FlowSums {
+impl PlasticSums {
     pub(super) fn add(&mut self, increment: &Increment) {
         self.products += increment.products;
         self.mismatch = self.mismatch.max(increment.mismatch);
@@ -165,13 +167,13 @@ impl FlowSums {
     }
 }
 
-impl FlowStepRecord {
+impl PlasticStepRecord {
     /// Sums the `increments` of a step that ends with the bodies of a `contact`.
     pub(super) fn of(increments: &[Increment], contact: &mut PlasticContact) -> Self {
-        let mut sums = FlowSums::default();
+        let mut sums = PlasticSums::default();
         increments.iter().for_each(|increment| sums.add(increment));
         Self {
-            yielded_cells: increments.iter().map(Increment::flowing_cells).max().unwrap_or(0),
+            yielded_cells: increments.iter().map(Increment::yielding_cells).max().unwrap_or(0),
             max_plastic_strain: contact
                 .bodies()
                 .iter()
@@ -184,9 +186,9 @@ impl FlowStepRecord {
     }
 }
 
-impl FlowRecord {
+impl PlasticRecord {
     /// Returns the record of these volumes and of the increments with these sums.
-    pub(super) fn of(volumes: &[PlasticVolume], sums: &FlowSums) -> Self {
+    pub(super) fn of(volumes: &[PlasticVolume], sums: &PlasticSums) -> Self {
         let (max_plastic_strain, max_plastic_strain_position) = volumes
             .iter()
             .map(|volume| volume.max_strain)
@@ -214,12 +216,12 @@ impl FlowRecord {
     }
 }
 
-impl FlowRecord {
+impl PlasticRecord {
     /// Returns the record of the residual state after a motion with these positions and passes.
     pub fn of_passes(left: &[PlasticVolume], steps: &[StepRecord], passes: &[PassRecord]) -> Self {
-        let steps = steps.iter().filter_map(|step| step.flow);
-        let passes: Vec<PassFlowRecord> = passes.iter().filter_map(|pass| pass.flow).collect();
-        let mut sums = FlowSums::default();
+        let steps = steps.iter().filter_map(|step| step.plastic);
+        let passes: Vec<PassPlasticRecord> = passes.iter().filter_map(|pass| pass.plastic).collect();
+        let mut sums = PlasticSums::default();
         for step in steps {
             sums.products += step.products;
             sums.mismatch = sums.mismatch.max(step.mismatch);
@@ -232,7 +234,7 @@ impl FlowRecord {
     }
 }
 
-impl PassFlowRecord {
+impl PassPlasticRecord {
     /// Returns the record of a pass from the states `before` to these volumes. Plastic work is given in the lower and in
     /// the upper body, and under the outer columns of the overlap.
     pub(super) fn of(

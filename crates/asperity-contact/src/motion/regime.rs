@@ -1,6 +1,6 @@
 //! Long-term regime of elasto-plastic bodies over many passes: shakedown, cyclic plasticity, ratcheting.
 
-use crate::motion::record::{PassFlowRecord, Regime};
+use crate::motion::record::{PassPlasticRecord, Regime};
 use crate::units::Metre;
 
 /// Plastic work of a pass relative to the first, below which the bodies have shaken down.
@@ -12,8 +12,8 @@ const CYCLIC: f64 = 0.05;
 
 impl Regime {
     /// Determines the regime from the records of the passes.
-    pub fn of(passes: &[PassFlowRecord]) -> Self {
-        let work = |pass: &PassFlowRecord| pass.plastic_work_lower + pass.plastic_work_upper;
+    pub fn of(passes: &[PassPlasticRecord]) -> Self {
+        let work = |pass: &PassPlasticRecord| pass.plastic_work_lower + pass.plastic_work_upper;
         let Some(first) = passes.iter().map(work).find(|work| *work > 0.0) else {
             return Self::Elastic;
         };
@@ -33,9 +33,9 @@ impl Regime {
 
 /// Returns the ratcheting rates in the last of these passes: the growth of the largest plastic strain, and the displacement
 /// along x of the surface of the body that moves more.
-pub(super) fn rates(passes: &[PassFlowRecord]) -> Option<(f64, Metre)> {
+pub(super) fn rates(passes: &[PassPlasticRecord]) -> Option<(f64, Metre)> {
     let [.., before, last] = passes else { return None };
-    let strain = |pass: &PassFlowRecord| pass.max_plastic_strain_lower.max(pass.max_plastic_strain_upper);
+    let strain = |pass: &PassPlasticRecord| pass.max_plastic_strain_lower.max(pass.max_plastic_strain_upper);
     let [lower, upper] = [last.surface_shift_lower, last.surface_shift_upper];
     Some((strain(last) - strain(before), if lower.abs() >= upper.abs() { lower } else { upper }))
 }
@@ -45,12 +45,12 @@ mod tests {
     use super::*;
 
     /// Passes with these plastic works and net strains, whose surface moves by −1 µm.
-    fn passes(works: &[(f64, f64)]) -> Vec<PassFlowRecord> {
-        let pass = |(plastic_work_lower, net_strain_lower): &(f64, f64)| PassFlowRecord {
+    fn passes(works: &[(f64, f64)]) -> Vec<PassPlasticRecord> {
+        let pass = |(plastic_work_lower, net_strain_lower): &(f64, f64)| PassPlasticRecord {
             plastic_work_lower: *plastic_work_lower,
             net_strain_lower: *net_strain_lower,
             surface_shift_lower: -1e-6,
-            ..PassFlowRecord::default()
+            ..PassPlasticRecord::default()
         };
         works.iter().map(pass).collect()
     }

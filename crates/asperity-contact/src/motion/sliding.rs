@@ -9,11 +9,11 @@ use crate::motion::film::FILM;
 use crate::motion::law::{self, Heat, Law, PositionData, Sums};
 use crate::motion::pair::{Pair, opposing_values};
 use crate::motion::path::Position;
-use crate::motion::plastic::PlasticFlow;
 use crate::motion::record::{LostVolume, StaticRecord, UpdateRecord};
 use crate::motion::rim::Interior;
 use crate::motion::spot::largest_spot;
 use crate::motion::state::SlidingState;
+use crate::motion::truncation::Truncation;
 use crate::motion::watch::{StaticWatch, Watch};
 use crate::motion::wear::WEAR;
 use crate::motion::{Body, Strategy};
@@ -184,7 +184,7 @@ impl WearInPlace {
         Ok(Self {
             operator: operators.on(shape),
             interiors: Interior::of_bodies([shape; 2], boundary, Strategy::Overlap, 0.0),
-            laws: vec![Box::new(PlasticFlow)],
+            laws: vec![Box::new(Truncation)],
             heat: None,
             slide,
             boundary,

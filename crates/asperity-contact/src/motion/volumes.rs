@@ -9,11 +9,11 @@ use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Position;
 use crate::motion::plastic_volume::{ElastoPlasticPass, PlasticVolume, displace};
-use crate::motion::record::{FlowStepRecord, LostVolume, PassFlowRecord};
+use crate::motion::record::{LostVolume, PassPlasticRecord, PlasticStepRecord};
 use crate::motion::watch::{OneOfMany, Progress};
 use crate::operator::{Boundary, Operators};
 use crate::plasticity::{
-    FlowParams, Increment, Interface, PlasticBody, PlasticContact, PlasticState, RelativePosition,
+    Increment, Interface, PlasticBody, PlasticContact, PlasticParams, PlasticState, RelativePosition,
 };
 use crate::solver::{Control, Loading, Params, Tangential};
 use crate::units::Joule;
@@ -42,7 +42,7 @@ impl Volumes {
         operators: &Operators,
         position: &Position,
         boundary: Boundary,
-        (flow, params): (FlowParams, Params),
+        (plastic, params): (PlasticParams, Params),
     ) -> Self {
         let shape = [position.columns, pair.lower.width()];
         let facing = RelativePosition {
@@ -50,7 +50,7 @@ impl Volumes {
             initial_gap: pair.initial_gap(position),
             placements: pair.placements(position),
         };
-        let mut contact = PlasticContact::new(facing, bodies, flow, params);
+        let mut contact = PlasticContact::new(facing, bodies, plastic, params);
         let states = states(&mut contact);
         Self { contact: Mutex::new(contact), states, boundary, states_under_load: None }
     }
@@ -133,7 +133,7 @@ impl Solver<'_> {
         let mut bodies = undeformed;
         after.iter().for_each(|volume| displace(&mut bodies, volume.body, &volume.displacement, 1.0));
         let Course { work, at_rim, steps, contacts } = course;
-        let record = PassFlowRecord::of(&after, volumes.states(), work, at_rim);
+        let record = PassPlasticRecord::of(&after, volumes.states(), work, at_rim);
         let lost = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
         let plastic_pass = Some(ElastoPlasticPass { volumes: after, steps, record, states_under_load });
         Ok(Pass { contacts, pair: bodies, lost, has_changed: true, plastic_pass })
@@ -183,7 +183,7 @@ struct Course {
     work: [Joule; 2],
     /// The part of it at the rim of the overlap.
     at_rim: Joule,
-    steps: Vec<FlowStepRecord>,
+    steps: Vec<PlasticStepRecord>,
     contacts: Vec<Contact>,
 }
 
@@ -197,7 +197,7 @@ impl Course {
         position: &Position,
         boundary: Boundary,
     ) {
-        self.steps.push(FlowStepRecord::of(increments, contact));
+        self.steps.push(PlasticStepRecord::of(increments, contact));
         for increment in increments {
             self.work_of(increment, contact.sides());
             if boundary.repeats(0) {
@@ -205,16 +205,20 @@ impl Course {
             }
             let placements = pair.placements(position);
             let ends = (0..position.columns).filter(|j| *j < RIM || *j + RIM >= position.columns);
-            for (flow, side) in increment.bodies.iter().zip(contact.sides()) {
+            for (plastic, side) in increment.bodies.iter().zip(contact.sides()) {
                 let width = pair.lower.width();
                 let column = |j: usize| placements[*side].cell(j * width) / width;
-                self.at_rim += ends.clone().map(|j| flow.work_of_columns[column(j)]).sum::<f64>();
+                self.at_rim += ends.clone().map(|j| plastic.work_of_columns[column(j)]).sum::<f64>();
             }
         }
     }
 
     fn work_of(&mut self, increment: &Increment, sides: &[usize]) {
-        increment.bodies.iter().zip(sides).for_each(|(flow, side)| self.work[*side] += flow.plastic_work);
+        increment
+            .bodies
+            .iter()
+            .zip(sides)
+            .for_each(|(plastic, side)| self.work[*side] += plastic.plastic_work);
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use ndarray::s;
 
-use super::flow::{CellState, FlowLaw, Tensor, contract, equivalent};
+use super::law::{CellState, PlasticLaw, Tensor, contract, equivalent};
 use super::{COMPONENTS, TensorField, Volume, VolumeField};
 use crate::grid::Field;
 use crate::kernel::Traction;
@@ -16,7 +16,7 @@ use crate::units::{CubicMetre, Joule, Pascal};
 /// θ, the fraction of 2μ by which the stress of the predictor relaxes. The iteration converges only above ½.
 const RELAXATION: f64 = 0.65;
 /// Cells whose equivalent predictor exceeds this fraction of the yield stress may flow.
-const MAY_FLOW: f64 = 0.5;
+const MAY_YIELD: f64 = 0.5;
 
 /// Loading of a body.
 #[derive(Debug, Clone)]
@@ -51,7 +51,7 @@ pub struct PlasticState {
 /// An elasto-plastic half-space: the volume under its surface, its flow law, and its plastic state.
 pub struct PlasticBody {
     volume: Volume,
-    law: Arc<dyn FlowLaw>,
+    law: Arc<dyn PlasticLaw>,
     state: PlasticState,
     /// Present loading, and the stress under it.
     action: Option<Action>,
@@ -78,9 +78,9 @@ struct Trial {
 /// Results of an increment in a body.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub struct BodyFlow {
+pub struct BodyIncrement {
     /// Number of cells of all layers that have flowed.
-    pub flowing_cells: usize,
+    pub yielding_cells: usize,
     /// Plastic work ∫ ½ (σ₀ + σ₁) : Δε, J.
     pub plastic_work: Joule,
     /// Part of it under each column of the body, J.
@@ -92,7 +92,7 @@ type Place = usize;
 
 impl PlasticBody {
     /// Creates an unloaded body without plastic strain.
-    pub fn new(volume: Volume, law: Arc<dyn FlowLaw>) -> Self {
+    pub fn new(volume: Volume, law: Arc<dyn PlasticLaw>) -> Self {
         let zeros = || volume.zeros();
         let shape = [volume.layers().count(), volume.grid().shape[0], volume.grid().shape[1]];
         Self {
@@ -162,7 +162,7 @@ impl PlasticBody {
     }
 
     /// The flow law.
-    pub fn law(&self) -> &dyn FlowLaw {
+    pub fn law(&self) -> &dyn PlasticLaw {
         &*self.law
     }
 
@@ -376,7 +376,7 @@ impl PlasticBody {
     /// Returns the places that may flow in this increment.
     pub(super) fn candidates(&self) -> Vec<Place> {
         let (cells, stiffness) = (self.cells(), self.stiffness());
-        let least = MAY_FLOW * self.law.yield_stress();
+        let least = MAY_YIELD * self.law.yield_stress();
         let per_layer = parallel::tasks(0..self.volume.layers().count(), |layer| {
             let before = PreviousStates::new(layer, &self.state);
             let y = layer_of(&self.trial.predictor, layer);
@@ -407,7 +407,7 @@ impl PlasticBody {
     }
 
     /// Returns the gathered entries that belong to flowing cells.
-    pub(super) fn flowing_entries(&self, places: &[Place]) -> impl Iterator<Item = usize> {
+    pub(super) fn yielding_entries(&self, places: &[Place]) -> impl Iterator<Item = usize> {
         let flows = self.trial.flows.as_slice().expect("standard layout");
         let flowing = places.iter().enumerate().filter(|(_, place)| flows[**place]);
         flowing.flat_map(|(n, _)| COMPONENTS * n..COMPONENTS * (n + 1))
@@ -424,10 +424,11 @@ impl PlasticBody {
     }
 
     /// Ends the increment: the trial becomes the state of the body under an `action`.
-    pub(super) fn commit(&mut self, action: Action, displacement: SurfaceDisplacement) -> BodyFlow {
+    pub(super) fn commit(&mut self, action: Action, displacement: SurfaceDisplacement) -> BodyIncrement {
         let (cells, stiffness) = (self.cells(), self.stiffness());
         let [columns, width] = self.volume.grid().shape;
-        let mut flow = BodyFlow { flowing_cells: 0, plastic_work: 0.0, work_of_columns: vec![0.0; columns] };
+        let mut flow =
+            BodyIncrement { yielding_cells: 0, plastic_work: 0.0, work_of_columns: vec![0.0; columns] };
         self.increment.clear();
         for layer in 0..self.volume.layers().count() {
             let volume = self.volume.grid().cell_area() * self.volume.layers().thickness(layer);
@@ -445,7 +446,7 @@ impl PlasticBody {
                 let at = [cell / width, cell % width];
                 flow.plastic_work += work;
                 flow.work_of_columns[at[0]] += work;
-                flow.flowing_cells += 1;
+                flow.yielding_cells += 1;
                 self.increment.push((layer * cells + cell, change));
                 let PlasticState { strain, accumulated, back_stress } = &mut self.state;
                 accumulated[[layer, at[0], at[1]]] = next.accumulated;

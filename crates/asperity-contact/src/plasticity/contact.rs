@@ -1,7 +1,7 @@
 //! A contact of two bodies, one or both elasto-plastic.
 
 use super::body::{Action, PlasticBody, PlasticState, SurfaceDisplacement};
-use super::increment::{self, FlowParams, Increment, advance};
+use super::increment::{self, Increment, PlasticParams, advance};
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid, Placement};
 use crate::operator::{CoupledOperator, Operator};
@@ -24,7 +24,7 @@ pub struct PlasticContact {
     sides: Vec<usize>,
     /// Shift of the load over the lower and over the upper body since the last increment, in cells.
     shifts: [[isize; 2]; 2],
-    flow: FlowParams,
+    flow: PlasticParams,
     contact: Params,
     increments: usize,
     /// Pressure of the last increment; 0 before the first, and after separation.
@@ -75,7 +75,7 @@ impl PlasticContact {
     pub fn new(
         facing: RelativePosition,
         bodies: [Option<PlasticBody>; 2],
-        flow: FlowParams,
+        flow: PlasticParams,
         contact: Params,
     ) -> Self {
         let follows = matches!(facing.interface, Interface::Frictional(..));
@@ -154,7 +154,7 @@ impl PlasticContact {
     /// Applies a load (0 separates the bodies) or an approach in one increment, without tangential loading.
     ///
     /// # Errors
-    /// [`Error::AtIncrement`] with its cause: [`Error::FlowNotConverged`], or an error of [`crate::solver::solve_normal`].
+    /// [`Error::AtIncrement`] with its cause: [`Error::PlasticNotConverged`], or an error of [`crate::solver::solve_normal`].
     pub fn go_to(&mut self, control: Control) -> Result<Increment> {
         self.load(Loading { normal: control, tangential: Tangential::Force([0.0; 2]) }, &())
     }

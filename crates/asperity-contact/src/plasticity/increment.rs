@@ -1,7 +1,7 @@
 //! An increment: consistent plastic strain and contact pressure.
 
 use super::anderson::Anderson;
-use super::body::{Action, BodyFlow, PlasticBody, Start, SurfaceDisplacement};
+use super::body::{Action, BodyIncrement, PlasticBody, Start, SurfaceDisplacement};
 use crate::error::{Error, Result, check};
 use crate::units::Joule;
 
@@ -17,14 +17,14 @@ pub trait Loading {
 /// Convergence criteria of an increment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub struct FlowParams {
+pub struct PlasticParams {
     /// Return-mapping residual at convergence, > 0, relative to the yield stress.
     pub tolerance: f64,
     /// Number of applications of the residual-stress operator after which the increment fails.
     pub max_products: usize,
 }
 
-impl FlowParams {
+impl PlasticParams {
     /// Return-mapping residual 10⁻⁴, at most 200 operator applications.
     pub const fn new() -> Self {
         Self { tolerance: 1e-4, max_products: 200 }
@@ -43,7 +43,7 @@ impl FlowParams {
     }
 }
 
-impl Default for FlowParams {
+impl Default for PlasticParams {
     fn default() -> Self {
         Self::new()
     }
@@ -58,13 +58,13 @@ pub struct Increment {
     /// Return-mapping residual over the yield stress; 0 without flow.
     pub mismatch: f64,
     /// Results for each body.
-    pub bodies: Vec<BodyFlow>,
+    pub bodies: Vec<BodyIncrement>,
 }
 
 impl Increment {
     /// Number of cells of all layers of all bodies that have flowed.
-    pub fn flowing_cells(&self) -> usize {
-        self.bodies.iter().map(|body| body.flowing_cells).sum()
+    pub fn yielding_cells(&self) -> usize {
+        self.bodies.iter().map(|body| body.yielding_cells).sum()
     }
 
     /// Plastic work in all bodies, J.
@@ -85,13 +85,13 @@ impl Increment {
 /// last increment (0 if only the load has grown).
 ///
 /// # Errors
-/// [`Error::FlowNotConverged`]; [`Error::OutOfRange`] for an invalid tolerance; the errors of the loading. The bodies are
+/// [`Error::PlasticNotConverged`]; [`Error::OutOfRange`] for an invalid tolerance; the errors of the loading. The bodies are
 /// then unchanged.
 pub fn advance(
     bodies: &mut [&mut PlasticBody],
     loading: &mut dyn Loading,
     shifts: Option<&[[isize; 2]]>,
-    params: &FlowParams,
+    params: &PlasticParams,
 ) -> Result<Increment> {
     check("tolerance", params.tolerance, params.tolerance > 0.0, "a mismatch above 0")?;
     let mut trial = Trial { bodies, products: 0, actions: Vec::new(), residual: Vec::new() };
@@ -114,7 +114,7 @@ pub fn advance(
 }
 
 /// Iterates from the trial strain, which is already the flow of its predictor.
-fn iterate(trial: &mut Trial, loading: &mut dyn Loading, params: &FlowParams) -> Result<f64> {
+fn iterate(trial: &mut Trial, loading: &mut dyn Loading, params: &PlasticParams) -> Result<f64> {
     let places: Vec<Vec<usize>> = trial.bodies.iter().map(|body| body.candidates()).collect();
     let mut anderson = Anderson::default();
     let (mut least, mut step) = (f64::INFINITY, Step::Plain);
@@ -125,7 +125,7 @@ fn iterate(trial: &mut Trial, loading: &mut dyn Loading, params: &FlowParams) ->
             return Ok(mismatch);
         }
         if trial.products >= params.max_products || mismatch.is_nan() {
-            return Err(Error::FlowNotConverged {
+            return Err(Error::PlasticNotConverged {
                 products: trial.products,
                 mismatch,
                 tolerance: params.tolerance,
@@ -145,7 +145,7 @@ fn iterate(trial: &mut Trial, loading: &mut dyn Loading, params: &FlowParams) ->
                 plain
             }
             _ => {
-                let counts = trial.flowing_entries(&places);
+                let counts = trial.yielding_entries(&places);
                 least = least.min(mismatch);
                 step = if anderson.last().is_some() { Step::Accelerated } else { Step::Plain };
                 anderson.next(y, f, &counts)
@@ -231,11 +231,11 @@ impl Trial<'_, '_> {
         all
     }
 
-    fn flowing_entries(&self, places: &[Vec<usize>]) -> Vec<usize> {
+    fn yielding_entries(&self, places: &[Vec<usize>]) -> Vec<usize> {
         let mut first = 0;
         let mut entries = Vec::new();
         for (body, places) in self.bodies.iter().zip(places) {
-            entries.extend(body.flowing_entries(places).map(|entry| first + entry));
+            entries.extend(body.yielding_entries(places).map(|entry| first + entry));
             first += super::COMPONENTS * places.len();
         }
         entries

@@ -1,7 +1,7 @@
 //! J2 plasticity: flow along the deviator of the stress.
 
-use super::flow::{CellState, FlowLaw, Tensor, equivalent};
 use super::hardening::Hardening;
+use super::law::{CellState, PlasticLaw, Tensor, equivalent};
 use crate::error::{Error, Result, check, check_in};
 use crate::units::{Dimension, Pascal};
 
@@ -83,7 +83,7 @@ impl J2 {
     }
 }
 
-impl FlowLaw for J2 {
+impl PlasticLaw for J2 {
     fn flow(&self, predictor: &Tensor, stiffness: Pascal, state: &CellState) -> Option<CellState> {
         let trial = self.driving(predictor, stiffness, state, 0.0);
         let excess = equivalent(&trial) - self.hardening.yield_stress(state.accumulated);

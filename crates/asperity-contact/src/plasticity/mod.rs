@@ -9,12 +9,12 @@
 //! g = h − δ + C p + r₁ + r₂ ≥ 0        the gap between two such bodies
 //! ```
 //!
-//! [`Volume`] implements these operators, and a [`FlowLaw`] determines the growth of ε. Jacq, Nélias, Lormand and Girodin,
+//! [`Volume`] implements these operators, and a [`PlasticLaw`] determines the growth of ε. Jacq, Nélias, Lormand and Girodin,
 //! J. Tribol. 124, 653 (2002); for the operators see [`Volume`].
 //!
 //! ```
 //! use asperity_contact::material::Material;
-//! use asperity_contact::plasticity::{CellState, FlowLaw, Hardening, J2, Layers, Volume};
+//! use asperity_contact::plasticity::{CellState, PlasticLaw, Hardening, J2, Layers, Volume};
 //! use asperity_contact::subsurface::Tractions;
 //! use asperity_contact::{Field, Grid};
 //! use asperity_contact::operator::Boundary;
@@ -38,7 +38,7 @@ mod anderson;
 mod below;
 mod body;
 mod contact;
-mod flow;
+mod law;
 mod hardening;
 mod images;
 mod increment;
@@ -51,12 +51,12 @@ mod volume;
 mod waves;
 
 pub use below::residual_below;
-pub use body::{Action, BodyFlow, PlasticBody, PlasticState, SurfaceDisplacement};
+pub use body::{Action, BodyIncrement, PlasticBody, PlasticState, SurfaceDisplacement};
 pub use contact::{Interface, PlasticContact, RelativePosition};
-pub use flow::{CellState, FlowLaw, Tensor};
 pub use hardening::Hardening;
-pub use increment::{FlowParams, Increment, Loading, advance};
+pub use increment::{Increment, Loading, PlasticParams, advance};
 pub use j2::J2;
+pub use law::{CellState, PlasticLaw, Tensor};
 pub use layers::{Layers, MAX_LAYERS};
 pub use volume::Volume;
 

@@ -11,7 +11,7 @@ use crate::grid::{Field, Grid, Placement};
 use crate::material::Material;
 use crate::operator::{Boundary, FreeFft, Operator, PeriodicFft};
 use crate::plasticity::{
-    Action, FlowParams, Hardening, Interface, J2, Layers, Loading, PlasticBody, PlasticContact,
+    Action, Hardening, Interface, J2, Layers, Loading, PlasticBody, PlasticContact, PlasticParams,
     RelativePosition, SurfaceDisplacement, TensorField, Volume, advance,
 };
 use crate::solver::Control;
@@ -38,7 +38,7 @@ struct Sphere {
 }
 
 impl Sphere {
-    fn contact(&self, law: J2, flow: FlowParams) -> Result<PlasticContact> {
+    fn contact(&self, law: J2, flow: PlasticParams) -> Result<PlasticContact> {
         let grid = Grid::new([self.cells; 2], [self.pitch; 2])?;
         let material = Material::elastic(self.young, POISSON)?;
         let volume = Volume::new(grid, self.layers.clone(), self.boundary, &material)?;
@@ -87,7 +87,7 @@ fn energy(cells: usize, boundary: Boundary) -> Result<f64> {
     };
     let yield_stress = 0.003;
     let law = J2::new(Hardening::linear(yield_stress, 0.05)?).with_back_stress(0.03, 0.0)?;
-    let mut contact = sphere.contact(law, FlowParams::new())?;
+    let mut contact = sphere.contact(law, PlasticParams::new())?;
     let cell_area = sphere.pitch * sphere.pitch;
     let (mut work, mut plastic) = (0.0, 0.0);
     for times in [1.0, 2.0, 4.0, 8.0, 4.0, 1.0, 0.0, 8.0, 12.0] {
@@ -129,7 +129,7 @@ pub(super) const ONSET: Case = Case {
             // a = 1: W = 4E*a³/3R, p₀ = 2E*a/πR.
             let (load, peak) = (4.0 * modulus / (3.0 * sphere.radius), 2.0 * modulus / (PI * sphere.radius));
             let law = J2::new(Hardening::perfect(peak)?);
-            let mut contact = sphere.contact(law, FlowParams::new())?;
+            let mut contact = sphere.contact(law, PlasticParams::new())?;
             contact.go_to(Control::Load(load))?;
             let body = &contact.bodies()[0];
             let (mut most, mut place) = (0.0, [0; 3]);
@@ -206,7 +206,7 @@ fn period_of_spheres(layers: usize) -> Result<PlasticContact> {
         layers,
         young: 1.0,
     };
-    sphere.contact(J2::new(Hardening::perfect(YIELD)?), FlowParams::new().with_tolerance(1e-6))
+    sphere.contact(J2::new(Hardening::perfect(YIELD)?), PlasticParams::new().with_tolerance(1e-6))
 }
 
 /// The same sphere to 8 times its load of first yield in equal steps: the error of the largest pressure is of first order
@@ -257,7 +257,7 @@ pub(super) fn fully_plastic(cells: usize, growth: f64) -> Result<f64> {
         layers,
         young: 1.0,
     };
-    let mut contact = sphere.contact(J2::new(Hardening::perfect(yield_stress)?), FlowParams::new())?;
+    let mut contact = sphere.contact(J2::new(Hardening::perfect(yield_stress)?), PlasticParams::new())?;
     let largest = 3.0 * yield_stress * PI * end * end;
     let mut load = (largest / 60.0).max(2.0 * first_yield(radius, yield_stress));
     let mut found = Vec::new();
@@ -316,7 +316,7 @@ fn roll(body: &mut PlasticBody, load: &mut MovingStress) -> Result<Pass> {
     let cells = body.displacement().nrows();
     for position in 0..cells {
         load.at = position;
-        advance(&mut [body], load, Some(&[[1, 0]]), &FlowParams::new())?;
+        advance(&mut [body], load, Some(&[[1, 0]]), &PlasticParams::new())?;
     }
     let material = *body.volume().material();
     let shear_modulus = 0.5 * material.young / (1.0 + material.poisson);

@@ -8,7 +8,7 @@ use asperity_contact::motion::{
     LoadControl, Motion, Output, Pair, PassRecord, Regime, Simulation, Step, StepRecord, Strategy,
 };
 use asperity_contact::operator::Boundary;
-use asperity_contact::plasticity::{FlowParams, Hardening, J2, Layers, PlasticBody, PlasticState, Volume};
+use asperity_contact::plasticity::{Hardening, J2, Layers, PlasticBody, PlasticParams, PlasticState, Volume};
 use asperity_contact::solver::{Control, Friction, Params};
 use asperity_surface::Topography;
 
@@ -90,7 +90,7 @@ fn rolling(load: f64, passes: usize, kinematic: f64) -> Simulation {
     let body = flowing(shape, Boundary::PERIODIC, kinematic);
     Simulation::new(pair, Boundary::PERIODIC, motion, Params::default())
         .unwrap()
-        .with_flow([Some(body), None], FlowParams::new())
+        .with_plastic([Some(body), None], PlasticParams::new())
         .unwrap()
 }
 
@@ -103,7 +103,7 @@ fn hertz(times: f64) -> f64 {
 }
 
 fn regime(kept: &Kept) -> Regime {
-    let passes: Vec<_> = kept.passes.iter().filter_map(|pass| pass.flow).collect();
+    let passes: Vec<_> = kept.passes.iter().filter_map(|pass| pass.plastic).collect();
     Regime::of(&passes)
 }
 
@@ -118,8 +118,8 @@ fn below_first_yield_nothing_flows_and_the_contacts_are_elastic() {
     let elastic = Kept::of(Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap());
     for (a, b) in kept.steps.iter().zip(&elastic.steps) {
         assert!((a.max_pressure / b.max_pressure - 1.0).abs() < 1e-5 && a.contact_area == b.contact_area);
-        assert_eq!(a.flow.map(|flow| (flow.yielded_cells, flow.products)), Some((0, 0)));
-        assert!(b.flow.is_none());
+        assert_eq!(a.plastic.map(|flow| (flow.yielded_cells, flow.products)), Some((0, 0)));
+        assert!(b.plastic.is_none());
     }
     assert_eq!(regime(&kept), Regime::Elastic);
     assert!(kept.displacement[0].iter().all(|r| *r == 0.0));
@@ -128,12 +128,12 @@ fn below_first_yield_nothing_flows_and_the_contacts_are_elastic() {
 #[test]
 fn a_ball_rolls_a_groove_that_shakes_down_at_a_moderate_load() {
     let kept = Kept::of(rolling(hertz(3.6), 8, 0.0));
-    let flow = |pass: usize| kept.passes[pass].flow.unwrap();
+    let flow = |pass: usize| kept.passes[pass].plastic.unwrap();
     assert_eq!(
         regime(&kept),
         Regime::ShakesDown,
         "{:?}",
-        kept.passes.iter().map(|p| p.flow).collect::<Vec<_>>()
+        kept.passes.iter().map(|p| p.plastic).collect::<Vec<_>>()
     );
     assert!(flow(0).plastic_work_lower > 0.0 && flow(0).plastic_work_upper == 0.0);
     // Deepest along the middle, and uniform along the path, except around the middle, where a pass begins and ends.
@@ -150,11 +150,11 @@ fn a_ball_rolls_a_groove_that_shakes_down_at_a_moderate_load() {
 fn a_high_load_goes_on_flowing_and_kinematic_hardening_makes_that_cyclic() {
     let kept = Kept::of(rolling(hertz(6.5), 3, 0.0));
     assert!(matches!(regime(&kept), Regime::Undecided | Regime::Ratchets));
-    let work = |kept: &Kept, pass: usize| kept.passes[pass].flow.unwrap().plastic_work_lower;
+    let work = |kept: &Kept, pass: usize| kept.passes[pass].plastic.unwrap().plastic_work_lower;
     assert!(work(&kept, 2) > 0.02 * work(&kept, 0));
     let hard = Kept::of(rolling(hertz(6.5), 3, 60e9));
     assert!(work(&hard, 0) < work(&kept, 0));
-    let net = |kept: &Kept| kept.passes[2].flow.unwrap().net_strain_lower;
+    let net = |kept: &Kept| kept.passes[2].plastic.unwrap().net_strain_lower;
     assert!(net(&hard) < net(&kept), "{} {}", net(&hard), net(&kept));
 }
 
@@ -166,7 +166,7 @@ fn one_approach_bears_the_mean_load_and_later_passes_begin_from_it() {
     let motion = Motion::new(shift(1.0, 0.0), Control::Load(hertz(4.5))).with_passes(2);
     let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default())
         .unwrap()
-        .with_flow([Some(flowing(shape, Boundary::PERIODIC, 0.0)), None], FlowParams::new())
+        .with_plastic([Some(flowing(shape, Boundary::PERIODIC, 0.0)), None], PlasticParams::new())
         .unwrap();
     let kept = Kept::of(simulation);
     for pass in &kept.passes {
@@ -187,14 +187,14 @@ fn bodies_exchanged_and_moved_the_other_way_are_mirror_images() {
     let motion = |strategy| {
         Motion::new(strategy, Control::Load(hertz(5.0))).with_load_control(LoadControl::Step).with_stride(2)
     };
-    let flow = FlowParams::new().with_tolerance(1e-8);
+    let flow = PlasticParams::new().with_tolerance(1e-8);
     let params = Params::default().with_tolerance(1e-12);
     let run = |surfaces: [Topography; 2], strategy| {
         let [lower, upper] = surfaces;
         let pair = Pair::new(lower, upper, [&steel(), &steel()]).unwrap();
         let bodies = [(); 2].map(|()| Some(flowing(shape, boundary, 0.0)));
         let simulation = Simulation::new(pair, boundary, motion(strategy), params).unwrap();
-        Kept::of(simulation.with_flow(bodies, flow).unwrap())
+        Kept::of(simulation.with_plastic(bodies, flow).unwrap())
     };
     let one = run([surface(shape, flat), surface(shape, ball)], shift(0.0, 1.0));
     let other = run([surface(shape, |x, y| -ball(x, y)), surface(shape, flat)], shift(-1.0, 0.0));
@@ -205,7 +205,7 @@ fn bodies_exchanged_and_moved_the_other_way_are_mirror_images() {
             a.indexed_iter().fold(0.0f64, |m, ((ix, iy), r)| m.max((r - b[[shape[0] - 1 - ix, iy]]).abs()));
         assert!(largest > 1e-9 && apart < 1e-6 * largest, "{apart:e} of {largest:e}");
     }
-    let [one, other] = [&one, &other].map(|kept| kept.passes[0].flow.unwrap());
+    let [one, other] = [&one, &other].map(|kept| kept.passes[0].plastic.unwrap());
     assert!(
         (one.surface_shift_lower + other.surface_shift_upper).abs() < 1e-5 * one.surface_shift_lower.abs()
     );
@@ -222,10 +222,10 @@ fn a_body_that_lies_between_columns_flows_as_much() {
         .with_passes(2);
     let bodies = [(); 2].map(|()| Some(flowing(shape, Boundary::PERIODIC, 0.0)));
     let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
-    let kept = Kept::of(simulation.with_flow(bodies, FlowParams::new()).unwrap());
-    let flow = kept.passes[0].flow.unwrap();
+    let kept = Kept::of(simulation.with_plastic(bodies, PlasticParams::new()).unwrap());
+    let flow = kept.passes[0].plastic.unwrap();
     assert!(flow.plastic_work_lower > 0.0 && flow.plastic_work_upper > 0.0, "{flow:?}");
-    assert!(kept.passes[1].flow.unwrap().max_plastic_strain_upper >= flow.max_plastic_strain_upper);
+    assert!(kept.passes[1].plastic.unwrap().max_plastic_strain_upper >= flow.max_plastic_strain_upper);
 }
 
 /// A ball passes over a flat body and leaves it, at constant approach; another one runs on a ring, at the load of the
@@ -241,8 +241,9 @@ fn an_overlap_far_from_all_rims_is_a_shift() {
     let motion =
         Motion::new(Strategy::Overlap, Control::Approach(approach)).with_load_control(LoadControl::Pass);
     let overlap = Simulation::new(pair, free, motion, params).unwrap();
-    let overlap =
-        Kept::of(overlap.with_flow([Some(flowing(track, free, 0.0)), None], FlowParams::new()).unwrap());
+    let overlap = Kept::of(
+        overlap.with_plastic([Some(flowing(track, free, 0.0)), None], PlasticParams::new()).unwrap(),
+    );
     let middle: Vec<&StepRecord> =
         overlap.steps.iter().filter(|s| (120e-6..200e-6).contains(&(s.offset + 50e-6))).collect();
     let load = middle.iter().map(|step| step.load).sum::<f64>() / middle.len() as f64;
@@ -250,8 +251,9 @@ fn an_overlap_far_from_all_rims_is_a_shift() {
     let motion = Motion::new(shift(0.0, 1.0), Control::Load(load)).with_load_control(LoadControl::Step);
     let periodic = Boundary::PERIODIC;
     let shifted = Simulation::new(pair, periodic, motion, params).unwrap();
-    let shifted =
-        Kept::of(shifted.with_flow([Some(flowing(ring, periodic, 0.0)), None], FlowParams::new()).unwrap());
+    let shifted = Kept::of(
+        shifted.with_plastic([Some(flowing(ring, periodic, 0.0)), None], PlasticParams::new()).unwrap(),
+    );
     // The pass on the ring begins and ends in its middle: the groove is evaluated where the ball has been rolling for long.
     let groove = |r: &Field, columns: [usize; 8]| {
         let depth = |ix: usize| {
@@ -263,7 +265,7 @@ fn an_overlap_far_from_all_rims_is_a_shift() {
     let one = groove(&overlap.displacement[0], std::array::from_fn(|n| 26 + n));
     let other = groove(&shifted.displacement[0], std::array::from_fn(|n| 46 + n));
     assert!((one / other - 1.0).abs() < 0.04, "{one:e} {other:e}, load {load}");
-    assert!(overlap.passes[0].flow.unwrap().plastic_work_rim > 0.0);
+    assert!(overlap.passes[0].plastic.unwrap().plastic_work_rim > 0.0);
 }
 
 #[test]
@@ -277,7 +279,7 @@ fn friction_shears_the_body_the_way_that_it_slides() {
             .with_friction(friction);
         let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
         let bodies = [Some(flowing(shape, Boundary::PERIODIC, 0.0)), None];
-        Kept::of(simulation.with_flow(bodies, FlowParams::new()).unwrap()).passes[0].flow.unwrap()
+        Kept::of(simulation.with_plastic(bodies, PlasticParams::new()).unwrap()).passes[0].plastic.unwrap()
     };
     let [none, forth, back] = [run(None, 1.0), run(Some(0.3), 1.0), run(Some(0.3), -1.0)];
     assert!(forth.plastic_work_lower > 1.2 * none.plastic_work_lower, "{none:?} {forth:?}");
@@ -308,7 +310,7 @@ fn what_bodies_that_flow_do_not_have_is_refused() {
         Simulation::new(pair, boundary, motion, Params::default()).unwrap()
     };
     let refused = |simulation: Simulation, boundary| {
-        let flow = simulation.with_flow([Some(flowing(shape, boundary, 0.0)), None], FlowParams::new());
+        let flow = simulation.with_plastic([Some(flowing(shape, boundary, 0.0)), None], PlasticParams::new());
         match flow.map(|_| ()) {
             Err(Error::Unsupported(what)) => what,
             other => panic!("{other:?}"),

@@ -1,7 +1,7 @@
 //! The figures of a results directory, drawn from what it holds and from nothing else.
 
 mod course;
-mod flow;
+mod plastic;
 mod force_distance;
 mod friction;
 mod loading;
@@ -31,12 +31,12 @@ use crate::draw::{Charts, Mark, Paper, Series};
 use crate::error::{Error, Result};
 
 pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, has_new_upper};
-pub(crate) use flow::{FlowSection, flow_sections, of_increments as of_flow_increments};
 pub(crate) use force_distance::curves as of_force_distance;
 pub(crate) use friction::stick;
 pub(crate) use loading::curves as of_loading;
 pub use passage::{FLOW, FLUX, flow_map, flux_map};
 pub(crate) use passage::{LEAST_FLOW, curves as passage_curves, passes_everywhere};
+pub(crate) use plastic::{PlasticSection, of_increments as of_plastic_increments, plastic_sections};
 pub(crate) use pressure::histogram;
 pub(crate) use rest::{HeightRange, Witness, approach, open_gap, profile as profile_at_rest};
 pub(crate) use rolling::curves as of_rolling;
@@ -153,7 +153,7 @@ fn gather_on<'a>(
     }
     let case = results.case()?;
     if case.plasticity.is_some() {
-        flow::draw(&results.flow_fields(passes.last().map(|pass| pass.pass))?, &of, &mut sheet)?;
+        plastic::draw(&results.plastic_fields(passes.last().map(|pass| pass.pass))?, &of, &mut sheet)?;
     }
     if case.subsurface.is_some() {
         let fields = results.subsurface_fields(passes.last().map(|pass| pass.pass))?;

@@ -252,16 +252,10 @@ fn pressures(
     sheet.add("pressure", "pressure on the lower body", of, || {
         Ok(Maps::new(shown.iter().map(|(title, stored)| stored.pressure_within(title, range)).collect()))
     })?;
-    let is_heated = |step: &StepRecord| names.contains(&temperature_name(step.step));
-    if middles.iter().any(|step| is_heated(step)) {
-        // Results of earlier versions have no temperature of a position at which nothing touches.
+    if middles.iter().any(|step| names.contains(&temperature_name(step.step))) {
         let temperatures: Vec<StoredArray> = middles
             .iter()
-            .zip(&shown)
-            .map(|(step, (_, pressure))| match is_heated(step) {
-                true => Ok(StoredArray::read(fields, &temperature_name(step.step))?.celsius().framed(lower)),
-                false => Ok(pressure.with(Field::from_elem(pressure.field.raw_dim(), f64::NAN))),
-            })
+            .map(|step| Ok(StoredArray::read(fields, &temperature_name(step.step))?.celsius().framed(lower)))
             .collect::<Result<_>>()?;
         let known =
             || temperatures.iter().flat_map(|stored| &stored.field).copied().filter(|t| t.is_finite());

@@ -8,7 +8,7 @@ use ndarray::Array1;
 use super::profile::{OverlapFields, Profile, Row, most_loaded};
 use super::sheet::Sheet;
 use super::stored::{Cap, StoredArray};
-use super::{course, flow, force, force_distance, friction, loading, pressure, surfaces};
+use super::{course, force, force_distance, friction, loading, plastic, pressure, surfaces};
 use crate::draw::{Charts, Colours, Maps, Unit, range_of_heights};
 use crate::error::Result;
 
@@ -78,7 +78,7 @@ pub(super) fn draw(
             Some(curves) => vec![curves],
             None => loading::curves(&increments),
         };
-        let curves = curves.into_iter().chain(flow::of_increments(&increments));
+        let curves = curves.into_iter().chain(plastic::of_increments(&increments));
         curves.into_iter().try_for_each(|curves| sheet.add_curves(curves, &of))?;
     }
     Ok(of)

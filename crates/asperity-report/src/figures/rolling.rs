@@ -1,6 +1,6 @@
 //! The figure of bodies that flow below their surfaces pass after pass: plastic work, how far the surface moves, strain.
 
-use asperity_contact::motion::{PassFlowRecord, PassRecord};
+use asperity_contact::motion::{PassPlasticRecord, PassRecord};
 
 use super::{Curve, Curves, of_bodies};
 use crate::draw::{Axis, Chart, Charts, Series, Unit};
@@ -8,9 +8,9 @@ use crate::draw::{Axis, Chart, Charts, Series, Unit};
 /// Plastic work of each pass, shift of the surface against the depths since the beginning, largest plastic strain, and range of the
 /// residual displacement; none of bodies that do not flow.
 pub(crate) fn curves(passes: &[PassRecord]) -> Option<Curves> {
-    passes.first()?.flow?;
-    let over = |value: &dyn Fn(&PassFlowRecord) -> f64| -> Curve {
-        passes.iter().filter_map(|p| Some([p.pass as f64, value(&p.flow?)])).collect()
+    passes.first()?.plastic?;
+    let over = |value: &dyn Fn(&PassPlasticRecord) -> f64| -> Curve {
+        passes.iter().filter_map(|p| Some([p.pass as f64, value(&p.plastic?)])).collect()
     };
     let summed = |curve: Curve| -> Curve {
         let mut sum = 0.0;
@@ -25,7 +25,7 @@ pub(crate) fn curves(passes: &[PassRecord]) -> Option<Curves> {
         let flows = |series: &Series| series.points.iter().any(|[_, y]| *y != 0.0);
         of_bodies(curves).into_iter().filter(flows).collect()
     };
-    let works = [over(&|flow| flow.plastic_work_lower), over(&|flow| flow.plastic_work_upper)];
+    let works = [over(&|plastic| plastic.plastic_work_lower), over(&|plastic| plastic.plastic_work_upper)];
     // Of what has shaken down nothing is left, which has no logarithm.
     let above = |curve: Curve| curve.into_iter().filter(|[_, work]| *work > 0.0).collect();
     let shown = [
@@ -36,22 +36,22 @@ pub(crate) fn curves(passes: &[PassRecord]) -> Option<Curves> {
         (
             Axis::of("shift of the surface along x", "surface_shift_lower"),
             bodies([
-                summed(over(&|flow| flow.surface_shift_lower)),
-                summed(over(&|flow| flow.surface_shift_upper)),
+                summed(over(&|plastic| plastic.surface_shift_lower)),
+                summed(over(&|plastic| plastic.surface_shift_upper)),
             ]),
         ),
         (
             Axis::linear("largest plastic strain", Unit::Of("%")),
             bodies([
-                over(&|flow| 100.0 * flow.max_plastic_strain_lower),
-                over(&|flow| 100.0 * flow.max_plastic_strain_upper),
+                over(&|plastic| 100.0 * plastic.max_plastic_strain_lower),
+                over(&|plastic| 100.0 * plastic.max_plastic_strain_upper),
             ]),
         ),
         (
             Axis::of("range of the residual displacement", "residual_displacement_lower"),
             bodies([
-                over(&|flow| flow.residual_displacement_lower),
-                over(&|flow| flow.residual_displacement_upper),
+                over(&|plastic| plastic.residual_displacement_lower),
+                over(&|plastic| plastic.residual_displacement_upper),
             ]),
         ),
     ];
@@ -61,8 +61,9 @@ pub(crate) fn curves(passes: &[PassRecord]) -> Option<Curves> {
         .map(|(y, series)| Chart::new("", Axis::linear("pass", Unit::Count), y, series))
         .collect();
     // Bodies that stay elastic have none.
-    let strain = |flow: PassFlowRecord| flow.max_plastic_strain_lower.max(flow.max_plastic_strain_upper);
-    passes.iter().any(|pass| pass.flow.is_some_and(|flow| strain(flow) > 0.0)).then(|| {
+    let strain =
+        |plastic: PassPlasticRecord| plastic.max_plastic_strain_lower.max(plastic.max_plastic_strain_upper);
+    passes.iter().any(|pass| pass.plastic.is_some_and(|plastic| strain(plastic) > 0.0)).then(|| {
         let charts = Charts { charts, columns: 2, aspect: 0.7 };
         Curves::new("plastic_flow", "plastic flow over the passes", charts)
     })

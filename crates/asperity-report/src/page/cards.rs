@@ -83,24 +83,24 @@ fn of_passes(found: &PageData, first: &PassRecord, last: &PassRecord) -> Vec<Car
             "At any position of the last pass.",
         ),
     ];
-    if let Some(flow) = found.summary.as_ref().and_then(|summary| summary.plasticity.as_ref()) {
+    if let Some(plastic) = found.summary.as_ref().and_then(|summary| summary.plasticity.as_ref()) {
         let after = shaken_down(&found.passes).map_or(String::new(), |passes| {
             format!(
                 "The plastic work of a pass is below a thousandth of the first one's after pass {passes}."
             )
         });
-        let dent = length(flow.residual_displacement);
+        let dent = length(plastic.residual_displacement);
         cards.extend([
-            Card::new("plastic flow", flow.regime.to_string(), after),
+            Card::new("plastic flow", plastic.regime.to_string(), after),
             Card::of(
                 "plastic strain",
                 "max_plastic_strain",
-                format!("{} %", format_number(100.0 * flow.max_plastic_strain)),
+                format!("{} %", format_number(100.0 * plastic.max_plastic_strain)),
             ),
             Card::of(
                 "residual tension",
                 "max_residual_tension",
-                format(flow.max_residual_tension, Dimension::Pressure),
+                format(plastic.max_residual_tension, Dimension::Pressure),
             ),
             Card::new("depth of the dent or groove", dent, "Range of the height changes by plastic flow."),
         ]);
@@ -271,8 +271,8 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> Vec<Card> {
             format!("After {distance} of sliding."),
         ));
     }
-    if let Some(flow) = record.flow.as_ref().filter(|flow| flow.max_plastic_strain > 0.0) {
-        let strain = format!("{} %", format_number(100.0 * flow.max_plastic_strain));
+    if let Some(plastic) = record.plastic.as_ref().filter(|plastic| plastic.max_plastic_strain > 0.0) {
+        let strain = format!("{} %", format_number(100.0 * plastic.max_plastic_strain));
         cards.insert(2, Card::of("plastic strain", "max_plastic_strain", strain));
     }
     if record.plastic_volume > 0.0 {

@@ -12,7 +12,7 @@ mod contact;
 mod course;
 mod curves;
 mod explorer;
-mod flow;
+mod plastic;
 mod found;
 mod head;
 mod html;
@@ -100,7 +100,7 @@ fn page(results: &Results, seen: Option<Seen>) -> asperity_base::Result<(String,
         ("adhesion", "Adhesion", adhesion::section(&found, &mut charts)),
         ("passage", "Heat, current, fluid", passage::section(&mut found, &mut data, &mut charts)),
         ("below", "Below the surface", below::section(&mut found, &mut data, &mut charts)),
-        ("flow", "Plastic flow", flow::section(&mut found, &mut data, &mut charts)),
+        ("flow", "Plastic flow", plastic::section(&mut found, &mut data, &mut charts)),
         ("bodies", "Bodies", bodies::section(&mut found, &mut data, &mut charts)),
         ("curves", "Curves", course::section(&mut found, &mut data, &mut charts)),
         ("trust", "Trust", Some(trust::section(&found))),

@@ -1,7 +1,7 @@
 //! The result in a sentence or two.
 
 use asperity_base::units::{Dimension, format, format_number};
-use asperity_contact::motion::{FlowRecord, PassRecord, Regime, StaticRecord, SweepRecord};
+use asperity_contact::motion::{PassRecord, PlasticRecord, Regime, StaticRecord, SweepRecord};
 use asperity_study::Outcome;
 
 use super::found::PageData;
@@ -32,9 +32,9 @@ fn of_passes(found: &PageData, last: &PassRecord) -> String {
         done => format!("{done} passes"),
     };
     let under = format!("After {passes} under a mean load of {}", force(last.mean_load));
-    let flow = found.summary.as_ref().and_then(|summary| summary.plasticity.as_ref());
-    if let Some(flow) = flow {
-        return format!("{under}, {}.", of_regime(flow, shaken_down(&found.passes)));
+    let plastic = found.summary.as_ref().and_then(|summary| summary.plasticity.as_ref());
+    if let Some(plastic) = plastic {
+        return format!("{under}, {}.", of_regime(plastic, shaken_down(&found.passes)));
     }
     let area = format(last.mean_contact_area, Dimension::Area);
     let mut text = format!("{under}, the real area of contact is {area}");
@@ -77,17 +77,19 @@ pub(super) fn share_of_overlap(pass: &PassRecord) -> Option<String> {
 
 /// The passes after which the plastic work of a pass stays below a thousandth of the first one's.
 pub(super) fn shaken_down(passes: &[PassRecord]) -> Option<usize> {
-    let work =
-        |pass: &PassRecord| pass.flow.map_or(0.0, |flow| flow.plastic_work_lower + flow.plastic_work_upper);
+    let work = |pass: &PassRecord| {
+        pass.plastic.map_or(0.0, |plastic| plastic.plastic_work_lower + plastic.plastic_work_upper)
+    };
     let first = work(passes.first()?);
     passes.iter().rposition(|pass| work(pass) >= 1e-3 * first).map(|last| last + 1).filter(|_| first > 0.0)
 }
 
-fn of_regime(flow: &FlowRecord, shaken_down: Option<usize>) -> String {
-    let strain = format!("the plastic strain is up to {} %", format_number(100.0 * flow.max_plastic_strain));
+fn of_regime(plastic: &PlasticRecord, shaken_down: Option<usize>) -> String {
+    let strain =
+        format!("the plastic strain is up to {} %", format_number(100.0 * plastic.max_plastic_strain));
     let tension =
-        format!("the residual tension up to {}", format(flow.max_residual_tension, Dimension::Pressure));
-    match flow.regime {
+        format!("the residual tension up to {}", format(plastic.max_residual_tension, Dimension::Pressure));
+    match plastic.regime {
         Regime::Elastic => "the bodies have stayed elastic below their surfaces".to_owned(),
         Regime::ShakesDown => {
             let after = match shaken_down {
@@ -99,7 +101,7 @@ fn of_regime(flow: &FlowRecord, shaken_down: Option<usize>) -> String {
         }
         Regime::Cyclic => format!("the same plastic flow comes and goes in each pass: {strain}, {tension}"),
         Regime::Ratchets => {
-            let rate = flow
+            let rate = plastic
                 .strain_per_pass
                 .map_or(String::new(), |rate| format!(", by {} % a pass", format_number(100.0 * rate)));
             format!("the plastic strain keeps growing{rate}: {strain}, {tension}")
@@ -164,8 +166,8 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> String {
         let ratio = format_number(shear.force_ratio);
         text += &format!(" The tangential force is {ratio} of the load; {stick} % of the contact sticks.");
     }
-    if let Some(flow) = &record.flow {
-        text += &match flow.max_plastic_strain {
+    if let Some(plastic) = &record.plastic {
+        text += &match plastic.max_plastic_strain {
             0.0 => " The material below the surfaces stays elastic.".to_owned(),
             strain => format!(
                 " The plastic strain below the surfaces is up to {} %.",

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::cursor::Table;
-use super::plasticity::flow;
+use super::plasticity::yielding;
 use super::running;
 use super::schema::body::{both, coating as coating_keys, upper};
 use super::schema::tables::known_in;
@@ -21,7 +21,7 @@ pub(super) fn body(table: &Table<'_>, folder: &Path, has_conductance: bool) -> R
     let poisson = both::POISSON.of(table)?;
     let hardness = hardness(table, folder)?;
     let coating = both::COATING.of(table)?.map(|table| coating(&table)).transpose()?;
-    let plasticity = both::PLASTICITY.of(table)?.map(|table| flow(&table)).transpose()?;
+    let plasticity = both::PLASTICITY.of(table)?.map(|table| yielding(&table)).transpose()?;
     let film = both::FILM.of(table)?.map(|table| running::film(&table, &hardness)).transpose()?;
     let wear = both::WEAR.of(table)?.map(|table| running::wear(&table, &hardness)).transpose()?;
     let topography = topography(&both::TOPOGRAPHY.demand(table)?, folder)?;

@@ -38,7 +38,7 @@ use self::document::Document;
 pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
 pub use self::gap_flow::GapFlowSpec;
 pub use self::hardness::{Hardness, HardnessInput, HardnessMap};
-pub use self::plasticity::{FlowSpec, HardeningKey, PlasticitySpec};
+pub use self::plasticity::{HardeningKey, PlasticitySpec, YieldSpec};
 pub use self::prescribed::Prescribed;
 pub use self::running::{FilmSpec, TemperatureSpec, WearKey, WearSpec};
 pub use self::schema::values::adhesion::AdhesionRange;
@@ -123,7 +123,7 @@ pub struct Body {
     pub hardness: Hardness,
     /// Plastic flow below the surface; elastic if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub plasticity: Option<FlowSpec>,
+    pub plasticity: Option<YieldSpec>,
     /// Thermal constants of the body; unknown if absent.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub thermal: Option<Thermal>,

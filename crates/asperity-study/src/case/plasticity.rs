@@ -4,19 +4,19 @@ use serde::Serialize;
 
 use super::cursor::Table;
 use super::schema::loading::friction::INCREMENTS;
-use super::schema::plasticity::{flow, volume as keys};
+use super::schema::plasticity::{body as of_body, volume as keys};
 use super::schema::tables::known_in;
 use super::schema::values::plasticity::Keep;
 use super::{FrictionSpec, MotionSpec};
 use asperity_base::error::Result;
 use asperity_base::units::{Metre, Pascal};
 use asperity_contact::motion::PlasticUpdate;
-use asperity_contact::plasticity::{FlowParams, Hardening, J2, Layers};
+use asperity_contact::plasticity::{Hardening, J2, Layers, PlasticParams};
 
 /// Flow law of a body: von Mises' yield criterion, with isotropic and kinematic hardening.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct FlowSpec {
+pub struct YieldSpec {
     /// Yield stress as a function of the plastic strain.
     #[serde(flatten)]
     pub hardening: HardeningKey,
@@ -68,29 +68,29 @@ pub struct PlasticitySpec {
 }
 
 /// `[lower.plasticity]`.
-pub(super) fn flow(table: &Table<'_>) -> Result<FlowSpec> {
+pub(super) fn yielding(table: &Table<'_>) -> Result<YieldSpec> {
     known_in(table)?;
     let hint = "for example `yield_stress = \"1.5 GPa\"`";
     let hardening = match table.exactly_one(&["yield_stress", "curve"], hint)? {
         "curve" => {
-            if let Some(entry) = flow::HARDENING.entry(table) {
+            if let Some(entry) = of_body::HARDENING.entry(table) {
                 let hint = Some("the curve has the hardening: leave this key out".to_owned());
                 return Err(entry.error("'hardening' has no meaning beside a 'curve'".to_owned(), hint));
             }
-            HardeningKey::Curve { curve: flow::CURVE.required(table)? }
+            HardeningKey::Curve { curve: of_body::CURVE.required(table)? }
         }
         _ => HardeningKey::Linear {
-            yield_stress: flow::YIELD_STRESS.required(table)?,
-            hardening: flow::HARDENING.of(table)?,
+            yield_stress: of_body::YIELD_STRESS.required(table)?,
+            hardening: of_body::HARDENING.of(table)?,
         },
     };
-    let (kinematic, recovery) = (flow::KINEMATIC.of(table)?, flow::RECOVERY.of(table)?);
-    if let Some(entry) = flow::RECOVERY.entry(table).filter(|_| recovery > 0.0 && kinematic == 0.0) {
+    let (kinematic, recovery) = (of_body::KINEMATIC.of(table)?, of_body::RECOVERY.of(table)?);
+    if let Some(entry) = of_body::RECOVERY.entry(table).filter(|_| recovery > 0.0 && kinematic == 0.0) {
         let hint = Some("give a modulus `kinematic`, or leave 'recovery' out".to_owned());
         let message = "'recovery' needs a back stress".to_owned();
         return Err(entry.error(message, hint));
     }
-    Ok(FlowSpec { hardening, kinematic, recovery })
+    Ok(YieldSpec { hardening, kinematic, recovery })
 }
 
 /// `[plasticity]`, with its effect on the `motion` of the bodies and on their `friction`.
@@ -123,8 +123,8 @@ pub(super) fn plasticity(
     })
 }
 
-impl FlowSpec {
-    /// Returns the flow law.
+impl YieldSpec {
+    /// Returns the law by which the body yields.
     pub(crate) fn law(&self) -> Result<J2> {
         let hardening = match &self.hardening {
             HardeningKey::Linear { yield_stress, hardening } => Hardening::linear(*yield_stress, *hardening)?,
@@ -152,7 +152,7 @@ impl PlasticitySpec {
     }
 
     /// Returns the convergence criteria of an increment.
-    pub(crate) fn params(&self) -> FlowParams {
-        FlowParams::new().with_tolerance(self.tolerance)
+    pub(crate) fn params(&self) -> PlasticParams {
+        PlasticParams::new().with_tolerance(self.tolerance)
     }
 }

@@ -76,7 +76,9 @@ impl<'a> Findings<'a> {
         };
         match *step {
             Step::Increment { state, .. } => alone(state.contact.normal()),
-            Step::Flow { contact, .. } => contact.map(Equilibrium::normal).map_or_else(Self::default, alone),
+            Step::Plastic { contact, .. } => {
+                contact.map(Equilibrium::normal).map_or_else(Self::default, alone)
+            }
             Step::Point { contact, .. } => alone(contact.solution.normal()),
             Step::Update { state, solution, .. } => {
                 let update = state.updates.last().expect("the update just done");

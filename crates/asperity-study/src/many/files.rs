@@ -2,17 +2,14 @@
 
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use rayon::prelude::*;
-use serde_json::Value;
 
 use super::named::NamedFile;
 use super::plan::Study;
 use crate::given::ExpectedContent;
-use crate::identity::FILES;
 use crate::io::{atomic, regular, sha256_of_file};
-use crate::results::Results;
 use asperity_base::error::{Error, Result};
 
 /// Digests by file name.
@@ -33,12 +30,11 @@ impl Files {
         Ok(Some(Self { digests }))
     }
 
-    /// Stores the digests of those files of a study that have none yet, at `path`. A study begun by an earlier version has
-    /// none at all; its finished cases, whose results are `done`, then provide them.
+    /// Stores the digests of those files of a study that have none yet, at `path`.
     ///
     /// # Errors
-    /// [`Error::SurfaceChanged`] if a finished case was computed from other content; [`Error::File`].
-    pub(super) fn keep(path: &Path, study: &Study, done: &dyn Fn(usize) -> Option<PathBuf>) -> Result<()> {
+    /// [`Error::File`].
+    pub(super) fn keep(path: &Path, study: &Study) -> Result<()> {
         let named = study.files();
         loop {
             let known = Self::read(path)?;
@@ -64,7 +60,6 @@ impl Files {
             if !is_first {
                 return atomic::replace(path, &text);
             }
-            files.agree(path, study, done)?;
             if atomic::create(path, &text)? {
                 return Ok(());
             }
@@ -80,24 +75,5 @@ impl Files {
         };
         let digests = study.files_of(case).into_iter().filter_map(digest).collect();
         ExpectedContent { directory: directory.to_owned(), digests }
-    }
-
-    /// Returns an error if a finished case was computed from files of other content.
-    fn agree(&self, path: &Path, study: &Study, done: &dyn Fn(usize) -> Option<PathBuf>) -> Result<()> {
-        for (case, results) in (1..=study.len()).filter_map(|case| Some((case, done(case)?))) {
-            let Ok(done) = Results::open(&results).and_then(|results| results.case_json()) else { continue };
-            let pinned = self.pinned(path.parent().unwrap_or(Path::new("")), study, case);
-            for table in FILES {
-                let key = format!("{}.file", table[1..].replace('/', "."));
-                let before =
-                    done.pointer(table).and_then(|table| table.get("sha256")).and_then(Value::as_str);
-                if let (Some(before), Some((file, now))) = (before, pinned.digests.get(&key))
-                    && before != now
-                {
-                    return Err(Error::SurfaceChanged { path: pinned.directory, file: file.clone() });
-                }
-            }
-        }
-        Ok(())
     }
 }

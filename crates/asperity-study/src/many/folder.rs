@@ -97,9 +97,7 @@ impl Folder {
     /// [`Error::File`] if the stored plan cannot be read.
     pub fn number(path: &Path, study: Study) -> Result<Study> {
         let there = Self { path: path.to_owned() }.plan()?;
-        let order =
-            [study.csv(), study.unguarded_csv()].iter().find_map(|ours| order(&there, ours, study.len()));
-        Ok(match order {
+        Ok(match order(&there, &study.csv(), study.len()) {
             Some(order) => study.in_order(&order),
             None => study,
         })
@@ -138,8 +136,7 @@ impl Folder {
         // If several processes begin one study, the first one writes it.
         atomic::create(&folder.identity_path(), &text)?;
         folder.admit(study)?;
-        let done = |case| folder.is_done(case).then(|| folder.case(case));
-        Files::keep(&folder.files_path(), study, &done)?;
+        Files::keep(&folder.files_path(), study)?;
         Ok(folder)
     }
 
@@ -215,9 +212,8 @@ impl Folder {
     /// # Errors
     /// [`Error::File`].
     pub fn has_grown(&self, study: &Study) -> Result<bool> {
-        let there = self.plan()?;
-        let is_longer = |ours: String| there.len() > ours.len() && there.starts_with(&ours);
-        Ok(is_longer(study.csv()) || is_longer(study.unguarded_csv()))
+        let (there, ours) = (self.plan()?, study.csv());
+        Ok(there.len() > ours.len() && there.starts_with(&ours))
     }
 
     /// Reads the stored plan; empty before it is written.
@@ -254,13 +250,11 @@ impl Folder {
             return Err(other("holds another study: its base or the keys of its axes differ"));
         }
         let there = self.plan()?;
-        let (ours, before) = (study.csv(), study.unguarded_csv());
-        if there.starts_with(&ours)
-            || ours != before && there.len() > before.len() && there.starts_with(&before)
-        {
+        let ours = study.csv();
+        if there.starts_with(&ours) {
             return Ok(());
         }
-        if !ours.starts_with(&there) && !before.starts_with(&there) {
+        if !ours.starts_with(&there) {
             return Err(other("holds another study: cases of its plan have other values"));
         }
         atomic::replace(&plan, ours.as_bytes())

@@ -7,7 +7,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::axis::Axis;
-use super::cell::{in_quotes, quoted};
+use super::cell::quoted;
 use super::file::{self, StudyFile};
 use super::named::NamedFile;
 use crate::case::{Case, Device};
@@ -149,15 +149,6 @@ impl Study {
     /// Writes the plan as CSV: for each case a row with its number and the values of its axes. A text that a spreadsheet
     /// would read as a formula begins with an apostrophe.
     pub fn csv(&self) -> String {
-        self.csv_with(quoted)
-    }
-
-    /// Writes the plan like earlier versions, without protecting apostrophes.
-    pub(super) fn unguarded_csv(&self) -> String {
-        self.csv_with(in_quotes)
-    }
-
-    fn csv_with(&self, quoted: impl Fn(&str) -> String) -> String {
         let cells: Vec<Vec<String>> = self
             .axes()
             .iter()

@@ -330,7 +330,7 @@ impl Output for Observers {
                     (place, Some(contact.index) == flush)
                 }
                 None => {
-                    let ends_loading = matches!(step, Step::Flow { is_last_load: true, .. });
+                    let ends_loading = matches!(step, Step::Plastic { is_last_load: true, .. });
                     (Place { pass: None, step: number }, ends_loading || step.is_last())
                 }
             };

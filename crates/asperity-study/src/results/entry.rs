@@ -204,10 +204,10 @@ fn resumable_passes(results: &Results, case: &Value, identity: &str) -> Result<E
     match case.pointer("/plasticity/keep").and_then(Value::as_str) {
         Some("passes") => {
             for pass in 1..=passes.len() {
-                whole(&results.flow_path(Some(pass)), identity, Some(pass))?;
+                whole(&results.volume_path(Some(pass)), identity, Some(pass))?;
             }
         }
-        Some(_) => whole(&results.flow_path(Some(passes.len())), identity, Some(passes.len()))?,
+        Some(_) => whole(&results.volume_path(Some(passes.len())), identity, Some(passes.len()))?,
         None => {}
     }
     // If no pass is left to compute, it is not needed.
@@ -260,7 +260,7 @@ fn whole(path: &Path, identity: &str, pass: Option<usize>) -> Result<()> {
 }
 
 /// Returns an error if the state at `path` was written with rows of another digest: the `table` of these rows, or a table
-/// beside it, was then changed since. States of earlier versions have no digest.
+/// beside it, was then changed since.
 fn same_rows(path: &Path, digest: &str, table: &Path) -> Result<()> {
     // A required state has been read in full; others may be missing.
     let Ok(attributes) = Fields::open(path).and_then(|fields| fields.attributes()) else { return Ok(()) };
@@ -328,7 +328,7 @@ fn clear_later(results: &Results, passes: usize, keep: Keep) -> Result<()> {
     }
     names.push(results.state_path(passes));
     let first = if keep == Keep::Last { passes } else { 1 };
-    names.extend((first..=passes).map(|pass| results.flow_path(Some(pass))));
+    names.extend((first..=passes).map(|pass| results.volume_path(Some(pass))));
     let folder = results.fields_folder();
     let failed = |source| Error::File { path: folder.clone(), source };
     for entry in fs::read_dir(&folder).map_err(failed)? {

@@ -490,8 +490,8 @@ impl Results {
     ///
     /// # Errors
     /// [`Error::File`].
-    pub fn flow_fields(&self, pass: Option<usize>) -> Result<Fields> {
-        Fields::open(&self.flow_path(pass))
+    pub fn plastic_fields(&self, pass: Option<usize>) -> Result<Fields> {
+        Fields::open(&self.volume_path(pass))
     }
 
     /// Reads the plastic state of the elasto-plastic bodies, lower one first, after `passes` passes.
@@ -499,7 +499,7 @@ impl Results {
     /// # Errors
     /// [`Error::File`].
     pub(super) fn plastic_states_after(&self, passes: usize) -> Result<Vec<PlasticState>> {
-        let fields = self.flow_fields(Some(passes))?;
+        let fields = self.plastic_fields(Some(passes))?;
         let attributes = fields.attributes()?;
         let flows = |body: &str| attributes.contains_key(&depths_attribute(body));
         let layers = |name: &str| -> Result<VolumeField> {
@@ -525,7 +525,7 @@ impl Results {
         BODIES.into_iter().filter(|body| flows(body)).map(state).collect()
     }
 
-    fn flow_path(&self, pass: Option<usize>) -> PathBuf {
+    fn volume_path(&self, pass: Option<usize>) -> PathBuf {
         match pass {
             None => self.directory.join("plasticity.h5"),
             Some(pass) => self.fields_folder().join(format!("plasticity-{pass:04}.h5")),
@@ -584,7 +584,7 @@ fn was_loaded_in_stages(summary: &Summary) -> bool {
     let has_history =
         summary.case.get("history").and_then(Value::as_array).is_some_and(|stages| !stages.is_empty());
     let rubs = record.shear.as_ref().is_some_and(|shear| shear.creepage.is_none());
-    summary.sliding.is_none() && (record.flow.is_some() || rubs || has_history)
+    summary.sliding.is_none() && (record.plastic.is_some() || rubs || has_history)
 }
 
 /// Whether `passes` passes have the same positions each.

@@ -47,7 +47,7 @@ impl Output for StepWriter {
                 let file = self.state(step, |file| increment::add(file, state));
                 self.add(number, file, &[], &state.increments[number - 1..])
             }
-            Step::Flow { record, .. } => self.rows.add(std::slice::from_ref(*record)),
+            Step::Plastic { record, .. } => self.rows.add(std::slice::from_ref(*record)),
             Step::Update { state, .. } => {
                 let file = self.state(step, |file| update::add(file, state));
                 self.add(number, file, &[], &state.updates[number..])
@@ -65,7 +65,7 @@ impl Output for StepWriter {
                 let file = self.state(step, |file| pass::add(file, number, &grids, report.warm));
                 self.add(number, file, report.steps, std::slice::from_ref(report.record))?;
                 match self.keep {
-                    Keep::Last => self.results.remove(&self.results.flow_path(Some(number - 1))),
+                    Keep::Last => self.results.remove(&self.results.volume_path(Some(number - 1))),
                     Keep::Passes => Ok(()),
                 }
             }
@@ -240,7 +240,7 @@ impl StepWriter {
         }
         let passes = report.record.pass;
         if !report.plastic_volumes.is_empty() {
-            let mut file = FieldFile::of_run(&self.identity, &results.flow_path(Some(passes)));
+            let mut file = FieldFile::of_run(&self.identity, &results.volume_path(Some(passes)));
             file.set("pass", passes);
             add_volumes(&mut file, report.plastic_volumes, report.plastic_volumes);
             file.write()?;

@@ -18,7 +18,7 @@ use crate::{identity, summary};
 use asperity_base::choice::Choice;
 use asperity_base::error::Result;
 use asperity_base::grid::Placement;
-use asperity_contact::motion::{FlowResult, Pair, PlasticVolume};
+use asperity_contact::motion::{Pair, PlasticResult, PlasticVolume};
 use asperity_contact::solver::Friction;
 use asperity_contact::subsurface::Tractions;
 
@@ -116,8 +116,8 @@ impl Writer {
     ///
     /// # Errors
     /// [`asperity_base::Error::File`].
-    pub(crate) fn write_flow(&self, contact: &FlowResult) -> Result<()> {
-        let mut file = self.field_file(&self.results.flow_path(None));
+    pub(crate) fn write_plastic(&self, contact: &PlasticResult) -> Result<()> {
+        let mut file = self.field_file(&self.results.volume_path(None));
         let left = if contact.residual.is_empty() { &contact.volumes } else { &contact.residual };
         add_volumes(&mut file, &contact.volumes, left);
         file.write()

@@ -41,7 +41,7 @@ fn what_does_not_yield_presses_as_an_elastic_body_to_the_last_bit() {
         rest.fields.fields.iter().find(|field| field.name == "pressure").unwrap().values.clone()
     };
     assert_eq!(pressure(&light), pressure(&elastic));
-    let flow = record(&light.outcome).flow.as_ref().unwrap();
+    let flow = record(&light.outcome).plastic.as_ref().unwrap();
     assert_eq!((flow.max_plastic_strain, flow.regime, flow.plastic_work), (0.0, Regime::Elastic, 0.0));
 }
 
@@ -53,7 +53,7 @@ fn a_ball_that_yields_leaves_a_dent_and_residual_stress() {
     let (summary, _) =
         asperity_study::run(&heavy, SurfaceInput::default(), &out, Existing::Keep, &()).unwrap();
     let record = record(&summary.outcome);
-    let flow = record.flow.as_ref().unwrap();
+    let flow = record.plastic.as_ref().unwrap();
     let left = flow.residual.as_ref().unwrap();
     assert_eq!(flow.regime, Regime::Yields);
     // Below the middle of the contact, at about half its radius.
@@ -74,10 +74,10 @@ fn a_ball_that_yields_leaves_a_dent_and_residual_stress() {
         assert!((found - expected).abs() < 1e-6, "{loads:?}");
     }
     let work: f64 =
-        increments.iter().filter_map(|increment| increment.flow).map(|flow| flow.plastic_work).sum();
+        increments.iter().filter_map(|increment| increment.plastic).map(|flow| flow.plastic_work).sum();
     assert!((work / left.residual_plastic_work - 1.0).abs() < 1e-12, "{work:e} {left:?}");
 
-    let volumes = results.flow_fields(None).unwrap();
+    let volumes = results.plastic_fields(None).unwrap();
     let read =
         |name: &str| -> Array3<f64> { volumes.read(name).unwrap().values.into_dimensionality().unwrap() };
     let strain = ["xx", "yy", "zz"].map(|component| read(&format!("strain_{component}_lower")));
@@ -116,7 +116,7 @@ fn a_contact_that_slides_goes_on_sliding_while_its_load_is_taken_off() {
             assert!((force - part * increment.load).abs() <= 1e-9, "{increment:?}");
         }
     }
-    assert!(record(&slid.outcome).flow.as_ref().unwrap().residual.is_some());
+    assert!(record(&slid.outcome).plastic.as_ref().unwrap().residual.is_some());
 }
 
 #[test]
@@ -191,7 +191,7 @@ fn the_stress_below_bodies_that_flow_is_whole() {
     assert!(most(&flows) < 0.8 * most(&elastic), "{:e} {:e}", most(&flows), most(&elastic));
     assert!(most(&flows) < 1.15 * (1.5e9 + 5e9 * 0.05), "{:e}", most(&flows));
     // In the middle of the first layer, at a depth of 3.6 µm, it equals the residual stress of the volume.
-    let residual = flows.flow_fields(None).unwrap().read("residual_stress_xx_lower").unwrap().values;
+    let residual = flows.plastic_fields(None).unwrap().read("residual_stress_xx_lower").unwrap().values;
     let residual = residual.into_dimensionality::<ndarray::Ix3>().unwrap();
     let section = read(&flows, "section_residual_xx");
     let largest = residual.iter().fold(0.0f64, |m, s| m.max(s.abs()));

@@ -84,7 +84,7 @@ fn an_interrupted_motion_goes_on_to_the_same_bits_and_keeps_the_volumes_asked_fo
     run("passes", &all, Existing::Keep, &()).unwrap();
     let results = Results::open(&all).unwrap();
     let strain = |pass: usize| {
-        let fields = results.flow_fields(Some(pass)).unwrap();
+        let fields = results.plastic_fields(Some(pass)).unwrap();
         fields.read("accumulated_lower").unwrap().values.sum()
     };
     assert!(strain(1) > 0.0 && strain(1) < strain(2) && strain(2) < strain(3));

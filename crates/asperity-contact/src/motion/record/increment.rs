@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::adhesion::AdhesionRecord;
-use super::flow::FlowStepRecord;
+use super::plastic::PlasticStepRecord;
 use crate::units::{CubicMetre, Joule, Metre, Newton, Pascal, SquareMetre};
 use asperity_base::record::columns;
 use asperity_base::record::number_or_none;
@@ -54,6 +54,6 @@ columns! {
         pub adhesion: Option<AdhesionRecord>,
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
-        pub flow: Option<FlowStepRecord>,
+        pub plastic: Option<PlasticStepRecord>,
     }
 }

@@ -4,7 +4,7 @@
 //! unit and its documentation the meaning ([`asperity_base::record`]).
 
 mod adhesion;
-mod flow;
+mod plastic;
 mod increment;
 pub(crate) mod lost_volumes;
 mod pass;
@@ -15,10 +15,10 @@ mod sweep;
 mod update;
 
 pub use adhesion::{AdhesionPassRecord, AdhesionRecord};
-pub use flow::{FlowRecord, FlowStepRecord, PassFlowRecord, Regime, ResidualRecord};
 pub use increment::IncrementRecord;
 pub use lost_volumes::LostVolume;
 pub use pass::PassRecord;
+pub use plastic::{PassPlasticRecord, PlasticRecord, PlasticStepRecord, Regime, ResidualRecord};
 pub use rest::{ShearRecord, StaticRecord};
 pub use running::{HeatRecord, RunningRecord};
 pub use step::StepRecord;

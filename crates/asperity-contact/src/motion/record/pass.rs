@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::adhesion::AdhesionPassRecord;
-use super::flow::PassFlowRecord;
 use super::lost_volumes::{self, LostVolume};
+use super::plastic::PassPlasticRecord;
 use super::running::RunningRecord;
 use crate::units::{CubicMetre, Metre, Newton, Pascal, Second, SquareMetre};
 use asperity_base::record::columns;
@@ -51,7 +51,7 @@ columns! {
         pub adhesion: Option<AdhesionPassRecord>,
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
-        pub flow: Option<PassFlowRecord>,
+        pub plastic: Option<PassPlasticRecord>,
         /// Rms height of the lower surface about its mean after the pass.
         pub sq_lower: Metre,
         /// Rms height of the upper surface about its mean after the pass.

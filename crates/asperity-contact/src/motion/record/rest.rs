@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::adhesion::AdhesionRecord;
-use super::flow::FlowRecord;
+use super::plastic::PlasticRecord;
 use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonMetre, Pascal, PerMetre, SquareMetre};
 use asperity_base::record::columns;
 
@@ -43,7 +43,7 @@ columns! {
         pub adhesion: Option<AdhesionRecord>,
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
-        pub flow: Option<FlowRecord>,
+        pub plastic: Option<PlasticRecord>,
     }
 }
 

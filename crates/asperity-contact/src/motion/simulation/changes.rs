@@ -11,8 +11,8 @@ use crate::motion::film::FILM;
 use crate::motion::heat::PassHeat;
 use crate::motion::law::{self, FrictionHeat, Heat, Law, Sums};
 use crate::motion::pass::Pass;
-use crate::motion::plastic::PlasticFlow;
 use crate::motion::record::{RunningRecord, StepRecord};
+use crate::motion::truncation::Truncation;
 use crate::motion::watch::Watch;
 use crate::motion::wear::WEAR;
 use crate::motion::worn_away;
@@ -32,7 +32,7 @@ pub(super) struct Changes {
 impl Changes {
     /// Plastic deformation alone.
     pub(super) fn new() -> Self {
-        let laws: Vec<Box<dyn Law>> = vec![Box::new(PlasticFlow)];
+        let laws: Vec<Box<dyn Law>> = vec![Box::new(Truncation)];
         Self { laws, acceleration: Acceleration::NONE, compliance_of_grid: None, heat: None }
     }
 

@@ -27,7 +27,7 @@ use crate::motion::warm_start::WarmStart;
 use crate::motion::watch::{Progress, Watch};
 use crate::motion::{AdhesionHistory, Motion, Strategy, check_limit};
 use crate::operator::{Boundary, Operators};
-use crate::plasticity::{FlowParams, PlasticBody, PlasticState};
+use crate::plasticity::{PlasticBody, PlasticParams, PlasticState};
 use crate::solver::{Control, Coupling, Device, Params};
 use crate::temperature::{FlashTemperature, Thermal};
 use crate::units::{Dimension, Newton};
@@ -245,7 +245,7 @@ impl Simulation {
     ///
     /// # Panics
     /// If no body is given, or if the grid of one differs from that of its surface.
-    pub fn with_flow(self, bodies: [Option<PlasticBody>; 2], flow: FlowParams) -> Result<Self> {
+    pub fn with_plastic(self, bodies: [Option<PlasticBody>; 2], plastic: PlasticParams) -> Result<Self> {
         let refused = if self.pair.yields() {
             "elasto-plastic bodies do not take a hardness"
         } else if self.changes.laws.len() > 1 {
@@ -265,7 +265,7 @@ impl Simulation {
             return Err(Error::Unsupported(refused));
         }
         let Self { pair, operators, positions, params, boundary, .. } = &self;
-        let volumes = Volumes::new(bodies, pair, operators, &positions[0], *boundary, (flow, *params));
+        let volumes = Volumes::new(bodies, pair, operators, &positions[0], *boundary, (plastic, *params));
         Ok(Self { distinct: self.positions.len(), together: false, volumes: Some(volumes), ..self })
     }
 
@@ -390,7 +390,10 @@ impl Simulation {
         };
         let mut steps: Vec<StepRecord> = outcome.contacts.iter().enumerate().map(step).collect();
         if let Some(plastic_pass) = &outcome.plastic_pass {
-            steps.iter_mut().zip(&plastic_pass.steps).for_each(|(step, flow)| step.flow = Some(*flow));
+            steps
+                .iter_mut()
+                .zip(&plastic_pass.steps)
+                .for_each(|(step, plastic)| step.plastic = Some(*plastic));
         }
         let (running, extrapolation) = match outcome.has_changed {
             true => (None, None),

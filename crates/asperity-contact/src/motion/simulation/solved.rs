@@ -67,7 +67,7 @@ impl SolvedPass {
                 self.distance,
                 self.history_difference,
             ),
-            flow: self.outcome.plastic_pass.as_ref().map(|pass| pass.record),
+            plastic: self.outcome.plastic_pass.as_ref().map(|pass| pass.record),
             ..record
         }
     }
@@ -137,7 +137,7 @@ fn summarise(outcome: &Pass, interiors: &[Interior; 2], steps: &[StepRecord]) ->
         lost: outcome.lost.clone(),
         running: None,
         adhesion: None,
-        flow: None,
+        plastic: None,
         sq_lower: pair.lower.heights.std(0.0),
         sq_upper: pair.upper.heights.std(0.0),
         sq_lower_interior: interiors[0].of(&pair.lower.heights).std(0.0),

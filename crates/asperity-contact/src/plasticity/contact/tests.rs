@@ -39,7 +39,7 @@ fn perfect() -> J2 {
     J2::new(Hardening::perfect(YIELD).unwrap())
 }
 
-fn contact(n: usize, bodies: [Option<PlasticBody>; 2], flow: FlowParams) -> PlasticContact {
+fn contact(n: usize, bodies: [Option<PlasticBody>; 2], flow: PlasticParams) -> PlasticContact {
     let grid = Grid::new([n, n], [1.0 / n as f64; 2]).unwrap();
     let modulus = steel().plane_strain_modulus() / bodies.iter().flatten().count() as f64;
     let params = Params::default().with_tolerance(1e-8);
@@ -55,7 +55,7 @@ fn facing(operator: PeriodicFft, initial_gap: Field, first: [[usize; 2]; 2]) -> 
 }
 
 fn sphere(n: usize, layers: usize) -> PlasticContact {
-    contact(n, [Some(body(n, layers, perfect())), None], FlowParams::new())
+    contact(n, [Some(body(n, layers, perfect())), None], PlasticParams::new())
 }
 
 fn max_pressure(contact: &PlasticContact) -> f64 {
@@ -92,7 +92,7 @@ fn a_sphere_on_a_body_that_yields_is_that_of_an_independent_program() {
         close("the plastic strain", body.max_accumulated().0, strain, 1e-2);
         close("r", range(body.displacement()), displacement, if times < 2.0 { 3e-2 } else { 5e-3 });
         assert!(increment.products <= products, "{times} F_Y: {} products", increment.products);
-        assert_eq!(increment.products == 0, increment.flowing_cells() == 0);
+        assert_eq!(increment.products == 0, increment.yielding_cells() == 0);
     }
     assert!(contact.approach().is_none());
     // Plastic flow preserves volume.
@@ -130,7 +130,7 @@ fn below_first_yield_it_is_the_elastic_contact_bit_by_bit() {
             solve_normal(&mut operator, &gap(24), &Bounds::ELASTIC, load, start, &contact.contact).unwrap();
         assert_eq!(*contact.pressure(), elastic.pressure);
         assert_eq!(contact.approach(), Some(elastic.approach));
-        assert_eq!((increment.products, increment.flowing_cells(), increment.plastic_work()), (0, 0, 0.0));
+        assert_eq!((increment.products, increment.yielding_cells(), increment.plastic_work()), (0, 0, 0.0));
     }
 }
 
@@ -149,7 +149,7 @@ fn an_approach_comes_to_what_its_load_does() {
 #[test]
 fn bodies_that_are_equal_flow_equally() {
     let pair = [(); 2].map(|()| Some(body(24, 8, perfect())));
-    let mut contact = contact(24, pair, FlowParams::new());
+    let mut contact = contact(24, pair, PlasticParams::new());
     // E* is halved: a contact twice as wide at the same pressure takes four times the load.
     let increment = contact.go_to(Control::Load(8.0 * first_yield())).unwrap();
     assert!(increment.products > 0 && increment.bodies[0] == increment.bodies[1]);
@@ -161,7 +161,7 @@ fn bodies_that_are_equal_flow_equally() {
 #[test]
 fn each_hardening_lessens_the_strain_and_keeps_its_own_record() {
     let strain = |law: J2| {
-        let mut contact = contact(24, [Some(body(24, 8, law)), None], FlowParams::new());
+        let mut contact = contact(24, [Some(body(24, 8, law)), None], PlasticParams::new());
         contact.load_to(4.0 * first_yield(), 2).unwrap();
         let body = &contact.bodies()[0];
         let back = body.back_stress().map(|back| back.iter().fold(0.0f64, |m, x| m.max(x.abs())));
@@ -180,7 +180,7 @@ fn each_hardening_lessens_the_strain_and_keeps_its_own_record() {
 #[test]
 fn an_increment_that_does_not_settle_says_which_and_leaves_all_as_it_was() {
     let mut contact =
-        contact(24, [Some(body(24, 8, perfect())), None], FlowParams::new().with_max_products(2));
+        contact(24, [Some(body(24, 8, perfect())), None], PlasticParams::new().with_max_products(2));
     contact.go_to(Control::Load(0.8 * first_yield())).unwrap();
     let (pressure, stress) = (contact.pressure().clone(), contact.bodies()[0].stress().clone());
     let error = contact.go_to(Control::Load(8.0 * first_yield())).unwrap_err();
@@ -266,7 +266,7 @@ impl Ball {
 fn a_ball_that_rolls_again_deepens_its_groove_as_an_independent_program_has_it() {
     let ball = Ball::new();
     let params = Params::default().with_tolerance(1e-8);
-    let flow = FlowParams::new();
+    let flow = PlasticParams::new();
     let mut contact = PlasticContact::new(ball.facing(16.0), [Some(ball.body(12)), None], flow, params);
     let grooves: Vec<f64> = (0..4)
         .map(|_| {
@@ -295,7 +295,7 @@ fn bodies_exchanged_and_moved_the_other_way_are_mirror_images() {
     };
     let roll = |forth: bool| {
         let pair = [(); 2].map(|()| Some(body(n, 6, perfect())));
-        let mut contact = contact(n, pair, FlowParams::new().with_tolerance(1e-8));
+        let mut contact = contact(n, pair, PlasticParams::new().with_tolerance(1e-8));
         contact.contact = Params::default().with_tolerance(1e-11);
         for step in 0..3 {
             // The contact is fixed to the body without the bump; the cells of the other shift cyclically.
@@ -347,7 +347,7 @@ fn the_work_of_pressure_and_friction_is_stored_and_spent() {
             placements: [Placement::flush(grid.shape); 2],
         };
         let params = Params::default().with_tolerance(1e-9);
-        let flow = FlowParams::new().with_tolerance(1e-6);
+        let flow = PlasticParams::new().with_tolerance(1e-6);
         let mut contact =
             PlasticContact::new(facing, [of(&lower, YIELD), of(&upper, 1.3 * YIELD)], flow, params);
         let zeros = || [grid.zeros(), grid.zeros()];
@@ -407,7 +407,7 @@ fn friction_without_flow_is_that_of_elastic_bodies() {
     let facing =
         RelativePosition { interface, initial_gap: gap(n), placements: [Placement::flush(grid.shape); 2] };
     let params = Params::default();
-    let mut contact = PlasticContact::new(facing, [Some(strong), None], FlowParams::new(), params);
+    let mut contact = PlasticContact::new(facing, [Some(strong), None], PlasticParams::new(), params);
     let mut before = None;
     for (load, push) in [(1e-4, 0.0), (2e-4, 3e-5), (2e-4, -2e-5)] {
         let loading =

@@ -159,7 +159,7 @@ pub fn keys() -> &'static [Section] {
         running_in::arrhenius::SECTION,
         running_in::mechano_chemical::SECTION,
         running_in::solid_lubricant::SECTION,
-        plasticity::flow::SECTION,
+        plasticity::body::SECTION,
         plasticity::volume::SECTION,
         topography::every::SECTION,
         topography::file::SECTION,

@@ -13,7 +13,7 @@ const MODULUS: Value<f64> = quantity(Dimension::Pressure, FromZero).exists(exist
 const ONE: &str = "exactly one of `yield_stress` and `curve`";
 
 /// `[lower.plasticity]` and `[upper.plasticity]`.
-pub(crate) mod flow {
+pub(crate) mod body {
     use super::*;
 
     section! { &["lower.plasticity", "upper.plasticity"], "";

@@ -13,7 +13,6 @@
 //!                bodies wear or grow films
 //! ```
 
-use std::iter;
 use std::path::Path;
 
 use crate::io::fields::{Attribute, FieldFile, Fields};
@@ -81,9 +80,8 @@ pub(crate) fn read(path: &Path) -> Result<WarmStart> {
     let [approach, bearing, persistence] = [series("approach")?, series("bearing")?, series("persistence")?];
     let [cell, pressure, change] = [series("cell")?, series("pressure")?, series("change")?];
     let mut cells = cell.into_iter().map(|cell| cell as u32).zip(pressure);
-    // Files of earlier versions have neither change nor persistence.
-    let mut changes = change.into_iter().chain(iter::repeat(0.0));
-    let positions = approach.into_iter().zip(bearing).zip(persistence.into_iter().chain(iter::repeat(0.0)));
+    let mut changes = change.into_iter();
+    let positions = approach.into_iter().zip(bearing).zip(persistence);
     let positions = positions.map(|((approach, count), persistence)| LoadedCells {
         approach,
         pressure: cells.by_ref().take(count as usize).collect(),

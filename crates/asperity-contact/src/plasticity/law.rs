@@ -17,7 +17,7 @@ pub struct CellState {
 }
 
 /// A flow law: maps a stress predictor and the state of a cell to its new state.
-pub trait FlowLaw: std::fmt::Debug + Send + Sync {
+pub trait PlasticLaw: std::fmt::Debug + Send + Sync {
     /// Returns the state after an increment from `state`, if the cell flows.
     ///
     /// The `predictor` is y = dev σ + `stiffness` ε, Pa, with the unknown plastic strain ε. It does not change in the

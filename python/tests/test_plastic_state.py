@@ -1,4 +1,4 @@
-"""Bodies that flow below their surfaces."""
+"""Bodies that state below their surfaces."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ def pressed(**more: object) -> asp.Contact:
 @pytest.mark.filterwarnings("ignore")
 def test_a_ball_leaves_a_dent_and_what_flows_keeps_its_volume(tmp_path: pathlib.Path) -> None:
     contact = pressed()
-    assert list(contact.plastic_flow) == ["lower"]
-    flow = contact.plastic_flow["lower"]
-    assert flow.strain.shape == flow.residual_stress.shape == (6, 24, 24, 8) and flow.accumulated.shape == (24, 24, 8)
-    assert np.abs(flow.strain[:3].sum(axis=0)).max() < 1e-12
-    assert flow.accumulated.max() == contact.numbers["max_plastic_strain"]
-    assert flow.back_stress is not None and flow.back_stress.shape == (6, 24, 24, 8)
-    assert np.allclose(contact.lower.heights, -flow.displacement, atol=1e-18)
+    assert list(contact.plastic_state) == ["lower"]
+    state = contact.plastic_state["lower"]
+    assert state.strain.shape == state.residual_stress.shape == (6, 24, 24, 8) and state.accumulated.shape == (24, 24, 8)
+    assert np.abs(state.strain[:3].sum(axis=0)).max() < 1e-12
+    assert state.accumulated.max() == contact.numbers["max_plastic_strain"]
+    assert state.back_stress is not None and state.back_stress.shape == (6, 24, 24, 8)
+    assert np.allclose(contact.lower.heights, -state.displacement, atol=1e-18)
     assert contact.numbers["residual_stored_energy"] > 0.0
     assert contact.increments["plastic_work"].sum() == pytest.approx(contact.numbers["residual_plastic_work"])
     # The same from the results, and as a case file has it.
     kept = pressed(out=tmp_path / "out")
-    assert (kept.plastic_flow, kept.numbers, kept.fields) == (contact.plastic_flow, contact.numbers, contact.fields)
+    assert (kept.plastic_state, kept.numbers, kept.fields) == (contact.plastic_state, contact.numbers, contact.fields)
     assert kept.increments["plastic_work"].tolist() == contact.increments["plastic_work"].tolist()
-    assert asp.open(tmp_path / "out").plastic_flow["lower"] == flow
+    assert asp.open(tmp_path / "out").plastic_state["lower"] == state
 
 
 def test_what_a_plasticity_takes_is_told() -> None:
@@ -61,16 +61,16 @@ def test_a_ball_rolls_pass_after_pass(tmp_path: pathlib.Path) -> None:
         )  # fmt: skip
 
     run = rolled()
-    flow = run.plastic_flow()["lower"]
-    assert list(run.plastic_flow()) == ["lower"] and flow.strain.shape == (6, 24, 12, 6)
-    assert flow.accumulated.max() == run.passes["max_plastic_strain_lower"][1] > 0.0
-    assert np.allclose(run.lower().heights, -flow.displacement, atol=1e-18)
+    state = run.plastic_state()["lower"]
+    assert list(run.plastic_state()) == ["lower"] and state.strain.shape == (6, 24, 12, 6)
+    assert state.accumulated.max() == run.passes["max_plastic_strain_lower"][1] > 0.0
+    assert np.allclose(run.lower().heights, -state.displacement, atol=1e-18)
     assert (run.passes["plastic_work_lower"] > 0.0).all() and (run.passes["plastic_work_upper"] == 0.0).all()
     assert run.steps["products"].sum() > 24 and run.regime in {"undecided", "shakes-down"}
     with pytest.raises(OSError, match="plasticity-0001"):
-        run.plastic_flow(1)
+        run.plastic_state(1)
     kept = rolled(tmp_path / "out", keep="passes")
-    assert kept.plastic_flow(2)["lower"] == flow and kept.plastic_flow(1)["lower"].accumulated.sum() < flow.accumulated.sum()
+    assert kept.plastic_state(2)["lower"] == state and kept.plastic_state(1)["lower"].accumulated.sum() < state.accumulated.sum()
     assert asp.simulate(asp.form.flat((8, 8), pitch="1 um"), ball, STEEL, STEEL, load=1e-3, progress=False).regime is None
 
 

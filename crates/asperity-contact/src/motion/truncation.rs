@@ -8,9 +8,9 @@ use crate::motion::pair::Pair;
 /// largest plastic interference during a pass on frozen bodies. The mean over the positions, instead of the largest, would
 /// account for only a few per cent of it. Extrapolation over passes does not repeat it.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct PlasticFlow;
+pub struct Truncation;
 
-impl Law for PlasticFlow {
+impl Law for Truncation {
     fn name(&self) -> &str {
         "plastic"
     }

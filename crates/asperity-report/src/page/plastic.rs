@@ -10,7 +10,7 @@ use super::packed::QuantisedField;
 use super::plane::{self, Plane, Shades};
 use super::table::text_of;
 use crate::draw::Unit;
-use crate::figures::{self, Curves, FlowSection};
+use crate::figures::{self, Curves, PlasticSection};
 
 /// The section, and the data that it shows; none of bodies that do not flow.
 pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
@@ -20,8 +20,8 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     let file = pass.map_or("plasticity.h5".to_owned(), |pass| format!("fields/plasticity-{pass:04}.h5"));
     let is_due = if found.moves() { pass.is_some() } else { found.is_finished() };
     if is_due || found.directory().join(file).exists() {
-        let fields = found.fields(found.results.flow_fields(pass));
-        let bodies = fields.and_then(|fields| found.kept(figures::flow_sections(&fields)));
+        let fields = found.fields(found.results.plastic_fields(pass));
+        let bodies = fields.and_then(|fields| found.kept(figures::plastic_sections(&fields)));
         for body in bodies.into_iter().flatten() {
             html += &of_body(body, data);
         }
@@ -29,15 +29,15 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     let course: Option<Curves> = if found.moves() {
         figures::of_rolling(&found.passes)
     } else {
-        figures::of_flow_increments(&found.increments)
+        figures::of_plastic_increments(&found.increments)
     };
     html += &curves::html(course.into_iter().collect(), charts);
     Some(html).filter(|html| !html.is_empty())
 }
 
 /// The maps of a body.
-fn of_body(flow_sections: FlowSection, data: &mut Value) -> String {
-    let FlowSection { body, y, extent, strain, stress, surface } = flow_sections;
+fn of_body(plastic_sections: PlasticSection, data: &mut Value) -> String {
+    let PlasticSection { body, y, extent, strain, stress, surface } = plastic_sections;
     let mut html = format!("<h3>{body} body</h3>");
     if strain.iter().all(|strain| *strain == 0.0) {
         return html + "<p class=\"remark\">No plastic flow in this body.</p>";
@@ -98,11 +98,11 @@ fn numbers(found: &PageData) -> Option<String> {
     let summary = found.summary.as_ref()?;
     // A motion ends with the load taken off.
     let (of, when, record) = match &summary.outcome {
-        Outcome::Static(record) => ("static", "under the load", record.flow.as_ref()?),
+        Outcome::Static(record) => ("static", "under the load", record.plastic.as_ref()?),
         _ => ("plasticity", "after the last pass, unloaded", summary.plasticity.as_ref()?),
     };
-    let Ok(Value::Object(flow)) = serde_json::to_value(record) else { return None };
-    let cell = |key: &str| match flow.get(key) {
+    let Ok(Value::Object(plastic)) = serde_json::to_value(record) else { return None };
+    let cell = |key: &str| match plastic.get(key) {
         Some(Value::Array(place)) => {
             let place = place.iter().enumerate();
             let shown = place.map(|(n, value)| shown(key, &format!("{of}.{key}.{n}"), value));
@@ -111,7 +111,7 @@ fn numbers(found: &PageData) -> Option<String> {
         Some(value) => shown(key, &format!("{of}.{key}"), value),
         None => "–".to_owned(),
     };
-    let unloads = has_unloaded(&flow);
+    let unloads = has_unloaded(&plastic);
     let unloaded = if unloads { "<th scope=\"col\">unloaded</th>" } else { "" };
     let mut html = format!(
         "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"strain, work and residual stress\"><table><thead><tr><th scope=\"col\" class=\"words\">both bodies</th><th scope=\"col\">{when}</th>{unloaded}\
@@ -133,6 +133,6 @@ fn shown(key: &str, path: &str, value: &Value) -> String {
         .map_or_else(|| escaped(&value.to_string()), |size| number(path, value, &text_of(key, size)))
 }
 
-fn has_unloaded(flow: &Map<String, Value>) -> bool {
-    flow.contains_key("residual_max_plastic_strain")
+fn has_unloaded(plastic: &Map<String, Value>) -> bool {
+    plastic.contains_key("residual_max_plastic_strain")
 }

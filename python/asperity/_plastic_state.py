@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ._same import Comparable
 
 
-class PlasticFlow(Comparable):
+class PlasticState(Comparable):
     """The plastic state below the surface of an elasto-plastic body.
 
     Attributes
@@ -54,10 +54,10 @@ class PlasticFlow(Comparable):
 
     def __repr__(self) -> str:
         nx, ny, nz = self.accumulated.shape
-        return f"<PlasticFlow: {nx} × {ny} × {nz} cells, largest plastic strain {self.accumulated.max():.3g}>"
+        return f"<PlasticState: {nx} × {ny} × {nz} cells, largest plastic strain {self.accumulated.max():.3g}>"
 
 
-def of_results(core: Any, number: int | None) -> dict[str, PlasticFlow]:
+def of_results(core: Any, number: int | None) -> dict[str, PlasticState]:
     """Reads the plastic state of a static contact, or after a pass, from a results directory."""
     if "plasticity" not in core.case():
         return {}
@@ -69,10 +69,10 @@ def of_results(core: Any, number: int | None) -> dict[str, PlasticFlow]:
         return values
 
     def tensor(name: str, body: str) -> NDArray[np.float64]:
-        return np.stack([read(f"{name}_{component}_{body}") for component in PlasticFlow.COMPONENTS])
+        return np.stack([read(f"{name}_{component}_{body}") for component in PlasticState.COMPONENTS])
 
     return {
-        body: PlasticFlow(
+        body: PlasticState(
             depths=attributes[f"depths_{body}"],
             strain=tensor("strain", body),
             accumulated=read(f"accumulated_{body}"),

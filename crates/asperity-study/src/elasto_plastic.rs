@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::case::{Case, PlasticitySpec};
 use asperity_base::error::Result;
-use asperity_contact::motion::{FlowPath, Pair, Stage};
+use asperity_contact::motion::{Pair, PlasticPath, Stage};
 use asperity_contact::plasticity::{PlasticBody, Volume};
 
 /// Creates the elasto-plastic bodies of `case`, lower one first, under the surfaces of the `pair`.
@@ -21,8 +21,8 @@ pub(super) fn bodies(case: &Case, spec: &PlasticitySpec, pair: &Pair) -> Result<
 
 /// Creates the loading path of elasto-plastic bodies through these `stages`. Unloading takes as many steps as the first
 /// stage.
-pub(super) fn path(spec: &PlasticitySpec, stages: Vec<Stage>) -> FlowPath {
+pub(super) fn path(spec: &PlasticitySpec, stages: Vec<Stage>) -> PlasticPath {
     let steps = stages.first().map_or(1, |stage| stage.increments);
     let unloading = spec.unload.unwrap_or(true).then_some(steps);
-    FlowPath::new(stages).with_unloading(unloading).with_flow(spec.params())
+    PlasticPath::new(stages).with_unloading(unloading).with_plastic(spec.params())
 }

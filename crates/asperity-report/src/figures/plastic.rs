@@ -2,7 +2,7 @@
 
 use asperity_base::units::{Dimension, format};
 use asperity_base::{Field, Grid};
-use asperity_contact::motion::{FlowStepRecord, IncrementRecord};
+use asperity_contact::motion::{IncrementRecord, PlasticStepRecord};
 use asperity_study::io::fields::{Attribute, Fields};
 
 use super::Curves;
@@ -18,7 +18,7 @@ const MAX_ROWS: usize = 400;
 
 /// Draws them, of each body that has flowed.
 pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Result {
-    for FlowSection { body, y, extent, strain, stress, surface } in flow_sections(fields)? {
+    for PlasticSection { body, y, extent, strain, stress, surface } in plastic_sections(fields)? {
         let section = format!("{of}, section at y = {}", format(y, Dimension::Length));
         let ends = extent.map(|length| [0.0, length]);
         let map = |field, name, unit, colours| {
@@ -46,9 +46,9 @@ pub(super) fn draw(fields: &Fields, of: &str, sheet: &mut Sheet) -> Result {
 
 /// What has flowed over the increments of a loading: the largest plastic strain and the plastic work so far; none where nothing has.
 pub(crate) fn of_increments(increments: &[IncrementRecord]) -> Option<Curves> {
-    let steps: Vec<(f64, FlowStepRecord)> =
-        increments.iter().filter_map(|i| Some((i.increment as f64, i.flow?))).collect();
-    if steps.iter().all(|(_, flow)| flow.max_plastic_strain == 0.0) {
+    let steps: Vec<(f64, PlasticStepRecord)> =
+        increments.iter().filter_map(|i| Some((i.increment as f64, i.plastic?))).collect();
+    if steps.iter().all(|(_, plastic)| plastic.max_plastic_strain == 0.0) {
         return None;
     }
     let chart = |y, points| {
@@ -56,12 +56,12 @@ pub(crate) fn of_increments(increments: &[IncrementRecord]) -> Option<Curves> {
         Chart::new("", Axis::linear("increment", Unit::Count), y, series)
     };
     let mut sum = 0.0;
-    let work = steps.iter().map(|(x, flow)| {
-        sum += flow.plastic_work;
+    let work = steps.iter().map(|(x, plastic)| {
+        sum += plastic.plastic_work;
         [*x, sum]
     });
     let work = work.collect();
-    let strain = steps.iter().map(|(x, flow)| [*x, 100.0 * flow.max_plastic_strain]).collect();
+    let strain = steps.iter().map(|(x, plastic)| [*x, 100.0 * plastic.max_plastic_strain]).collect();
     let charts = vec![
         chart(Axis::linear("largest plastic strain", Unit::Of("%")), strain),
         chart(Axis::of("plastic work so far", "plastic_work"), work),
@@ -71,7 +71,7 @@ pub(crate) fn of_increments(increments: &[IncrementRecord]) -> Option<Curves> {
 }
 
 /// A body that flows, on a section along x through its largest plastic strain.
-pub(crate) struct FlowSection {
+pub(crate) struct PlasticSection {
     /// `lower` or `upper`.
     pub body: &'static str,
     /// Where the section is.
@@ -87,9 +87,9 @@ pub(crate) struct FlowSection {
 }
 
 /// The bodies that flow.
-pub(crate) fn flow_sections(fields: &Fields) -> Result<Vec<FlowSection>> {
+pub(crate) fn plastic_sections(fields: &Fields) -> Result<Vec<PlasticSection>> {
     let names = fields.names()?;
-    let of = |body: &'static str| -> Result<Option<FlowSection>> {
+    let of = |body: &'static str| -> Result<Option<PlasticSection>> {
         let layered = |quantity: &str| -> Result<Option<Layered>> {
             let name = format!("{quantity}_{body}");
             if names.contains(&name) { Layered::read(fields, &name, body).map(Some) } else { Ok(None) }
@@ -98,7 +98,7 @@ pub(crate) fn flow_sections(fields: &Fields) -> Result<Vec<FlowSection>> {
         let row = accumulated.row_of_largest();
         let left = format!("residual_displacement_{body}");
         let left = if names.contains(&left) { Some(StoredArray::read(fields, &left)?) } else { None };
-        Ok(Some(FlowSection {
+        Ok(Some(PlasticSection {
             body,
             y: accumulated.grid.centre(1, row),
             extent: [accumulated.grid.extent()[0], accumulated.faces[accumulated.faces.len() - 1]],

@@ -8,7 +8,7 @@ use asperity_base::record::columns;
 columns! {
     /// Plastic flow of both bodies, under the last load of a static contact or after the last pass of a motion.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-    pub struct FlowRecord {
+    pub struct PlasticRecord {
         /// Largest accumulated plastic strain.
         pub max_plastic_strain: f64,
         /// Position of the largest plastic strain: x and y from the corner of the body, z from its surface.
@@ -65,7 +65,7 @@ columns! {
     }
 }
 
-impl FlowRecord {
+impl PlasticRecord {
     /// Returns the record of unloaded bodies.
     pub(in crate::motion) fn into_residual(self) -> ResidualRecord {
         ResidualRecord {
@@ -84,7 +84,7 @@ columns! {
     /// Plastic flow in a pass: further columns of its row. 0 for an elastic body.
     #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
-    pub struct PassFlowRecord {
+    pub struct PassPlasticRecord {
         /// Largest accumulated plastic strain of the lower body after the pass.
         pub max_plastic_strain_lower: f64,
         /// Largest accumulated plastic strain of the upper body after the pass.
@@ -115,7 +115,7 @@ columns! {
     /// Plastic flow in a step or an increment: further columns of its row.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
-    pub struct FlowStepRecord {
+    pub struct PlasticStepRecord {
         /// Cells in all layers of both bodies that have yielded in the step or increment.
         pub yielded_cells: usize,
         /// Largest accumulated plastic strain at the end of the step or increment.
