@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _case, _conductance, _core, _gap_flow, fields
+from . import _case, _core, fields
+from ._capabilities import OfContact
 from ._keywords import ContactKeywords, SlideKeywords, takes
 from ._plastic_state import PlasticState, of_results
 from ._progress import Teller
 from ._show import unit_of
-from ._solved import Solved
-from ._table import by_direction, records, Table, Units
-from ._units import path, Quantity
+from ._table import records, Table, Units
+from ._units import path
 from .body import Body, Handed, bodies
 from .errors import Warner, bad_input
 from .fields import Fields
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 
-class Contact(Solved):
+class Contact(OfContact):
     """A computed static contact.
 
     :func:`contact`, :func:`slide` and :func:`open` return contacts. The numbers of a contact are attributes with the names of
@@ -108,12 +108,6 @@ class Contact(Solved):
     updates : Table
         A record for each update of a contact that slides in place, see :func:`slide`, else empty. The first record is the contact
         before sliding.
-    conductances : Table
-        A record for each contact whose conductance was asked for, with the columns of `conductance.csv`, else empty. The last one
-        belongs to the fields.
-    leakages : dict
-        The flow through the gap under a pressure that falls along ``"x"`` and along ``"y"``: a :class:`Table` each with the columns
-        of `flow.csv`. Empty if it was not asked for.
     warnings : list of str
         Warnings about doubtful input and results.
     case : dict
@@ -163,8 +157,6 @@ class Contact(Solved):
     sweep: Table
     increments: Table
     updates: Table
-    conductances: Table
-    leakages: dict[str, Table]
     warnings: list[str]
     case: dict[str, Any]
     plastic_state: dict[str, PlasticState]
@@ -178,7 +170,7 @@ class Contact(Solved):
         sweep: list[dict[str, Any]],
         increments: list[dict[str, Any]],
         updates: list[dict[str, Any]],
-        passage: tuple[list[dict[str, Any]], list[dict[str, Any]]],
+        seen: dict[str, list[dict[str, Any]]],
         found: Fields,
         warnings: list[str],
         case: dict[str, Any],
@@ -191,9 +183,7 @@ class Contact(Solved):
         self.fields = found
         self.increments = records(increments, _core.INCREMENT_COLUMNS)
         self.updates = records(updates, ["update", "distance"])
-        conductance, leakage = passage
-        self.conductances = records(conductance, [])
-        self.leakages = by_direction(leakage)
+        self._found = seen
         self.sweep = records(sweep, _core.SWEEP_COLUMNS)
         self.warnings = list(warnings)
         self.case = case
@@ -287,97 +277,6 @@ class Contact(Solved):
     def upper(self) -> Surface:
         """The prepared underside of the upper body. A body with it is mounted ``"as-is"``."""
         return Surface(self.fields["upper"].values, self.pitch)
-
-    def conductance(
-        self,
-        *,
-        conductivity: Quantity | Sequence[Quantity],
-        kind: _conductance.Kind = "thermal",
-        film: Quantity | None = None,
-        gas: Quantity | None = None,
-        jump: Quantity | None = None,
-        tolerance: float = 1e-6,
-        threads: int | None = None,
-    ) -> _conductance.Conductance:
-        """Compute the thermal or electrical conductance of this contact.
-
-        Cells in contact, gap, pitch and boundary are those of the contact. The bodies are half-spaces without coatings: for coated bodies
-        use the keyword `conductance` of :func:`contact`.
-
-        Parameters
-        ----------
-        conductivity, kind, film, gas, jump, tolerance, threads
-            As in :func:`asperity.conductance`.
-
-        Returns
-        -------
-        Conductance
-
-        Raises
-        ------
-        asperity.errors.BadInput, asperity.errors.NotConverged
-            For the same reasons as :func:`asperity.conductance`.
-
-        Examples
-        --------
-        >>> import asperity as asp
-        >>> steel = asp.Material(young="210 GPa", poisson=0.3)
-        >>> c = asp.contact(asp.form.flat((64, 64), pitch="6 um"), asp.form.sphere("10 mm"), steel, steel, load="10 N")
-        >>> f"{c.conductance(conductivity='46 W/(m K)').conductance:.3g} W/K"
-        '0.00797 W/K'
-        """
-        return _conductance.conductance(
-            self, conductivity=conductivity, kind=kind, film=film, gas=gas, jump=jump, tolerance=tolerance, threads=threads
-        )
-
-    def flow(
-        self,
-        *,
-        viscosity: Quantity | None = None,
-        pressure: Quantity | None = None,
-        outlet: Quantity | None = None,
-        ends: _gap_flow.Ends | None = None,
-        sides: _gap_flow.Sides | None = None,
-        faces: _gap_flow.Faces = "linear",
-        threads: int | None = None,
-    ) -> _gap_flow.GapFlow:
-        """Compute the flow of a fluid through the gap of this contact.
-
-        Gap and pitch are those of the contact. So are the ends and sides by default: along a free axis reservoirs and walls.
-
-        Parameters
-        ----------
-        viscosity, pressure, outlet, ends, sides, faces, threads
-            As in :func:`asperity.flow`.
-
-        Returns
-        -------
-        GapFlow
-
-        Raises
-        ------
-        asperity.errors.BadInput, asperity.errors.Memory
-            For the same reasons as :func:`asperity.flow`.
-
-        Examples
-        --------
-        >>> import asperity as asp
-        >>> steel = asp.Material(young="210 GPa", poisson=0.3)
-        >>> rough = asp.generate.self_affine((64, 64), "1 um", hurst=0.8, sq="0.2 um", shortest="8 um", seed=1)
-        >>> c = asp.contact(asp.form.flat(), rough, steel, steel, mean_pressure="50 MPa", boundary="periodic")
-        >>> f"{c.flow(viscosity='80 mPa s', pressure='1 bar').leakage[0]:.2g} m³/s"
-        '5e-15 m³/s'
-        """
-        return _gap_flow.flow(
-            self,
-            viscosity=viscosity,
-            pressure=pressure,
-            outlet=outlet,
-            ends=ends,
-            sides=sides,
-            faces=faces,
-            threads=threads,
-        )
 
     def to_xarray(self) -> Dataset:
         """Return all fields as an xarray Dataset, with the numbers as attributes.
@@ -586,7 +485,7 @@ def _solved(pair: tuple[Body, Body], keywords: Any, options: Mapping[str, Any]) 
             found.get("sweep", []),
             found["increments"],
             found["updates"],
-            (found["conductance"], found["gap_flow"]),
+            found["found"],
             arrays,
             found["warnings"],
             found["case"],
@@ -618,7 +517,7 @@ def stored(directory: str, core: Any) -> Contact:
         core.sweep(),
         core.increments(),
         core.updates(),
-        (core.conductance(), core.gap_flow()),
+        core.found(),
         found,
         summary["warnings"],
         core.case(),

@@ -23,7 +23,7 @@ Sides = Literal["periodic", "closed"]
 """What lies beyond its sides."""
 
 Faces = Literal["linear", "harmonic"]
-"""Rule for the conductance between two cells."""
+"""Rule for the gap between two cells."""
 
 
 class GapFlow(Comparable):
@@ -159,7 +159,7 @@ def flow(
     sides : str, optional
         ``"periodic"`` or ``"closed"``. By default they are periodic; for a contact, along its periodic axes alone.
     faces : str
-        Conductance between two cells: ``"linear"``, for a gap that is linear between their centres, or ``"harmonic"``.
+        The gap between two cells: ``"linear"`` between their centres, or ``"harmonic"``, the harmonic mean of their permeabilities.
     threads : int, optional
         Number of threads; one for each core by default. The answer does not depend on it.
 

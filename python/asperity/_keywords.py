@@ -22,7 +22,7 @@ Boundary = Literal["free", "periodic"]
 
 
 # fmt: off
-class Common(TypedDict, total=False):
+class Common(keys.Capabilities, total=False):
     """Keywords of every contact."""
 
     load: Annotated[Quantity | None, "contact", "Normal force, above 0, N. Give one of `load`, `mean_pressure` and `approach`."]
@@ -43,9 +43,6 @@ class Common(TypedDict, total=False):
         "steady rolling takes `creepage`, `creepages` or `rolling_force`, and `spin`."]
     adhesion: Annotated[keys.Adhesion | None, "",
         "Attraction between the bodies: `work`, `range`, `potential` and `history`. Loads of a `history` of stages may then pull."]
-    conductance: Annotated[keys.Conductance | None, "",
-        "Conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`. Bodies need a `conductivity` or `resistivity`."]
-    flow: Annotated[keys.GapFlow | None, "", "Flow of a fluid through the gap: `viscosity`, `pressure` and others."]
 
 
 class Rest(TypedDict, total=False):

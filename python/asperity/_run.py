@@ -14,8 +14,9 @@ from ._keywords import Execution, takes
 from ._progress import Teller
 from ._optional import need
 from ._plastic_state import PlasticState, of_results
+from ._capabilities import Observed
 from ._same import Comparable
-from ._table import by_direction, records, Table, Units
+from ._table import records, Table, Units
 from ._temporary import Temporary
 from ._units import path as paths
 from .errors import Warner, _make, bad_input
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 
-class Run(Comparable):
+class Run(Observed, Comparable):
     """The results of a motion in a directory, finished or still running.
 
     All data are read from the files on access.
@@ -122,14 +123,9 @@ class Run(Comparable):
         return records(self._core.steps(), _core.STEP_COLUMNS)
 
     @property
-    def conductances(self) -> Table:
-        """A record for each position whose conductance was asked for, with the columns of `conductance.csv`."""
-        return records(self._core.conductance(), [])
-
-    @property
-    def leakages(self) -> dict[str, Table]:
-        """The flow through the gap along ``"x"`` and ``"y"``: a table each with the columns of `flow.csv`."""
-        return by_direction(self._core.gap_flow())
+    def _found(self) -> dict[str, list[dict[str, Any]]]:
+        found: dict[str, list[dict[str, Any]]] = self._core.found()
+        return found
 
     @property
     def warnings(self) -> list[str]:

@@ -36,8 +36,8 @@ class Body(Comparable):
     film : keys.Film, optional
         Tribofilm on the body.
     thermal : keys.Thermal, optional
-        Thermal constants for a flash temperature: `conductivity`, W/(m K), `heat_capacity`, J/(kg K), and `density`, kg/m³. For a
-        conductance `conductivity` alone, or `resistivity`, Ω m.
+        Thermal constants for a flash temperature: `conductivity`, W/(m K), `heat_capacity`, J/(kg K), and `density`, kg/m³. For heat
+        that passes a contact `conductivity` alone, for a current `resistivity`, Ω m.
     """
 
     def __init__(

@@ -2,54 +2,78 @@
 
 Each type has the keys of a table of a case file. A type checker finds unknown keys with them. At run time a plain dictionary is
 enough. A quantity is a number in SI or a text with a unit.
+
+This file is made from the declarations of the keys of case files: ``UPDATE=1 cargo test -p asperity-study``.
 """
 
-from __future__ import annotations
+# Annotations are not postponed here: types and texts are read when the package is imported.
 
 from collections.abc import Sequence
-from typing import Literal, TypedDict
+from typing import Annotated, Literal, TypedDict
 
 from ._units import Pair, Quantity
 
-__all__ = ["Acceleration", "Adhesion", "Conductance", "Film", "Friction", "GapFlow", "Plasticity", "Stage", "Subsurface", "Temperature", "Thermal", "Wear"]
+__all__ = [
+    "Acceleration",
+    "Adhesion",
+    "Conductance",
+    "Film",
+    "Flow",
+    "Friction",
+    "Plasticity",
+    "Stage",
+    "Subsurface",
+    "Temperature",
+    "Thermal",
+    "Wear",
+]
 
 
-class _Law(TypedDict):
+class _RequiredFriction(TypedDict):
     coefficient: float
 
 
-class Friction(_Law, total=False):
+class Friction(_RequiredFriction, total=False):
     """Keys of ``friction``.
 
-    At most one of `force`, `displacement`, `sliding`, `creepage`, `creepages` and `rolling_force` is given, and only for a static
-    contact.
+    At most one of `force`, `displacement`, `sliding`, `creepage`, `creepages` and `rolling_force` is given, and only
+    for a static contact.
 
     Attributes
     ----------
     coefficient : float
-        Coefficient of friction, at least 0; infinite if nothing slips. Required.
+        Coefficient of friction μ; number ≥ 0, or `inf`: nothing slips. Required.
     coupling : {"full", "goodman", "none"}
-        Coupling of pressure and shear between dissimilar bodies. With ``"goodman"`` pressure shears, but shear does not press.
+        Coupling between dissimilar bodies: `"goodman"`, pressure displaces tangentially, but shear does not displace
+        normally; `"none"`, neither. By default `"full"`.
     shear_strength : float or str
-        Largest shear traction of the interface, above 0, Pa.
+        τ, the largest shear stress of the interface under any pressure, for example of a boundary film; pressure > 0,
+        or `inf`: no limit. By default `inf`.
     junction_growth : float
-        Factor α of junction growth p² + αq² ≤ H², at least 0.
+        α in p² + αq² ≤ H²: shear lowers the cap of the pressure, and the contact grows; about 9 for metals; number ≥ 0.
+        By default `0`.
     force : float, str or pair of them
-        Force of the upper body on the lower one, N, along x or along both axes.
+        Force of the upper body on the lower one; force along x, or `[x, y]`. Without it: 0.
     displacement : float, str or pair of them
-        Displacement of the upper body against the lower one, m, along x or along both axes.
+        Displacement of the upper body relative to the lower one; length along x, or `[x, y]`. Without it: at most one
+        of the six in the plane.
     sliding : pair of float
-        Direction in which the upper body slides, of any length.
+        Sliding direction of the upper body; every cell slips; `[x, y]` of any length. Without it: at most one of the
+        six in the plane.
     creepage : float or pair of float
-        Creepage of steady rolling along x, along x or along both axes.
+        Steady rolling along x: velocity of the upper body relative to the lower one, over the rolling velocity; number
+        along x, or `[x, y]`. Without it: at most one of the six in the plane.
     creepages : sequence
-        Several creepages, one after the other: a traction curve.
-    rolling_force : float, str or pair of them
-        Force of the upper body on the lower one in steady rolling along x, N.
+        Several creepages, one after the other; list of at least one value, or a table. Without it: at most one of the
+        six in the plane.
     spin : float
-        Spin of rolling, 1/m.
+        Rolling only, in 1/m: angular velocity of the upper body relative to the lower one, over the rolling velocity,
+        about z through the middle of the grid, positive from +x towards +y; number. By default `0`.
+    rolling_force : float, str or pair of them
+        Steady rolling along x: force of the upper body on the lower one; force along x, or `[x, y]`. Without it: at
+        most one of the six in the plane.
     increments : int
-        Number of equal steps in which the load and the tangential load grow from 0, at least 1.
+        Equal steps in which load and tangential load grow from 0; whole number ≥ 1. By default `1`.
     """
 
     coupling: Literal["full", "goodman", "none"]
@@ -60,8 +84,8 @@ class Friction(_Law, total=False):
     sliding: Sequence[float]
     creepage: float | Sequence[float]
     creepages: Sequence[float | Sequence[float]]
+    spin: float
     rolling_force: Pair
-    spin: Quantity
     increments: int
 
 
@@ -71,19 +95,24 @@ class Stage(TypedDict, total=False):
     Attributes
     ----------
     load : float or str
-        Normal force, above 0, N. With adhesion it may pull, below 0.
+        As in [contact]; at most one of the three; with [adhesion] it may be 0 or pull, below 0; force. Without it:
+        unchanged.
     mean_pressure : float or str
-        Load over the area of all cells, above 0, Pa. With adhesion it may pull, below 0.
+        As in [contact]; at most one of the three; with [adhesion] it may be 0 or pull, below 0; pressure. Without it:
+        unchanged.
     approach : float or str
-        Approach of the bodies, m.
+        As in [contact]; at most one of the three; length. Without it: unchanged.
     force : float, str or pair of them
-        Tangential force of the upper body on the lower one, N.
+        As in [friction], which it requires; at most one of the three; force along x, or `[x, y]`. Without it:
+        unchanged.
     displacement : float, str or pair of them
-        Tangential displacement of the upper body relative to the lower one, m.
+        As in [friction], which it requires; at most one of the three; length along x, or `[x, y]`. Without it:
+        unchanged.
     sliding : pair of float
-        Direction in which the upper body slides, of any length.
+        As in [friction], which it requires; at most one of the three; `[x, y]` of any length. Without it: unchanged.
     increments : int
-        Number of equal steps from the end of the stage before, at least 1.
+        Equal steps from the end of the previous stage; whole number ≥ 1. Without it: 1; for elasto-plastic bodies, the
+        number in [plasticity].
     """
 
     load: Quantity
@@ -95,30 +124,33 @@ class Stage(TypedDict, total=False):
     increments: int
 
 
-class _Volume(TypedDict):
+class _RequiredPlasticity(TypedDict):
     depth: Quantity
     layers: int
 
 
-class Plasticity(_Volume, total=False):
+class Plasticity(_RequiredPlasticity, total=False):
     """Keys of ``plasticity``, for bodies with an :class:`asperity.Plasticity`.
 
     Attributes
     ----------
     depth : float or str
-        Depth of the volume that may deform plastically, m. Required.
+        Depth of the volume that may deform plastically, from one cell to the smaller side of the grid; 2.5 radii of the
+        largest spot are enough; length > 0. Required.
     layers : int
-        Number of its layers, 1 to 512. Required.
+        Number of layers; whole number, 1 … 512. Required.
     growth : float
-        Thickness of a layer over the thickness of the one above, 1 to 2.
+        Ratio of the thickness of a layer to that of the layer above; number, 1 … 2. By default `1`.
     increments : int
-        Number of equal steps of the load of a static contact, at least 1.
+        Static: equal steps of the loading in [contact], of each [[history]] stage without its own number, and of the
+        unloading; whole number ≥ 1. By default `16`.
     tolerance : float
-        Largest return-mapping residual over the yield stress, above 0, below 1.
+        Return-mapping residual over the yield stress at which an increment has converged; number > 0, < 1. By default
+        `1e-4`.
     unload : bool
-        Whether the load of a static contact is removed at the end.
+        Static: whether the contact is unloaded at the end. By default `true`.
     keep : {"last", "passes"}
-        Whether the volumes of the last pass or of all passes are kept.
+        [motion] only: whether the volumes of the last pass or of all passes are stored. By default `"last"`.
     """
 
     growth: float
@@ -128,29 +160,31 @@ class Plasticity(_Volume, total=False):
     keep: Literal["last", "passes"]
 
 
-class _Depth(TypedDict):
+class _RequiredSubsurface(TypedDict):
     to: Quantity
 
 
-class Subsurface(_Depth, total=False):
+class Subsurface(_RequiredSubsurface, total=False):
     """Keys of ``subsurface``: the stress below the surface of one body.
 
     Attributes
     ----------
     to : float or str
-        Depth of the deepest plane, above 0, m. Required.
+        Deepest plane; the largest stress of a contact spot lies at about a quarter of its width; length > 0. Required.
     layers : int
-        Number of steps from the surface to `to`, 1 to 10 000.
+        Steps from the surface to `to`; whole number, 1 … 10000. By default `40`.
     body : {"lower", "upper"}
-        The body.
+        Body, with its own Poisson's ratio. By default `"lower"`.
     planes : sequence of float or str
-        Depths at which the von Mises stress is kept on the whole plane, m.
+        Depths at which von Mises' stress is stored on the whole plane; list of lengths ≥ 0. Without it: none.
     section : float or str
-        Position y of the section along x on which the stress is kept, m.
+        Y of the section along x on which the stress is stored, in the contact; length ≥ 0. Without it: the most
+        stressed point.
     columns : sequence of pairs of float or str
-        Positions ``[x, y]`` below which the stress is kept, m.
+        Positions in the contact below which the stress is stored; list of `[x, y]`, lengths ≥ 0. Without it: none.
     step : int
-        The position of each pass that is computed, at least 1, in a motion.
+        [motion] only: position of each pass at which the stress is computed; whole number ≥ 1. Without it: the position
+        with aligned left edges.
     """
 
     layers: int
@@ -161,88 +195,31 @@ class Subsurface(_Depth, total=False):
     step: int
 
 
-class _Attraction(TypedDict):
+class _RequiredAdhesion(TypedDict):
     work: Quantity
     range: Quantity
 
 
-class Adhesion(_Attraction, total=False):
+class Adhesion(_RequiredAdhesion, total=False):
     """Keys of ``adhesion``: the attraction between the bodies.
 
     Attributes
     ----------
     work : float or str
-        Work of adhesion, above 0, J/m². Required.
+        Work of adhesion: the energy that separates an area of flat surfaces; energy of an area > 0. Required.
     range : float or str
-        Range of the attraction, above 0, m, or ``"grid"``: the shortest range that the grid resolves. Required.
+        Range of the attraction, the gap at which the exponential tension has fallen to 1/e; length > 0, or `"grid"`:
+        the shortest range that the grid resolves. Required.
     potential : {"exponential", "dugdale"}
-        Tension as a function of the gap: ``"exponential"`` (by default), or constant up to the range.
+        Tension as a function of the gap: `"exponential"`, or constant up to the range, for comparison with closed
+        forms. By default `"exponential"`.
     history : {"none", "path"}
-        In a motion, whether the bodies come from afar at each position (``"none"``, by default), or from the position before.
+        In a motion: `"none"`, the bodies come from afar at each position; `"path"`, in a shift, from the position
+        before, so that jumps lose energy. By default `"none"`.
     """
 
     potential: Literal["exponential", "dugdale"]
     history: Literal["none", "path"]
-
-
-class Conductance(TypedDict, total=False):
-    """Keys of ``conductance``: the thermal or electrical conductance of the contacts.
-
-    Attributes
-    ----------
-    kind : {"thermal", "electrical"}
-        Whether heat or current passes.
-    film : float or str
-        Resistance of a film on the spots, of an area, at least 0, m² K/W or Ω m².
-    gas : float or str
-        Thermal conductivity of a gas in the gap, above 0, W/(m K).
-    jump : float or str
-        Temperature jump distance of the gas, at least 0, m.
-    drop : float or str
-        Difference between the bodies, above 0, K or V.
-    every : int
-        Interval of the contacts whose conductance is computed.
-    """
-
-    kind: Literal["thermal", "electrical"]
-    film: Quantity
-    gas: Quantity
-    jump: Quantity
-    drop: Quantity
-    every: int
-
-
-class _Viscosity(TypedDict):
-    viscosity: Quantity
-
-
-class GapFlow(_Viscosity, total=False):
-    """Keys of ``flow``: the flow of a fluid through the gap.
-
-    Attributes
-    ----------
-    viscosity : float or str
-        Viscosity of the fluid, above 0, Pa s. Required.
-    pressure : float or str
-        Pressure difference, at least 0, Pa.
-    along : {"x", "y", "both"}
-        Direction of the pressure gradient.
-    ends : {"periodic", "reservoirs"}
-        What lies beyond the ends of the grid along the gradient.
-    gas : bool
-        Whether the fluid is an ideal gas.
-    outlet : float or str
-        Absolute pressure of a gas at the outlet, above 0, Pa.
-    every : int
-        Interval of the contacts whose flow is computed.
-    """
-
-    pressure: Quantity
-    along: Literal["x", "y", "both"]
-    ends: Literal["periodic", "reservoirs"]
-    gas: bool
-    outlet: Quantity
-    every: int
 
 
 class Acceleration(TypedDict, total=False):
@@ -251,11 +228,13 @@ class Acceleration(TypedDict, total=False):
     Attributes
     ----------
     tolerance : float
-        Largest error estimate of an extrapolation, above 0, relative.
+        Largest error estimate of an extrapolation, over the depth to which the largest pressure presses a single cell;
+        number > 0. By default `0.01`.
     max_jump : int
-        Largest number of passes that a computed pass represents, at least 1.
+        Largest number of passes per extrapolation, the computed pass included; 1 computes all passes; whole number ≥ 1.
+        By default `10000`.
     max_wear : float or str
-        Largest depth of wear of an extrapolation, above 0, m.
+        Largest wear depth in an extrapolation; length > 0. By default `"5 nm"`.
     """
 
     tolerance: float
@@ -263,20 +242,23 @@ class Acceleration(TypedDict, total=False):
     max_wear: Quantity
 
 
-class _Bulk(TypedDict):
+class _RequiredTemperature(TypedDict):
     bulk: Pair
 
 
-class Temperature(_Bulk, total=False):
+class Temperature(_RequiredTemperature, total=False):
     """Keys of ``temperature``.
 
     Attributes
     ----------
     bulk : float, str or pair of them
-        Temperature of the bodies far from the contact, K or a text such as ``"100 °C"``; two for the lower and the upper body.
-        Required.
+        Temperature of the bodies far from the contact; a number without a unit is in kelvin; temperature > 0 K, or two:
+        `[lower, upper]`. Required.
     every : int
-        The flash temperature is computed in every n-th computed pass; 0 for none.
+        Computes the flash temperature at each position of every n-th computed pass, from the first on, for films and
+        results; in other passes each cell has its mean temperature over the contacts of the last of these. It requires
+        the thermal constants of both bodies, [friction] and a speed. 0: the surfaces have the temperatures of the
+        bodies; whole number ≥ 0. Without it: 1 with thermal constants, else 0.
     """
 
     every: int
@@ -288,13 +270,18 @@ class Wear(TypedDict, total=False):
     Attributes
     ----------
     coefficient : float or str
-        Volume lost per load and distance slid, m³/(N m), such as ``"1e-7 mm3/(N m)"``.
+        Wear volume per load and sliding distance (Archard); volume per load and distance > 0. Without it: exactly one
+        of the three.
     dimensionless : float
-        The wear coefficient times the hardness of the body.
+        `coefficient` times the `hardness` of the body, which must be a single number; number > 0. Without it: exactly
+        one of the three.
     energy : float or str
-        Volume lost per energy of friction, m³/J, such as ``"1e-6 mm3/J"``.
+        Wear volume per frictional energy; requires [friction]; volume per load and distance > 0. Without it: exactly
+        one of the three.
     under_film : float or str
-        The coefficient under the thickest film, in the unit of `coefficient` or `energy`.
+        Coefficient under the thickest film, in the unit of `coefficient` or `energy`, also with `dimensionless`, at
+        most the coefficient of the bare body; it decreases linearly with the thickness; the body needs a film; volume
+        per load and distance > 0. Without it: the coefficient of the bare body.
     """
 
     coefficient: Quantity
@@ -303,44 +290,49 @@ class Wear(TypedDict, total=False):
     under_film: Quantity
 
 
-class _Layer(TypedDict):
+class _RequiredFilm(TypedDict):
     law: Literal["arrhenius", "mechano-chemical", "solid-lubricant"]
     max_thickness: Quantity
 
 
-class Film(_Layer, total=False):
+class Film(_RequiredFilm, total=False):
     """Keys of ``film`` of a body: its tribofilm.
 
     Attributes
     ----------
     law : {"arrhenius", "mechano-chemical", "solid-lubricant"}
-        Law of growth and removal. Required.
+        `"arrhenius"`: growth activated by stress, removal by sliding; `"mechano-chemical"`; `"solid-lubricant"`: a film
+        that is there at its thickest in the beginning and is only worn off. Required.
     max_thickness : float or str
-        Largest thickness, above 0, m. Required.
+        Upper limit of the film thickness; length > 0. Required.
     hardness : float or str
-        Largest pressure of a cell under the thickest film, above 0, Pa.
+        Hardness under the thickest film, at most the hardness of the body; interpolated linearly in the thickness;
+        pressure > 0. Without it: the hardness of the body.
     rate : float or str
-        Law ``"arrhenius"``: growth rate at `at_temperature` and `at_stress`, m/s.
+        With `law = "arrhenius"`: initial growth rate, at `at_temperature` and `at_stress`; speed > 0.
     at_temperature : float or str
-        Law ``"arrhenius"``: temperature of that rate, K.
+        With `law = "arrhenius"`: temperature at which `rate` holds; temperature, 2e2 … 5e3 K.
     at_stress : float or str
-        Law ``"arrhenius"``: stress of that rate, Pa.
+        With `law = "arrhenius"`: stress at which `rate` holds; pressure ≥ 0.
     activation_energy : float or str
-        Law ``"arrhenius"``: activation energy, J.
+        With `law = "arrhenius"`: activation energy of the growth; energy, 0 or 1e-24 … 1e-17 J.
     activation_volume : float or str
-        Law ``"arrhenius"``: activation volume, m³.
+        With `law = "arrhenius"`: activation volume of the growth; volume, 0 or 1e-36 … 1e-18 m³.
     stress : {"pressure", "shear"}
-        Law ``"arrhenius"``: the stress that activates the growth.
+        With `law = "arrhenius"`: stress that activates the growth; `"shear"` requires [friction]. By default
+        `"pressure"`.
     removal : float or str
-        Law ``"arrhenius"``: removal per pressure and distance slid, 1/(Pa m).
+        With `law = "arrhenius"`: removal per pressure and sliding distance; rate per pressure and distance ≥ 0. By
+        default `0`.
     x : float
-        Law ``"mechano-chemical"``: the factor x.
+        With `law = "mechano-chemical"`: factor x of the growth; number, 1e-45 … 1e0.
     c3 : float or str
-        Law ``"mechano-chemical"``: final removed thickness C₃, m.
+        With `law = "mechano-chemical"`: final removal C₃ as a thickness, at most `max_thickness`; length ≥ 0.
     c4 : float
-        Law ``"mechano-chemical"``: removal rate C₄, 1/s.
+        With `law = "mechano-chemical"`: rate C₄ of the removal, in 1/s; number, 0 or 1e-15 … 1e15 1/s.
     wear : float or str
-        Law ``"solid-lubricant"``: volume that the film loses per load and distance slid, m³/(N m).
+        With `law = "solid-lubricant"`: film volume lost per load and sliding distance, until the film is worn off; the
+        heights of the surface include the film; volume per load and distance > 0.
     """
 
     hardness: Quantity
@@ -360,24 +352,103 @@ class Film(_Layer, total=False):
 class Thermal(TypedDict, total=False):
     """Keys of ``thermal`` of a body: what it conducts.
 
-    A flash temperature needs the first three. A conductance needs the conductivity, or the resistivity if it is electrical.
+    A flash temperature needs the first three.
 
     Attributes
     ----------
     conductivity : float or str
-        Thermal conductivity, W/(m K).
-    heat_capacity : float or str
-        Heat capacity, J/(kg K).
-    density : float or str
-        Density, kg/m³.
+        Thermal conductivity, for the flash temperature and for heat that passes a contact; give it for both bodies;
+        thermal conductivity > 0, or `inf`: no resistance, only where heat passes a contact. Without it: unknown.
     resistivity : float or str
-        Electrical resistivity, Ω m.
+        Electrical resistivity, for a current that passes a contact; give it for both bodies; resistivity > 0. Without
+        it: unknown.
+    heat_capacity : float or str
+        Heat capacity; required with `conductivity`; heat capacity > 0. Without it: unknown.
+    density : float or str
+        Density; required with `conductivity`; density > 0. Without it: unknown.
     """
 
     conductivity: Quantity
+    resistivity: Quantity
     heat_capacity: Quantity
     density: Quantity
-    resistivity: Quantity
+
+
+class Conductance(TypedDict, total=False):
+    """Keys of ``conductance``: thermal or electrical conductance of the contacts.
+
+    Attributes
+    ----------
+    kind : {"thermal", "electrical"}
+        Whether heat or current passes: bodies need `conductivity` or `resistivity`. By default `"thermal"`.
+    film : float or str
+        Resistance of a film on the spots, of an area; resistance of an area ≥ 0, such as "1e-8 m2 K/W"; "1e-12 ohm m2"
+        with `kind = "electrical"`. Without it: none.
+    gas : float or str
+        Thermal conductivity of a gas in the gap; thermal conductivity > 0. Without it: none.
+    jump : float or str
+        Temperature jump distance of the gas at both surfaces together, which adds to the gap; length ≥ 0. By default
+        `0.0`.
+    drop : float or str
+        Difference between the bodies; it scales flux and power, nothing else; temperature difference > 0, such as "10
+        K"; "0.1 V" with `kind = "electrical"`. Without it: 1 K, or 1 V.
+    every : int
+        Interval of the positions of a pass, or of the increments, updates or points, whose conductance is computed; 0:
+        once a pass, where the left edges are flush, or for the last contact alone; whole number ≥ 0. By default `1`.
+    """
+
+    kind: Literal["thermal", "electrical"]
+    film: Quantity
+    gas: Quantity
+    jump: Quantity
+    drop: Quantity
+    every: int
+
+
+class _RequiredFlow(TypedDict):
+    viscosity: Quantity
+
+
+class Flow(_RequiredFlow, total=False):
+    """Keys of ``flow``: flow of a fluid through the gap.
+
+    Attributes
+    ----------
+    viscosity : float or str
+        Viscosity of the fluid, constant; viscosity > 0. Required.
+    pressure : float or str
+        Pressure difference that drives the leakage; pressure ≥ 0. By default `1e5`.
+    along : {"x", "y", "both"}
+        Direction of the pressure gradient. By default `"both"`.
+    ends : {"periodic", "reservoirs"}
+        `"periodic"`: the gap repeats itself, under a mean gradient of pressure; `"reservoirs"`: the fluid has two
+        pressures at the ends of the grid, and the sides are closed along a free axis. Without it: `"periodic"` along
+        periodic axes, `"reservoirs"` along free ones.
+    gas : bool
+        Whether the fluid is an ideal gas at constant temperature; needs `outlet`. By default `false`.
+    outlet : float or str
+        Absolute pressure of a gas at the outlet, to which its leakage refers; pressure > 0. Without it: with a gas:
+        must be given.
+    every : int
+        Interval of the positions of a pass, or of the increments, updates or points, whose flow is computed; 0: once a
+        pass, where the left edges are flush, or for the last contact alone; whole number ≥ 0. By default `1`.
+    """
+
+    pressure: Quantity
+    along: Literal["x", "y", "both"]
+    ends: Literal["periodic", "reservoirs"]
+    gas: bool
+    outlet: Quantity
+    every: int
+
+
+class Capabilities(TypedDict, total=False):
+    """Keywords of the capabilities."""
+
+    conductance: Annotated[Conductance | None, "",
+        "Thermal or electrical conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`."]
+    flow: Annotated[Flow | None, "",
+        "Flow of a fluid through the gap: `viscosity`, `pressure`, `along`, `ends`, `gas`, `outlet`, `every`."]
 
 
 def __dir__() -> list[str]:

@@ -15,7 +15,7 @@ import pytest
 INPUT = Path(__file__).parents[2] / "docs/input"
 TABLES = {
     "Friction": "friction", "Stage": "history", "Plasticity": "plasticity", "Subsurface": "subsurface",
-    "Conductance": "conductance", "GapFlow": "flow", "Adhesion": "adhesion",
+    "Conductance": "conductance", "Flow": "flow", "Adhesion": "adhesion",
     "Acceleration": "acceleration", "Temperature": "temperature", "Wear": "lower.wear", "Film": "lower.film",
 }  # fmt: skip
 

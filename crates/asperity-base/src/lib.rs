@@ -10,6 +10,7 @@
 //! | [`choice`](mod@choice) | [`Choice`]: the words of an option |
 //! | [`error`] | [`Error`] and [`Result`] |
 //! | [`record`] | [`columns!`]: the fields of a record are the columns of its table |
+//! | [`mod@table`] | tables of keys, each key declared once |
 //! | [`grid`] | [`Grid`], [`Field`], [`CellValues`], the placement of a grid on another |
 //! | `io`, a feature | atomic writing, reading of regular files |
 //! | [`ranks`] | processes that share the rows of one grid |
@@ -22,6 +23,7 @@ pub mod choice;
 pub mod error;
 pub mod grid;
 pub mod record;
+pub mod table;
 #[cfg(feature = "io")]
 pub mod io;
 pub mod ranks;

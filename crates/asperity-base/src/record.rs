@@ -7,3 +7,18 @@ pub use columns::{Column, Part, Presence};
 pub use number::{OptionalNumber, known_or_none, number_or_none};
 
 pub use crate::columns;
+
+use serde::Serialize;
+
+use crate::error::Error;
+
+/// A record that forms a row of a table, or a part of a summary.
+pub trait Record: Serialize {
+    /// Its columns, including those of optional groups.
+    const COLUMNS: &'static [Column];
+
+    /// Wraps an error as one at the step of the record.
+    fn at(&self, error: Error) -> Error {
+        error
+    }
+}

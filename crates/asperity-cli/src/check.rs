@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use asperity::Choice;
+use asperity::each_capability;
 use asperity::motion::{FilmLaw, LoadControl, OffsetY, Path, PlasticUpdate, Point, Stage};
 use asperity::solver::{Control, Creep, Friction, Rolling, Tangential};
 use asperity::study::case::{
@@ -10,12 +11,13 @@ use asperity::study::case::{
 };
 use asperity::study::{Bodies, Case, Demand, Estimate, MountedSurface, Plan, SurfaceInput, bodies, estimate};
 use asperity::units::{self, Dimension, bytes};
+use asperity::with::{Capability, Listed};
 
 use crate::args::Check;
 use crate::machine::OnDevice;
 use crate::report::{Outcome, note, print};
 use crate::{machine, place};
-use asperity_report::words::{clipped, closed_form, passage};
+use asperity_report::words::{clipped, closed_form};
 
 pub(crate) fn check(arguments: &Check) -> Outcome {
     let case = place::case_on(&arguments.case, "check", arguments.device)?;
@@ -57,12 +59,13 @@ fn text(
     let adhesion = case.adhesion.map(|spec| ("adhesion", adhesion(&spec, estimate)));
     let stress = estimate.subsurface.as_ref().map(|plan| ("stress", stress(case, plan)));
     let device = device.as_ref().map(|card| ("device", on_device(card)));
-    let passage = passage::asked(case);
+    let mut asked = Vec::new();
+    let surroundings = case.surroundings();
+    each_capability!(C => asked.extend(C::asked(&case.with).map(|asked| (C::VERB, asked.describe(&surroundings)))));
     let mut page = format!("{}\n\n", case.title);
     let laws = laws(case, demand);
     let besides = theory.into_iter().chain(friction).chain(history).chain(adhesion);
-    for (name, value) in
-        rows.into_iter().chain(device).chain(besides).chain(laws).chain(stress).chain(passage)
+    for (name, value) in rows.into_iter().chain(device).chain(besides).chain(laws).chain(stress).chain(asked)
     {
         let _ = writeln!(page, "{name:<8} {value}");
     }

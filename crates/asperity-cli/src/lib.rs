@@ -2,9 +2,9 @@
 
 mod args;
 mod check;
-mod conductance;
+mod command;
 mod example;
-mod flow;
+mod from_map;
 mod machine;
 mod maps;
 mod page;
@@ -23,8 +23,8 @@ use std::ffi::OsString;
 
 use clap::Parser;
 
-use args::{Arguments, Command};
 pub use asperity_report::page::make as write_report;
+use command::{Arguments, Command};
 pub use machine::{available as available_memory, name as machine_name, on_machine as memory_of_machine};
 pub use report::{Program, print_data, report_error, report_warning};
 pub use run::text as text_of_results;
@@ -54,7 +54,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 fn command(arguments: impl IntoIterator<Item = OsString>) -> report::Outcome {
     let command = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments.command,
-        Err(error) => return args::unparsed(&error),
+        Err(error) => return command::unparsed(&error),
     };
     threads::start(match &command {
         Command::Run(arguments) => arguments.threads,
@@ -67,8 +67,7 @@ fn command(arguments: impl IntoIterator<Item = OsString>) -> report::Outcome {
         Command::Check(arguments) => check::check(&arguments),
         Command::Example(arguments) => example::example(&arguments),
         Command::Surface(arguments) => surface::surface(arguments),
-        Command::Conductance(arguments) => conductance::conductance(&arguments),
-        Command::Flow(arguments) => flow::flow(&arguments),
+        Command::FromMap(arguments) => arguments.run(),
         Command::Plot(arguments) => plot::plot(&arguments),
         Command::Report(arguments) => page::report(&arguments),
         Command::Verify => verify::verify(),

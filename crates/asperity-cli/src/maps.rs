@@ -1,4 +1,4 @@
-//! The maps of `conductance` and `flow`, and the files that they write.
+//! Maps in files from which a command begins, and the files that it writes.
 
 use std::path::{Path, PathBuf};
 

@@ -79,7 +79,6 @@
 
 // A module may use those above it, never those below: `tests/it/module_order.rs` holds it.
 mod math;
-pub mod flow;
 pub mod stress;
 pub mod material;
 pub mod adhesion;
@@ -87,15 +86,16 @@ pub mod reference;
 pub mod kernel;
 pub mod operator;
 pub mod solver;
-pub mod conductance;
 pub mod subsurface;
 pub mod temperature;
 pub mod plasticity;
 pub mod motion;
+pub mod with;
 pub mod verification;
 
 pub use asperity_base::{choice, error, grid, ndarray, ranks, units};
 pub use asperity_surface as surface;
+pub use with::{conductance, flow};
 
 pub use choice::Choice;
 pub use error::{Error, Result};

@@ -21,9 +21,11 @@ use asperity_base::error::{Error, Result};
 use asperity_base::grid::Grid;
 use asperity_base::io::atomic::Token;
 use asperity_base::ranks::{Largest, Ranks};
+use asperity_contact::each_capability;
 use asperity_contact::motion::Pair;
 use asperity_contact::operator::{Boundary, Edge};
 use asperity_contact::solver::{Device, Method};
+use asperity_contact::with::{Capability, Listed};
 use asperity_study::SurfaceInput;
 use asperity_study::case::Case;
 use asperity_study::io::fields::FieldFile;
@@ -204,15 +206,15 @@ fn check(case: &Case) -> Result<()> {
         ("temperature", case.temperature.is_some()),
         ("plasticity", case.plasticity.is_some()),
         ("subsurface", case.subsurface.is_some()),
-        ("conductance", case.conductance.is_some()),
-        ("flow", case.flow.is_some()),
         ("output.paraview", case.output.paraview),
         ("contact.sweep", !case.contact.sweep.is_empty()),
         ("contact.method", matches!(case.contact.method, Method::Direct | Method::PolonskyKeer)),
         ("contact.device", case.contact.device != Device::Cpu),
     ];
     let tables = tables.map(|(table, given)| (table.to_owned(), given));
-    match tables.into_iter().chain(of_bodies).find(|(_, given)| *given) {
+    let mut asked = Vec::new();
+    each_capability!(C => asked.push((C::NAME.to_owned(), C::asked(&case.with).is_some())));
+    match tables.into_iter().chain(asked).chain(of_bodies).find(|(_, given)| *given) {
         None => Ok(()),
         Some((key, _)) => Err(case.error_at(
             &key,

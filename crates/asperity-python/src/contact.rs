@@ -90,8 +90,7 @@ pub(crate) fn rest<'py>(
         adhesion,
         closed_form,
         plastic_result,
-        conductance,
-        gap_flow,
+        found,
         warnings,
         ..
     } = work::run_warning(py, threads, progress.as_ref(), Some(&warn), |watch| {
@@ -106,8 +105,7 @@ pub(crate) fn rest<'py>(
     contact.set_item("case", record(py, &case)?)?;
     contact.set_item("increments", record(py, &increments)?)?;
     contact.set_item("updates", record(py, &updates)?)?;
-    contact.set_item("conductance", record(py, &conductance)?)?;
-    contact.set_item("gap_flow", record(py, &gap_flow)?)?;
+    contact.set_item("found", record(py, &found)?)?;
     contact.set_item("closed_form", record(py, &closed_form)?)?;
     contact.set_item("adhesion", record(py, &adhesion)?)?;
     contact.set_item("warnings", warnings)?;

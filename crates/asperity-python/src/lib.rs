@@ -6,11 +6,10 @@
 mod arrays; // conversion of matrices and records
 mod cases; // a study: many cases made from one
 mod command; // the command `asperity`
-mod conductance; // conductance of a contact
 mod contact; // a static contact
 mod describe; // description of surfaces
 mod errors; // exceptions
-mod flow; // flow through a gap
+mod maps; // what is computed from a map of a contact or of a gap
 mod passes; // a motion, pass after pass
 mod reference; // closed forms
 mod results; // reading of a results directory
@@ -32,8 +31,6 @@ mod _core {
     #[pymodule_export]
     use super::command::main;
     #[pymodule_export]
-    use super::conductance::conductance;
-    #[pymodule_export]
     use super::contact::rest;
     #[pymodule_export]
     use super::describe::{
@@ -41,8 +38,6 @@ mod _core {
         height_differences, line_heights, line_parameters, moments_by_differences, parameters, profile,
         profile_parameters, segments, self_affinity_of_differences, summits,
     };
-    #[pymodule_export]
-    use super::flow::flow;
     #[pymodule_export]
     use super::passes::{CorePasses, run};
     #[pymodule_export]
@@ -60,6 +55,7 @@ mod _core {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        crate::maps::add(module)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
         module.add("STEP_COLUMNS", study::STEP_COLUMNS)?;
         module.add("PASS_COLUMNS", study::PASS_COLUMNS)?;

@@ -68,12 +68,9 @@ impl CoreResults {
         record(py, &ok(self.results.updates(), py)?)
     }
 
-    fn conductance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        record(py, &ok(self.results.conductance(), py)?)
-    }
-
-    fn gap_flow<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        record(py, &ok(self.results.flow(), py)?)
+    /// Returns the rows of the capabilities, by their names.
+    fn found<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        record(py, &ok(self.results.found(), py)?)
     }
 
     fn sweep<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {

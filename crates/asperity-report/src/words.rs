@@ -3,6 +3,5 @@
 mod clipped;
 pub mod closed_form;
 pub mod numbers;
-pub mod passage;
 
 pub use clipped::{MAX_CHARACTERS, MAX_LINES, clipped};

@@ -2,47 +2,48 @@
 
 use super::adhesion::AdhesionSummary;
 use super::closed_form::ClosedFormRecord;
-use super::observed::{ConductanceRecord, ElectricalRecord, GapFlowRecord, ThermalRecord};
 use super::subsurface::SubsurfaceRecord;
 use super::summary::{CONVERGED, RunningIn};
 use asperity_base::units::Dimension;
+use asperity_contact::each_capability;
 use asperity_contact::motion::{
     AdhesionPassRecord, AdhesionRecord, Column, ENDINGS, HeatRecord, IncrementRecord, PassPlasticRecord,
     PassRecord, PlasticRecord, PlasticStepRecord, Presence, ResidualRecord, RunningRecord, ShearRecord,
     StaticRecord, StepRecord, SweepRecord, UpdateRecord,
 };
+use asperity_contact::with::{Capability, Row as _};
 
-/// The records of the results by name, each with its columns.
+/// Returns the records of the results by name, each with its columns.
 ///
 /// `Converged` holds the additional columns of `static` in `summary.json`. `Table` holds the columns of the table of a
 /// study other than its axes and the numbers of the records.
-pub const RECORDS: [(&str, &[Column]); 25] = [
-    ("StaticRecord", StaticRecord::OWN_COLUMNS),
-    ("Converged", &[CONVERGED]),
-    ("ShearRecord", ShearRecord::OWN_COLUMNS),
-    ("AdhesionRecord", AdhesionRecord::OWN_COLUMNS),
-    ("AdhesionPassRecord", AdhesionPassRecord::OWN_COLUMNS),
-    ("AdhesionSummary", AdhesionSummary::OWN_COLUMNS),
-    ("PlasticRecord", PlasticRecord::OWN_COLUMNS),
-    ("ResidualRecord", ResidualRecord::OWN_COLUMNS),
-    ("ClosedFormRecord", ClosedFormRecord::OWN_COLUMNS),
-    ("SubsurfaceRecord", SubsurfaceRecord::OWN_COLUMNS),
-    ("ConductanceRecord", ConductanceRecord::OWN_COLUMNS),
-    ("ThermalRecord", ThermalRecord::OWN_COLUMNS),
-    ("ElectricalRecord", ElectricalRecord::OWN_COLUMNS),
-    ("GapFlowRecord", GapFlowRecord::OWN_COLUMNS),
-    ("SweepRecord", SweepRecord::OWN_COLUMNS),
-    ("IncrementRecord", IncrementRecord::OWN_COLUMNS),
-    ("PlasticStepRecord", PlasticStepRecord::OWN_COLUMNS),
-    ("UpdateRecord", UpdateRecord::OWN_COLUMNS),
-    ("PassRecord", PassRecord::OWN_COLUMNS),
-    ("RunningRecord", RunningRecord::OWN_COLUMNS),
-    ("PassPlasticRecord", PassPlasticRecord::OWN_COLUMNS),
-    ("StepRecord", StepRecord::OWN_COLUMNS),
-    ("HeatRecord", HeatRecord::OWN_COLUMNS),
-    ("RunningIn", RunningIn::OWN_COLUMNS),
-    ("Table", &OF_A_STUDY),
-];
+pub fn records() -> Vec<(&'static str, &'static [Column])> {
+    let mut records = vec![
+        ("StaticRecord", StaticRecord::OWN_COLUMNS),
+        ("Converged", &[CONVERGED]),
+        ("ShearRecord", ShearRecord::OWN_COLUMNS),
+        ("AdhesionRecord", AdhesionRecord::OWN_COLUMNS),
+        ("AdhesionPassRecord", AdhesionPassRecord::OWN_COLUMNS),
+        ("AdhesionSummary", AdhesionSummary::OWN_COLUMNS),
+        ("PlasticRecord", PlasticRecord::OWN_COLUMNS),
+        ("ResidualRecord", ResidualRecord::OWN_COLUMNS),
+        ("ClosedFormRecord", ClosedFormRecord::OWN_COLUMNS),
+        ("SubsurfaceRecord", SubsurfaceRecord::OWN_COLUMNS),
+        ("SweepRecord", SweepRecord::OWN_COLUMNS),
+        ("IncrementRecord", IncrementRecord::OWN_COLUMNS),
+        ("PlasticStepRecord", PlasticStepRecord::OWN_COLUMNS),
+        ("UpdateRecord", UpdateRecord::OWN_COLUMNS),
+        ("PassRecord", PassRecord::OWN_COLUMNS),
+        ("RunningRecord", RunningRecord::OWN_COLUMNS),
+        ("PassPlasticRecord", PassPlasticRecord::OWN_COLUMNS),
+        ("StepRecord", StepRecord::OWN_COLUMNS),
+        ("HeatRecord", HeatRecord::OWN_COLUMNS),
+        ("RunningIn", RunningIn::OWN_COLUMNS),
+        ("Table", &OF_A_STUDY),
+    ];
+    each_capability!(C => records.extend_from_slice(<C as Capability>::Row::GROUPS));
+    records
+}
 
 /// Number of the case.
 pub(super) const CASE: Column = Column::new("case", "1", "Number of the case, from 1.");
@@ -57,14 +58,14 @@ pub(super) const MESSAGE: Column = Column::new("message", "", "Why the case fail
 /// Columns of the table of a study other than its axes and the numbers of the summaries.
 const OF_A_STUDY: [Column; 5] = [CASE, DONE, WARNINGS, STATE, MESSAGE];
 
-/// Prefixes that the table of a study adds to the column names of a record.
-const PREFIXES: [(&str, &[Column]); 5] = [
-    ("sliding_", UpdateRecord::OWN_COLUMNS),
-    ("subsurface_", SubsurfaceRecord::OWN_COLUMNS),
-    ("conductance_", ConductanceRecord::OWN_COLUMNS),
-    ("flow_x_", GapFlowRecord::OWN_COLUMNS),
-    ("flow_y_", GapFlowRecord::OWN_COLUMNS),
-];
+/// Returns the prefixes that the table of a study adds to the column names of a record, with these columns.
+fn prefixes() -> Vec<(&'static str, &'static [Column])> {
+    let mut prefixes =
+        vec![("sliding_", UpdateRecord::OWN_COLUMNS), ("subsurface_", SubsurfaceRecord::OWN_COLUMNS)];
+    each_capability!(C => prefixes.extend(C::PREFIXES.iter().map(|prefix| (*prefix, <C as Capability>::Row::COLUMNS))));
+    prefixes
+}
+
 /// Suffixes that the table of a study adds to the names of vectors, for their components.
 const COMPONENTS: [&str; 3] = ["_x", "_y", "_z"];
 
@@ -73,11 +74,10 @@ const COMPONENTS: [&str; 3] = ["_x", "_y", "_z"];
 /// The volumes removed by any law, such as `wear_volume_lower`, are declared as those of the law `plastic`. In the table of
 /// a study, vector components and prefixed columns are declared without suffix and prefix.
 pub fn column(name: &str) -> Option<Column> {
-    let all = || RECORDS.iter().flat_map(|(_, columns)| *columns);
-    find(all(), name).or_else(|| {
-        let of_record =
-            |(prefix, columns): &(&str, &'static [Column])| Some((name.strip_prefix(prefix)?, *columns));
-        let (name, columns) = PREFIXES.iter().find_map(of_record)?;
+    let records = records();
+    find(records.iter().flat_map(|(_, columns)| *columns), name).or_else(|| {
+        let of_record = |(prefix, columns): (&str, _)| Some((name.strip_prefix(prefix)?, columns));
+        let (name, columns): (_, &[Column]) = prefixes().into_iter().find_map(of_record)?;
         find(columns.iter(), name)
     })
 }
@@ -98,7 +98,7 @@ fn find<'a>(columns: impl Iterator<Item = &'a Column> + Clone, name: &str) -> Op
 /// Returns every column under its declared name, each once.
 pub fn columns() -> Vec<Column> {
     let mut columns: Vec<Column> = Vec::new();
-    for column in RECORDS.iter().flat_map(|(_, columns)| *columns) {
+    for column in records().into_iter().flat_map(|(_, columns)| columns) {
         if columns.iter().all(|known| known.name != column.name) {
             columns.push(*column);
         }
@@ -204,13 +204,13 @@ mod tests {
             SubsurfaceRecord::COLUMNS,
         ];
         for column in whole.concat() {
-            assert!(RECORDS.iter().any(|(_, columns)| columns.contains(&column)), "{column:?}");
+            assert!(records().iter().any(|(_, columns)| columns.contains(&column)), "{column:?}");
         }
     }
 
     #[test]
     fn a_column_has_one_unit_in_all_records_and_a_meaning() {
-        for column in RECORDS.iter().flat_map(|(_, columns)| *columns) {
+        for column in records().into_iter().flat_map(|(_, columns)| columns) {
             assert_eq!(unit_of_column(column.name), Some(column.unit), "{}", column.name);
             assert!(column.text.ends_with('.') && !column.text.contains('|'), "{column:?}");
             // A unit belongs to a dimension, or is one that no case file contains.

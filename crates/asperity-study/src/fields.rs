@@ -3,6 +3,7 @@
 use asperity_base::grid::{Field, Grid};
 use asperity_base::units::{Metre, Pascal};
 use asperity_contact::subsurface::Tractions;
+pub use asperity_contact::with::NamedField;
 
 /// The fields of a static contact.
 #[derive(Debug, Clone)]
@@ -16,18 +17,6 @@ pub struct RestFields {
     pub hardness: Pascal,
     /// The fields, in the order in which they are written to files.
     pub fields: Vec<NamedField>,
-}
-
-/// A field with its name in files.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct NamedField {
-    /// The name.
-    pub name: &'static str,
-    /// Unit of the values, SI.
-    pub unit: &'static str,
-    /// The values, `[ix, iy]`.
-    pub values: Field,
 }
 
 impl RestFields {

@@ -6,7 +6,6 @@ use web_time::Instant;
 use crate::adhesion::AdhesionSummary;
 use crate::case::Case;
 use crate::closed_form::{ClosedForm, ClosedFormRecord, ElasticContact};
-use crate::observed::{ConductanceRecord, GapFlowRecord};
 use crate::prepare::Bodies;
 use crate::results::Writer;
 use crate::subsurface::SubsurfaceRecord;
@@ -15,6 +14,7 @@ use asperity_base::error::Result;
 use asperity_base::units::Metre;
 use asperity_contact::motion::{Pair, PlasticRecord, UpdateRecord};
 use asperity_contact::solver::{Control, Params};
+use asperity_contact::with::Observations;
 
 /// Results of a run for its summary.
 pub struct Computed {
@@ -28,10 +28,8 @@ pub struct Computed {
     pub(super) adhesion: Option<AdhesionSummary>,
     /// The closed form of the contact of smooth forms.
     pub(super) closed_form: Option<ClosedFormRecord>,
-    /// The conductance of the last contact, or of each pass.
-    pub(super) conductance: Vec<ConductanceRecord>,
-    /// The flow through the gap of the last contact.
-    pub(super) gap_flow: Vec<GapFlowRecord>,
+    /// The rows of the capabilities.
+    pub(super) found: Observations,
 }
 
 impl Computed {
@@ -49,8 +47,7 @@ impl Computed {
             plasticity: None,
             adhesion: None,
             closed_form: None,
-            conductance: Vec::new(),
-            gap_flow: Vec::new(),
+            found: Observations::default(),
         }
     }
 }
@@ -61,7 +58,7 @@ pub fn conclude(
     writer: &Writer,
     resolved: Value,
     began: Instant,
-    Computed { outcome, subsurface, sliding, plasticity, adhesion, closed_form, conductance, gap_flow }: Computed,
+    Computed { outcome, subsurface, sliding, plasticity, adhesion, closed_form, found }: Computed,
     mut warnings: Vec<String>,
 ) -> Result<Summary> {
     outcome.check()?;
@@ -83,8 +80,7 @@ pub fn conclude(
         case: resolved,
         outcome,
         subsurface,
-        conductance,
-        flow: gap_flow,
+        found,
         warnings,
         wall_time_s: began.elapsed().as_secs_f64(),
     };

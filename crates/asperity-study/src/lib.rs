@@ -85,11 +85,11 @@ mod given; // surfaces in memory that a case names
 mod identity; // identity of a run, to resume it
 pub mod io; // fields in HDF5 and for ParaView, digests, locks
 mod json; // records as JSON
+mod limit; // a limit of the model that a result exceeds
 mod limits; // the limits of the model, compared with results
 mod columns; // the dictionary of columns and numbers
 pub mod many; // many cases made from one, each in its folder
 mod observe; // observers of solved contacts
-mod observed; // records of what they have found
 mod passes; // a motion, pass after pass
 mod prepare; // from a case to its two surfaces
 mod rest; // a static contact
@@ -117,14 +117,14 @@ pub use case::schema::keys;
 pub use case::schema::tables::dimension as dimension_of_key;
 pub use closed_form::{ClosedForm, ClosedFormRecord, Theory};
 pub use columns::{
-    INCREMENT_COLUMNS, PASS_COLUMNS, RECORDS, STEP_COLUMNS, SWEEP_COLUMNS, column, columns,
-    dimension_of_column, unit_of_column,
+    INCREMENT_COLUMNS, PASS_COLUMNS, STEP_COLUMNS, SWEEP_COLUMNS, column, columns, dimension_of_column,
+    records, unit_of_column,
 };
 pub use estimate::{Demand, Estimate, demand, estimate, memory_on_device};
 pub use fields::{NamedField, RestFields};
 pub use given::SurfaceInput;
 pub use identity::resolved;
-pub use observed::{BrokenLimit, ConductanceRecord, ElectricalRecord, GapFlowRecord, Limit, ThermalRecord};
+pub use limit::{BrokenLimit, Limit};
 pub use passes::Passes;
 pub use prepare::{
     Bodies, MountedSurface, Origin, PreparedTopography, bodies, bodies_until, exact_pitch, grids, topography,

@@ -14,8 +14,7 @@ use crate::given::SurfaceInput;
 use crate::identity;
 use crate::io::lock::Lock;
 use crate::limits::Limits;
-use crate::observe::{self, Observations, Observers};
-use crate::observed::{ConductanceRecord, GapFlowRecord};
+use crate::observe::{self, Observers};
 use crate::prepare::{bodies_until, fresh_heights};
 use crate::results::{Existing, StepWriter, Writer};
 use crate::review;
@@ -92,7 +91,7 @@ impl Passes {
         let passes = writer.results().passes()?;
         // They compare with the bodies before the first pass.
         let done = Some(passes.len()).filter(|done| *done > 0);
-        let mut observers =
+        let observers =
             Observers::new(case, simulation.pair(), simulation.positions(), (Some(&writer), done))?;
         let limits = Limits::new(case, simulation.pair(), &estimate, (Some(&writer), done))?;
         let Estimate { adhesion, warnings, .. } = estimate;
@@ -202,12 +201,11 @@ impl Passes {
             Ok(PlasticRecord::of_passes(&left, &steps, &passes))
         });
         let subsurface = self.output.subsurface(passes.len())?;
-        let Observations { conductance, flow: gap_flow, .. } = self.observers.finish()?;
-        self.warnings.extend(observe::warnings(&self.case, &conductance, &gap_flow));
+        let (found, _) = self.observers.finish()?;
+        self.warnings.extend(observe::doubts(&self.case, &found, &[]));
         let outcome = Computed {
             adhesion: self.adhesion,
-            conductance: ConductanceRecord::means(&conductance),
-            gap_flow: GapFlowRecord::last(&gap_flow).to_vec(),
+            found: observe::summary(&found),
             outcome: Outcome::Passes(passes),
             subsurface,
             sliding: None,

@@ -10,8 +10,7 @@ use crate::fields::{NamedField, RestFields};
 use crate::finish::{closed_form, pair, params};
 use crate::given::SurfaceInput;
 use crate::limits::Limits;
-use crate::observe::{self, Observations, Observers};
-use crate::observed::{ConductanceRecord, GapFlowRecord};
+use crate::observe::{self, Observers};
 use crate::prepare::bodies_until;
 use crate::results::{StepWriter, Writer};
 use crate::review;
@@ -21,11 +20,12 @@ use asperity_base::error::{Error, Result};
 use asperity_base::grid::{CellValues, Field, check_finite};
 use asperity_contact::motion::{
     ElastoPlasticContact, FILM, IncrementRecord, LoadedContact, Output, Pair, PlasticResult, PlasticVolume,
-    Point, Slide, SlidingState, Stage, State, StaticContact, StaticRecord, UpdateRecord, WEAR, Watch,
-    WearInPlace, WornContact, load_in_stages, press, press_elasto_plastic, roll, sweep,
+    Point, Slide, SlidingState, Stage, State, StaticContact, StaticRecord, SweepRecord, UpdateRecord, WEAR,
+    Watch, WearInPlace, WornContact, load_in_stages, press, press_elasto_plastic, roll, sweep,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Equilibrium, Friction, Params, Rolling, Solution};
+use asperity_contact::with::Observations;
 
 /// Result of a static contact.
 #[derive(Debug, Clone)]
@@ -45,10 +45,8 @@ pub struct StaticResult {
     pub closed_form: Option<ClosedFormRecord>,
     /// The plastic state below the surfaces; `None` for other than elasto-plastic bodies.
     pub plastic_result: Option<PlasticResult>,
-    /// The conductance of the observed contacts, if requested.
-    pub conductance: Vec<ConductanceRecord>,
-    /// The flow through the gap of the observed contacts, if requested.
-    pub gap_flow: Vec<GapFlowRecord>,
+    /// The rows of the capabilities that the case asks for.
+    pub found: Observations,
     /// Warnings for the user.
     pub warnings: Vec<String>,
 }
@@ -83,21 +81,21 @@ impl StaticResult {
             adhesion: None,
             closed_form: None,
             plastic_result: None,
-            conductance: Vec::new(),
-            gap_flow: Vec::new(),
+            found: Observations::default(),
             warnings: Vec::new(),
         }
     }
 
     /// Adds what the observers have found.
     fn seen_by(mut self, case: &Case, observers: Observers) -> Result<Self> {
-        let Observations { conductance, flow, fields } = observers.finish()?;
+        let (found, fields) = observers.finish()?;
         self.fields.fields.extend(fields);
-        self.warnings.extend(observe::warnings(case, &conductance, &flow));
-        if let Outcome::Sweep(points) = &self.outcome {
-            self.warnings.extend(observe::barber(case, points, &conductance));
-        }
-        Ok(Self { conductance, gap_flow: flow, ..self })
+        let points: &[SweepRecord] = match &self.outcome {
+            Outcome::Sweep(points) => points,
+            _ => &[],
+        };
+        self.warnings.extend(observe::doubts(case, &found, points));
+        Ok(Self { found, ..self })
     }
 
     /// Returns the contact after checking that all its numbers are finite, as for the files of a run.

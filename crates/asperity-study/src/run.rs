@@ -10,7 +10,7 @@ use crate::finish::{Computed, conclude, pair};
 use crate::given::SurfaceInput;
 use crate::identity;
 use crate::io::lock::Lock;
-use crate::observed::GapFlowRecord;
+use crate::observe;
 use crate::passes::Passes;
 use crate::prepare::bodies_until;
 use crate::rest::{self, StaticResult};
@@ -69,8 +69,7 @@ pub(super) fn run_with(
         plastic_result,
         adhesion,
         closed_form,
-        conductance,
-        gap_flow,
+        found,
         warnings: of_answer,
         ..
     } = rest;
@@ -87,8 +86,6 @@ pub(super) fn run_with(
     let stress =
         below.map(|(plan, tractions)| writer.write_subsurface(&plan, tractions, volumes)).transpose()?;
     let (subsurface, sliding) = (stress.into_iter().collect(), updates.last().cloned());
-    let conductance = conductance.last().cloned().into_iter().collect();
-    let gap_flow = GapFlowRecord::last(&gap_flow).to_vec();
     let computed = Computed {
         outcome,
         subsurface,
@@ -96,8 +93,7 @@ pub(super) fn run_with(
         plasticity: None,
         adhesion,
         closed_form,
-        conductance,
-        gap_flow,
+        found: observe::summary(&found),
     };
     let summary = conclude(case, &writer, resolved, began, computed, warnings)?;
     writer.results().remove_state()?;

@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use super::adhesion::AdhesionSummary;
 use super::closed_form::ClosedFormRecord;
-use super::observed::{ConductanceRecord, GapFlowRecord};
 use super::subsurface::SubsurfaceRecord;
 use crate::io::{atomic, regular};
 use crate::{json, tables};
@@ -15,6 +14,7 @@ use asperity_base::error::{Error, Result};
 use asperity_base::record::columns;
 use asperity_base::units::{CubicMetre, Metre, Second};
 use asperity_contact::motion::{Column, PassRecord, PlasticRecord, StaticRecord, SweepRecord, UpdateRecord};
+use asperity_contact::with::Observations;
 
 /// The content of `summary.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -47,12 +47,9 @@ pub struct Summary {
     /// requested.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub subsurface: Vec<SubsurfaceRecord>,
-    /// The conductance of the last contact; of a motion the mean of each pass. Empty if it was not requested.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub conductance: Vec<ConductanceRecord>,
-    /// The flow through the gap of the last contact, once for each direction; empty if it was not requested.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub flow: Vec<GapFlowRecord>,
+    /// The rows of the capabilities: those of the last contact, or of a motion what tells of its passes.
+    #[serde(flatten)]
+    pub found: Observations,
     /// Warnings for the user.
     pub warnings: Vec<String>,
     /// Time of the whole computation.
@@ -205,8 +202,7 @@ mod tests {
                 max_shear: 1.3e9,
                 max_shear_position: [1e-6, 2e-6, 4e-7],
             }],
-            conductance: vec![],
-            flow: vec![],
+            found: Observations::default(),
             warnings: vec!["the mesh is coarse".into()],
             wall_time_s: 0.5,
         };

@@ -15,61 +15,8 @@ use serde::{Deserialize, Deserializer, Serialize};
 use crate::io::{atomic, regular, sha256};
 use crate::json;
 use asperity_base::error::{Error, Result};
-use asperity_contact::motion::{
-    Column, IncrementRecord, PassRecord, Presence, StaticRecord, StepRecord, SweepRecord, UpdateRecord,
-    is_volume_of_law,
-};
-
-/// A record that forms a row of a table, or a part of the summary.
-pub(super) trait Record: Serialize {
-    /// Its columns, including those of optional groups.
-    const COLUMNS: &'static [Column];
-
-    /// Wraps an error as one at the step of the record.
-    fn at(&self, error: Error) -> Error {
-        error
-    }
-}
-
-impl Record for StepRecord {
-    const COLUMNS: &'static [Column] = Self::COLUMNS;
-
-    fn at(&self, error: Error) -> Error {
-        error.if_of_step(|source| Error::AtPass { pass: self.pass, source })
-    }
-}
-
-impl Record for PassRecord {
-    const COLUMNS: &'static [Column] = Self::COLUMNS;
-
-    fn at(&self, error: Error) -> Error {
-        error.if_of_step(|source| Error::AtPass { pass: self.pass, source })
-    }
-}
-
-impl Record for IncrementRecord {
-    const COLUMNS: &'static [Column] = Self::COLUMNS;
-
-    fn at(&self, error: Error) -> Error {
-        error.if_of_step(|source| Error::AtIncrement { increment: self.increment, source })
-    }
-}
-
-impl Record for UpdateRecord {
-    const COLUMNS: &'static [Column] = Self::COLUMNS;
-
-    fn at(&self, error: Error) -> Error {
-        error.if_of_step(|source| Error::AtUpdate { update: self.update, source })
-    }
-}
-
-impl Record for SweepRecord {
-    const COLUMNS: &'static [Column] = Self::COLUMNS;
-}
-
-impl Record for StaticRecord {
-    const COLUMNS: &'static [Column] = Self::COLUMNS;
-}
+use asperity_base::record::{Presence, Record};
+use asperity_contact::motion::{PassRecord, StepRecord, is_volume_of_law};
 
 /// Converts records to rows.
 ///
@@ -334,7 +281,7 @@ fn failed(path: &Path) -> impl Fn(io::Error) -> Error {
 mod tests {
     use super::*;
     use crate::PASS_COLUMNS;
-    use asperity_contact::motion::{HeatRecord, LostVolume, RunningRecord};
+    use asperity_contact::motion::{HeatRecord, IncrementRecord, LostVolume, RunningRecord, SweepRecord};
 
     fn step(step: usize) -> StepRecord {
         StepRecord {

@@ -11,7 +11,7 @@
 use std::error::Error;
 use std::time::Instant;
 
-use asperity::conductance::{Gas, Joint, Kind, solve};
+use asperity::conductance::{Joint, Kind, solve};
 use asperity::operator::{FreeFft, Operator, PeriodicFft};
 use asperity::solver::{Bounds, Control, Method, Params, solve_normal};
 use asperity::{Field, Grid};
@@ -51,15 +51,14 @@ fn report(
     let touching = contact.pressure.mapv(|pressure| pressure > 0.0);
     let share = touching.iter().filter(|touches| **touches).count() as f64 / grid.cells() as f64;
     let open: Field = contact.gap().mapv(|gap| gap.max(0.0));
-    let clean = Joint::new(Kind::Thermal, 1.0);
-    let gas = Gas { conductivity: 6e-4, jump: 1e-2 };
+    let clean = Joint::new(Kind::Thermal);
     let own = operator.influence(0, 0);
     let joints = [
         ("clean", clean, None),
         ("clean,from-pressure", clean, Some(&contact.pressure)),
         ("film", clean.with_film(own), None),
-        ("film+gas", clean.with_film(own).with_gas(gas), None),
-        ("good-gas", clean.with_gas(Gas { conductivity: 0.1, jump: 1e-2 }), None),
+        ("film+gas", clean.with_film(own).with_gas(6e-4, 1e-2), None),
+        ("good-gas", clean.with_gas(0.1, 1e-2), None),
     ];
     for (name, joint, start) in joints {
         let (time, found) =

@@ -96,9 +96,10 @@
 //! Each formula names its own source.
 
 pub use asperity_base::{choice, error, grid, ndarray, ranks, units};
+pub use asperity_contact::each_capability;
 pub use asperity_contact::{
     adhesion, conductance, flow, kernel, material, motion, operator, plasticity, reference, solver, stress,
-    subsurface, temperature, verification,
+    subsurface, temperature, verification, with,
 };
 #[cfg(feature = "study")]
 pub use asperity_study as study;

@@ -78,7 +78,7 @@ impl Part {
 ///
 /// - `deserialize_with = "number_or_none"` or `"known_or_none"`, or an `Option` without attributes: the value may be unknown,
 /// - any other attribute of an `Option`: the column may be left out,
-/// - `flatten, skip_serializing_if = …`: a group of columns that may be missing.
+/// - `flatten`, with or without `skip_serializing_if`: a group of columns that may be missing.
 #[macro_export]
 macro_rules! columns {
     (
@@ -113,6 +113,9 @@ macro_rules! columns {
         }
     };
     (@part [flatten, skip_serializing_if = "Option::is_none"] $name:ident [Option $group:tt] $($text:tt)+) => {
+        $crate::record::Part { columns: $group::COLUMNS, is_group: true }
+    };
+    (@part [flatten] $name:ident [$group:tt] $($text:tt)+) => {
         $crate::record::Part { columns: $group::COLUMNS, is_group: true }
     };
     (@part [flatten, with = "lost_volumes"] $name:ident $type:tt $($text:tt)+) => {
@@ -163,13 +166,5 @@ macro_rules! columns {
     (@unit [Second]) => { "s" };
     (@unit [Kelvin]) => { "K" };
     (@unit [Watt]) => { "W" };
-    (@unit [WattPerKelvin]) => { "W/K" };
-    (@unit [Siemens]) => { "S" };
-    (@unit [WattPerMetreKelvin]) => { "W/(m K)" };
-    (@unit [SiemensPerMetre]) => { "S/m" };
-    (@unit [WattPerSquareMetreKelvin]) => { "W/(m² K)" };
-    (@unit [SiemensPerSquareMetre]) => { "S/m²" };
-    (@unit [KelvinPerWatt]) => { "K/W" };
-    (@unit [Ohm]) => { "Ω" };
     (@unit [CubicMetrePerSecond]) => { "m³/s" };
 }

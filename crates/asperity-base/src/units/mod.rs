@@ -43,24 +43,6 @@ pub type Kelvin = f64;
 pub type PascalSecond = f64;
 /// Heat flow in watts.
 pub type Watt = f64;
-/// Voltage in volts.
-pub type Volt = f64;
-/// Thermal conductivity in watts per metre and kelvin.
-pub type WattPerMetreKelvin = f64;
-/// Electrical conductivity in siemens per metre.
-pub type SiemensPerMetre = f64;
-/// Thermal conductance in watts per kelvin.
-pub type WattPerKelvin = f64;
-/// Electrical conductance in siemens.
-pub type Siemens = f64;
-/// Thermal conductance of an area in watts per square metre and kelvin.
-pub type WattPerSquareMetreKelvin = f64;
-/// Electrical conductance of an area in siemens per square metre.
-pub type SiemensPerSquareMetre = f64;
-/// Thermal resistance in kelvins per watt.
-pub type KelvinPerWatt = f64;
-/// Electrical resistance in ohms.
-pub type Ohm = f64;
 /// Flow of volume in cubic metres per second.
 pub type CubicMetrePerSecond = f64;
 /// Heat flux in watts per square metre.

@@ -351,9 +351,14 @@ impl Dimension {
     }
 
     /// Symbol of the SI unit, which [`parse`] reads: `Pa`, `m/s`, `rad`.
-    pub fn si(self) -> String {
-        let base = self.scale().base;
-        format!("{}{}", base.symbol(), base.suffix())
+    pub fn si(self) -> &'static str {
+        match self.scale().base {
+            Base::Of(symbol) => symbol,
+            Base::Squared => "m²",
+            Base::Cubed => "m³",
+            Base::CubedPerSecond => "m³/s",
+            Base::PerSecond => "m/s",
+        }
     }
 
     /// All dimensions.

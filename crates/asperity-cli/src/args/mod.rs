@@ -2,86 +2,24 @@
 
 mod drawing;
 mod generate;
-mod passage;
 mod preparation;
 mod study;
 mod surface;
-mod values;
+pub(crate) mod values;
+mod writing;
 
 use std::path::PathBuf;
 
 use asperity::solver::Device;
-use clap::error::Error;
-use clap::{Args, Parser, Subcommand};
+use clap::Args;
 
-use crate::report::{Failure, Outcome, written};
 use values::{choice, threads};
 
 pub(crate) use drawing::{Drawing, RangedDrawing};
 pub(crate) use generate::{Generate, Recipe};
-pub(crate) use passage::{Conductance, Flow, Writing};
 pub(crate) use study::Study;
 pub(crate) use surface::{Convert, Info, Input, PlotSurface, ReadingArguments, Surface};
-
-/// Contact of two rough surfaces that press together and move
-///
-/// A case file describes the two bodies, the load and the motion.
-#[derive(Debug, Parser)]
-#[command(name = "asperity", version, subcommand_required = true, arg_required_else_help = true)]
-#[command(after_help = BEGIN, after_long_help = [BEGIN, EXIT_CODES].concat())]
-pub(crate) struct Arguments {
-    #[command(subcommand)]
-    pub(crate) command: Command,
-}
-
-const BEGIN: &str = "\
-To begin:
-  asperity run --example quickstart
-  asperity check quickstart/case/case.toml";
-
-const EXIT_CODES: &str = "
-
-Data go to stdout, all else to stderr.
-
-Exit code:
-  0    done; also where the reader of stdout has closed it
-  1    the computation failed: not converged, load unreachable, nothing can be written
-  2    bad input or usage
-  130  interrupted";
-
-/// Prints the requested help, or the error in the arguments.
-pub(crate) fn unparsed(error: &Error) -> Outcome {
-    if !error.use_stderr() {
-        return written(error.print());
-    }
-    let text = error.render().to_string();
-    if text.chars().nth(MAX_CHARACTERS).is_none() {
-        error.exit()
-    }
-    Err(Failure::usage(text.trim_start_matches("error: "), None))
-}
-
-/// Longest message about wrong arguments that is shown in full, in characters.
-const MAX_CHARACTERS: usize = 2000;
-
-#[derive(Debug, Subcommand)]
-pub(crate) enum Command {
-    Run(Run),
-    Study(Study),
-    Check(Check),
-    Example(Example),
-    #[command(subcommand)]
-    Surface(Surface),
-    Conductance(Conductance),
-    Flow(Flow),
-    Plot(Plot),
-    Report(Report),
-    /// Compare the solvers with closed forms
-    ///
-    /// Prints the errors of each case on successively finer grids, and the order of convergence. The exit code is 1 if a case fails.
-    Verify,
-    Paper(Paper),
-}
+pub(crate) use writing::{Writing, within};
 
 /// Compute a case: a static contact, or a motion
 ///
@@ -202,16 +140,4 @@ pub(crate) struct Example {
     /// New folder; default: the name of the example
     #[arg(long, value_name = "DIR", requires = "name")]
     pub(crate) out: Option<PathBuf>,
-}
-
-#[cfg(test)]
-mod tests {
-    use clap::CommandFactory;
-
-    use super::*;
-
-    #[test]
-    fn the_commands_are_well_formed() {
-        Arguments::command().debug_assert();
-    }
 }

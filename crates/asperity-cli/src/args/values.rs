@@ -20,19 +20,19 @@ pub(crate) struct Shape(pub(crate) [usize; 2]);
 pub(crate) struct Window(pub(crate) [usize; 4]);
 
 /// A number of threads.
-pub(super) fn threads(text: &str) -> Result<usize, String> {
+pub(crate) fn threads(text: &str) -> Result<usize, String> {
     let count = text.parse().ok().filter(|count| (1..=MAX_THREADS).contains(count));
     count.ok_or_else(|| format!("expected a whole number from 1 to {MAX_THREADS}"))
 }
 
-pub(super) fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
+pub(crate) fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
     units::parse(text, dimension).map_err(|error| match error.hint() {
         Some(hint) => format!("{error}; {hint}"),
         None => error.to_string(),
     })
 }
 
-pub(super) fn positive_length(text: &str) -> Result<f64, String> {
+pub(crate) fn positive_length(text: &str) -> Result<f64, String> {
     let range = Dimension::Length.range();
     match quantity(text, Dimension::Length)? {
         length if range.holds(length) => Ok(length),
@@ -41,7 +41,7 @@ pub(super) fn positive_length(text: &str) -> Result<f64, String> {
     }
 }
 
-pub(super) fn angle(text: &str) -> Result<f64, String> {
+pub(crate) fn angle(text: &str) -> Result<f64, String> {
     let range = Dimension::Angle.range();
     let angle = range.without_dust(quantity(text, Dimension::Angle)?);
     if range.holds_signed(angle) { Ok(angle) } else { Err(format!("expected an angle of {range}")) }
@@ -55,11 +55,11 @@ fn pair(text: &str, read: impl Fn(&str) -> Result<f64, String>) -> Result<Pair, 
     }
 }
 
-pub(super) fn lengths(text: &str) -> Result<Pair, String> {
+pub(crate) fn lengths(text: &str) -> Result<Pair, String> {
     pair(text, positive_length)
 }
 
-pub(super) fn wavelengths(text: &str) -> Result<Pair, String> {
+pub(crate) fn wavelengths(text: &str) -> Result<Pair, String> {
     pair(text, |text| if text.trim() == "inf" { Ok(f64::INFINITY) } else { positive_length(text) })
 }
 
@@ -69,7 +69,7 @@ fn counts<const N: usize>(text: &str, separators: &[char], expected: &str) -> Re
     counts.and_then(|counts| counts.try_into().ok()).ok_or_else(|| format!("expected {expected}"))
 }
 
-pub(super) fn shape(text: &str) -> Result<Shape, String> {
+pub(crate) fn shape(text: &str) -> Result<Shape, String> {
     const EXPECTED: &str = "two whole numbers of at least 1, such as 256x256, and at most 2²⁸ cells";
     const MAX_CELLS: usize = 1 << 28;
     let shape: [usize; 2] = counts(text, &['x', '×', ','], EXPECTED)?;
@@ -80,7 +80,7 @@ pub(super) fn shape(text: &str) -> Result<Shape, String> {
 }
 
 /// A shape, or a pitch.
-pub(super) fn resample(text: &str) -> Result<Resample, String> {
+pub(crate) fn resample(text: &str) -> Result<Resample, String> {
     match shape(text) {
         Ok(Shape(shape)) => Ok(Resample::Shape(shape)),
         Err(error) if text.contains(['x', '×']) => Err(error),
@@ -89,7 +89,7 @@ pub(super) fn resample(text: &str) -> Result<Resample, String> {
 }
 
 /// Two quantities of any one kind, the first below the second.
-pub(super) fn range(text: &str) -> Result<Pair, String> {
+pub(crate) fn range(text: &str) -> Result<Pair, String> {
     const EXPECTED: &str = "two quantities with a comma between, the lower first, such as 0,2GPa";
     const KINDS: [Dimension; 3] = [Dimension::Length, Dimension::Pressure, Dimension::Force];
     let read = |text: &str| KINDS.iter().find_map(|kind| units::parse(text.trim(), *kind).ok());
@@ -101,7 +101,7 @@ pub(super) fn range(text: &str) -> Result<Pair, String> {
 }
 
 /// The surroundings along both axes, or along each.
-pub(super) fn boundary(text: &str) -> Result<Boundary, String> {
+pub(crate) fn boundary(text: &str) -> Result<Boundary, String> {
     let edges: Option<Vec<Edge>> = text.split(',').map(|word| Edge::of_word(word.trim())).collect();
     match edges.as_deref() {
         Some([both]) => Ok(Boundary([*both; 2])),
@@ -111,23 +111,23 @@ pub(super) fn boundary(text: &str) -> Result<Boundary, String> {
 }
 
 /// A number above 0.
-pub(super) fn factor(text: &str) -> Result<f64, String> {
+pub(crate) fn factor(text: &str) -> Result<f64, String> {
     let factor = text.parse().ok().filter(|factor: &f64| NUMBERS.holds(*factor));
     factor.ok_or_else(|| format!("expected a number above 0 such as 6, of {NUMBERS}"))
 }
 
-pub(super) fn window(text: &str) -> Result<Window, String> {
+pub(crate) fn window(text: &str) -> Result<Window, String> {
     counts(text, &[','], "four whole numbers x0,y0,nx,ny").map(Window)
 }
 
 /// Parses the word of an option.
-pub(super) fn choice<T: Choice + Send + Sync>() -> impl TypedValueParser<Value = T> {
+pub(crate) fn choice<T: Choice + Send + Sync>() -> impl TypedValueParser<Value = T> {
     PossibleValuesParser::new(T::WORDS.iter().map(|(word, _)| *word))
         .map(|word| T::of_word(&word).expect("only these words pass"))
 }
 
 /// Returns the word of the default of an option.
-pub(super) fn default<T: Choice + Default>() -> &'static str {
+pub(crate) fn default<T: Choice + Default>() -> &'static str {
     T::default().word()
 }
 

@@ -1,13 +1,14 @@
 //! Summary of a contact at the end of a run: a line for each number.
 
+use asperity::each_capability;
 use asperity::motion::{PlasticRecord, StaticRecord};
 use asperity::study::{AdhesionSummary, Case, ClosedFormRecord, Outcome, SubsurfaceRecord, Summary};
 use asperity::units::{Dimension, format, format_number};
+use asperity::with::{Capability, Listed, Row};
 
 use super::rows::planes;
 use crate::maps::line;
 use asperity_report::words::closed_form;
-use asperity_report::words::passage;
 
 /// Describes a static contact and the largest stress below the surface, with a line for each number. The rows of
 /// passes and points are printed during the run.
@@ -18,19 +19,27 @@ pub fn text(case: &Case, summary: &Summary) -> String {
     };
     let theory = summary.closed_form.as_ref().map_or(String::new(), theory_lines);
     let plastic = summary.plasticity.as_ref().map_or(String::new(), plastic_line);
-    let passes =
-        |rows: Vec<(String, String)>| rows.iter().map(|(name, value)| line(name, value)).collect::<String>();
-    let conductance =
-        summary.conductance.last().map_or(String::new(), |row| passes(passage::conductance(row)));
     let adhesion = summary.adhesion.as_ref().map_or(String::new(), adhesion_lines);
-    let leakage: String = summary.flow.iter().map(|row| passes(passage::flow(row))).collect();
-    contact
+    answers(summary)
+        + &contact
         + &adhesion
         + &theory
         + &plastic
-        + &conductance
-        + &leakage
         + &summary.subsurface.iter().map(stress_line).collect::<String>()
+}
+
+/// Describes what the case asks for beside the contact.
+fn answers(summary: &Summary) -> String {
+    let mut text = String::new();
+    each_capability!(C => {
+        let rows = C::rows(&summary.found);
+        // Of the means over passes that over the last one.
+        let of_last = rows.iter().filter(|row| row.pass() == rows.last().and_then(|last| last.pass()));
+        for numbers in of_last.flat_map(C::numbers).filter(|numbers| !numbers.is_detail) {
+            text += &line(&numbers.name, &numbers.value);
+        }
+    });
+    text
 }
 
 /// Describes the adhesion of the bodies, and what a retreat shows.

@@ -230,25 +230,6 @@ fn a_measured_file_that_changes_ends_the_study_and_is_named() {
 }
 
 #[test]
-fn a_study_of_an_earlier_version_is_known_by_what_its_cases_were_computed_from() {
-    let folder = folder_with("base = \"case.toml\"\n[axes]\n\"contact.load\" = [1e-3, 2e-3]\n");
-    let path = |name: &str| folder.path().join(name);
-    fs::create_dir_all(path("a")).unwrap();
-    measure(&folder, "a/disc.npy", 1);
-    fs::write(path("case.toml"), measured()).unwrap();
-    ok(&asperity(&folder, "study load.toml --task 1/2 --quiet"));
-    fs::remove_file(path("load/files.json")).unwrap();
-    measure(&folder, "a/disc.npy", 2);
-    let error = refused(&asperity(&folder, "study load.toml --quiet"));
-    assert!(error.contains("a/disc.npy has changed since the results in load were begun"), "{error}");
-    assert!(!path("load/files.json").exists());
-    measure(&folder, "a/disc.npy", 1);
-    ok(&asperity(&folder, "study load.toml --quiet"));
-    assert!(path("load/files.json").exists());
-    assert_eq!(table(&path("load/table.csv")).len(), 2);
-}
-
-#[test]
 fn an_older_file_of_a_study_leaves_the_table_of_the_present_one() {
     let study = |values: &str| format!("base = \"case.toml\"\n[axes]\n\"contact.load\" = [{values}]\n");
     let folder = folder_with(&study("\"1 mN\", \"2 mN\", \"3 mN\""));
@@ -286,12 +267,10 @@ fn a_text_of_a_table_is_no_formula() {
         // A number keeps its sign.
         assert!(!text.contains("'-"), "{text}");
     }
-    // A plan is a table for another study, and one that was written without apostrophes is the same plan.
+    // A plan is a table for another study.
     fs::write(path("again.toml"), "base = \"case.toml\"\ntable = \"load/plan.csv\"\n").unwrap();
     ok(&asperity(&folder, "study again.toml --quiet"));
     assert_eq!(contents(&folder, "again/table.csv"), contents(&folder, "load/table.csv"));
-    change(&path("load/plan.csv"), "'", "");
-    ok(&asperity(&folder, "study load.toml --quiet"));
 }
 
 // ---- what goes wrong -------------------------------------------------------------------------------------

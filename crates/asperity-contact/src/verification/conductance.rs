@@ -5,18 +5,18 @@ use std::f64::consts::{PI, TAU};
 use ndarray::Array2;
 
 use super::{Case, Expected, relative, study};
-use crate::conductance::{
-    Bracket, Conductor, Gas, Joint, Kind, composite_conductivity, full_resistance, response, solve,
-};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::math::elliptic::CompleteElliptic;
 use crate::operator::{FreeFft, Operator, PeriodicFft};
 use crate::solver::{Bounds, Control, Method, Params, solve_normal};
+use crate::with::conductance::{
+    Bracket, Conductor, Joint, Kind, composite_conductivity, full_resistance, response, solve,
+};
 
 const PARAMS: Params = Params::new().with_method(Method::ActiveSet).with_tolerance(1e-9);
 /// Clean spots on bodies of conductivity 1.
-const CLEAN: Joint = Joint::new(Kind::Thermal, 1.0);
+const CLEAN: Joint = Joint::new(Kind::Thermal);
 
 fn unit(n: usize) -> Result<Grid> {
     Grid::new([n, n], [1.0 / n as f64; 2])
@@ -150,7 +150,7 @@ pub(super) const GAS: Case = Case {
             // A gap of g + M with M = ½.
             let wave = Field::from_shape_fn(grid.shape, |(i, _)| resistance(i) - 0.5);
             let gas_of = |conductivity: f64, gap: &Field| -> Result<f64> {
-                let joint = CLEAN.with_gas(Gas { conductivity, jump: 0.5 });
+                let joint = CLEAN.with_gas(conductivity, 0.5);
                 let mut operator = PeriodicFft::new(grid, 1.0);
                 let found = solve(&mut operator, &open, Some(gap), &joint, None, &PARAMS)?;
                 Ok(found.joint_conductance().unwrap_or(f64::INFINITY) / conductivity)

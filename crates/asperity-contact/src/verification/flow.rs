@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use super::{Case, Expected, relative, study};
 use crate::error::Result;
-use crate::flow::{Along, Ends, Faces, Flow, Settings, Sides, solve};
 use crate::grid::{Field, Grid};
+use crate::with::flow::{Along, Ends, Faces, Flow, Settings, Sides, solve};
 
 const HARMONIC: Settings =
     Settings { ends: Ends::Periodic, sides: Sides::Periodic, faces: Faces::Harmonic, along: Along::Both };
@@ -160,7 +160,7 @@ pub(super) const CONSERVATION: Case = Case {
             let periodic = through([n, n], &Settings::default(), scattered)?;
             let settings = Settings { ends: Ends::Reservoirs, ..Settings::default() };
             let reservoirs = through([n, n], &settings, scattered)?;
-            let worst = |flow: &Flow, of: fn(&crate::flow::FlowAlong) -> f64| {
+            let worst = |flow: &Flow, of: fn(&crate::with::flow::FlowAlong) -> f64| {
                 flow.along.iter().flatten().map(of).fold(0.0, f64::max)
             };
             let step = |x: f64, y: f64| {

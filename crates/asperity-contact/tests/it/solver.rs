@@ -2,7 +2,7 @@
 
 use asperity_base::{CellValues, Error, Field, Grid};
 use asperity_contact::adhesion::Adhesion;
-use asperity_contact::conductance::{self, Gas, Joint, Kind};
+use asperity_contact::conductance::{self, Joint, Kind};
 use asperity_contact::flow;
 use asperity_contact::operator::{DirectSum, FreeFft, Operator, PeriodicFft};
 use asperity_contact::solver::{
@@ -117,7 +117,7 @@ fn fields_may_have_any_order_in_memory() {
 
     let touching = gap.mapv(|h| h < 0.05);
     let turned = touching.t().as_standard_layout().into_owned().reversed_axes();
-    let joint = Joint::new(Kind::Thermal, 1.0).with_gas(Gas { conductivity: 0.01, jump: 0.0 });
+    let joint = Joint::new(Kind::Thermal).with_gas(0.01, 0.0);
     let [rows, columns] = [(&touching, &gap), (&turned, &in_columns(&gap))].map(|(touching, gap)| {
         let mut operator = operator(grid, false);
         conductance::solve(operator.as_mut(), touching, Some(gap), &joint, None, &params).unwrap()

@@ -14,7 +14,7 @@ mod running;
 mod sheet;
 mod sliding;
 mod stored;
-mod passage;
+mod capability;
 mod subsurface;
 mod surfaces;
 mod sweep;
@@ -30,12 +30,12 @@ use asperity_study::io::fields::Fields;
 use crate::draw::{Charts, Mark, Paper, Series};
 use crate::error::{Error, Result};
 
+pub use capability::field_map;
+pub(crate) use capability::{curves as curves_of_capability, logarithmic};
 pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, has_new_upper};
 pub(crate) use force_distance::curves as of_force_distance;
 pub(crate) use friction::stick;
 pub(crate) use loading::curves as of_loading;
-pub use passage::{FLOW, FLUX, flow_map, flux_map};
-pub(crate) use passage::{LEAST_FLOW, curves as passage_curves, passes_everywhere};
 pub(crate) use plastic::{PlasticSection, of_increments as of_plastic_increments, plastic_sections};
 pub(crate) use pressure::histogram;
 pub(crate) use rest::{HeightRange, Witness, approach, open_gap, profile as profile_at_rest};
@@ -159,9 +159,7 @@ fn gather_on<'a>(
         let fields = results.subsurface_fields(passes.last().map(|pass| pass.pass))?;
         subsurface::draw(&fields, &of, &mut sheet)?;
     }
-    if case.conductance.is_some() || case.flow.is_some() {
-        let of_all = if points.is_empty() { of.clone() } else { sweep::loads_in_words(&points) };
-        passage::draw(results, &done(&passes), &of, &of_all, &mut sheet)?;
-    }
+    let of_all = if points.is_empty() { of.clone() } else { sweep::loads_in_words(&points) };
+    capability::draw(results, &done(&passes), &of, &of_all, &mut sheet)?;
     Ok(sheet)
 }

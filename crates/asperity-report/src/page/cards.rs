@@ -6,6 +6,7 @@ use asperity_base::units::{CELSIUS, Dimension, format, format_number};
 use asperity_contact::motion::{PassRecord, StaticRecord, SweepRecord};
 use asperity_study::{Outcome, column};
 
+use super::capability;
 use super::found::PageData;
 use super::html::{escaped, minus};
 use super::verdict::{differ, shaken_down, share_of_overlap};
@@ -35,7 +36,10 @@ impl Card {
 
 /// The cards of a run; nothing where nothing is finished.
 pub(super) fn html(found: &PageData) -> String {
-    let cards = match (&found.passes[..], &found.points[..]) {
+    let answers = capability::answers(found).into_iter();
+    let mut cards: Vec<Card> =
+        answers.map(|(about, line)| Card::new(&line.name, line.value, capability::sentence(about))).collect();
+    cards.extend(match (&found.passes[..], &found.points[..]) {
         ([first, .., last], _) => of_passes(found, first, last),
         ([only], _) => of_passes(found, only, only),
         ([], [_, ..]) => of_points(&found.points),
@@ -43,7 +47,7 @@ pub(super) fn html(found: &PageData) -> String {
             Some(Outcome::Static(record)) => of_rest(found, record),
             _ => Vec::new(),
         },
-    };
+    });
     if cards.is_empty() {
         return String::new();
     }

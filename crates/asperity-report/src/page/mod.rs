@@ -20,7 +20,7 @@ mod layers;
 mod live;
 mod numbers;
 mod packed;
-mod passage;
+mod capability;
 mod plane;
 mod shown;
 mod study;
@@ -95,16 +95,17 @@ fn page(results: &Results, seen: Option<Seen>) -> asperity_base::Result<(String,
         "diverging": palette(Colours::Signed),
     }});
     let mut charts = Vec::new();
-    let sections: [Section; 8] = [
+    // What the case asks for comes first.
+    let mut sections = capability::sections(&mut found, &mut data, &mut charts);
+    sections.extend([
         ("contact", "Contact", contact::section(&mut found, &mut data, &mut charts)),
         ("adhesion", "Adhesion", adhesion::section(&found, &mut charts)),
-        ("passage", "Heat, current, fluid", passage::section(&mut found, &mut data, &mut charts)),
         ("below", "Below the surface", below::section(&mut found, &mut data, &mut charts)),
-        ("flow", "Plastic flow", plastic::section(&mut found, &mut data, &mut charts)),
+        ("plastic", "Plastic flow", plastic::section(&mut found, &mut data, &mut charts)),
         ("bodies", "Bodies", bodies::section(&mut found, &mut data, &mut charts)),
         ("curves", "Curves", course::section(&mut found, &mut data, &mut charts)),
         ("trust", "Trust", Some(trust::section(&found))),
-    ];
+    ]);
     data["charts"] = charts.into();
     Ok((document(&found, &sections, &data), found.missing))
 }

@@ -283,7 +283,7 @@ fn a_load_that_is_held_is_not_drawn_and_a_body_that_keeps_its_shape_has_no_chang
 fn what_flows_below_a_surface_is_shown_under_the_load_and_without_it() {
     let computed = Computed::of(FLOWING);
     let (page, data, summary) = (computed.page(), computed.data(), computed.summary());
-    assert!(page.contains("<section id=\"flow\" ") && page.contains("<th scope=\"col\">unloaded</th>"));
+    assert!(page.contains("<section id=\"plastic\" ") && page.contains("<th scope=\"col\">unloaded</th>"));
     assert!(page.contains("unloaded: plastic work") && page.contains("<td>yields</td>"));
     assert_eq!(page.matches("Heights after plastic flow").count(), 1, "the upper body does not flow");
     let planes = data["planes"].as_array().unwrap();

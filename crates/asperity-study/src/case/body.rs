@@ -13,8 +13,8 @@ use asperity_base::error::Result;
 use asperity_contact::material::{Coating, Material};
 use asperity_surface::UNDERSIDE;
 
-/// Reads a body of a case that may have a table [conductance]; files are relative to the `folder` of the case.
-pub(super) fn body(table: &Table<'_>, folder: &Path, has_conductance: bool) -> Result<Body> {
+/// Reads a body of a case, whose thermal conductivity may be given alone if `is_alone`; files are relative to the `folder` of the case.
+pub(super) fn body(table: &Table<'_>, folder: &Path, is_alone: bool) -> Result<Body> {
     let is_upper = table.path() == "upper";
     known_in(table)?;
     let young = both::YOUNG.of(table)?;
@@ -33,7 +33,7 @@ pub(super) fn body(table: &Table<'_>, folder: &Path, has_conductance: bool) -> R
     };
     // Checked above, entry by entry, so this cannot fail.
     let material = Material { coating, ..Material::elastic(young, poisson)? };
-    let thermal = running::thermal(table, has_conductance)?;
+    let thermal = running::thermal(table, is_alone)?;
     let conductivity = if thermal.is_none() { both::CONDUCTIVITY.of(table)? } else { None };
     let resistivity = both::RESISTIVITY.of(table)?;
     Ok(Body {

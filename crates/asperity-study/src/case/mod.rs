@@ -5,12 +5,10 @@
 
 mod adhesion;
 mod body;
-mod conductance;
 mod contact;
 pub(crate) mod cursor;
 pub(crate) mod document;
 mod friction;
-mod gap_flow;
 mod hardness;
 mod motion;
 mod output;
@@ -33,10 +31,8 @@ use std::path::{Path, PathBuf};
 use serde::{Serialize, Serializer};
 
 pub use self::adhesion::AdhesionSpec;
-pub use self::conductance::ConductanceSpec;
 use self::document::Document;
 pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
-pub use self::gap_flow::GapFlowSpec;
 pub use self::hardness::{Hardness, HardnessInput, HardnessMap};
 pub use self::plasticity::{HardeningKey, PlasticitySpec, YieldSpec};
 pub use self::prescribed::Prescribed;
@@ -50,7 +46,7 @@ pub use self::subsurface::SubsurfaceSpec;
 use crate::io::regular;
 use asperity_base::choice::choice;
 use asperity_base::error::{Error, Result};
-use asperity_base::units::SquareMetre;
+use asperity_base::units::{MetrePerSecond, SquareMetre};
 use asperity_contact::material::{Coating, Compliances, Material};
 use asperity_contact::motion::{
     Acceleration, AdhesionHistory, LoadControl, Motion, OffsetY, Path as MotionPath, PlasticUpdate, Strategy,
@@ -59,6 +55,7 @@ pub use asperity_contact::operator::{Boundary, Edge};
 use asperity_contact::solver::{Control, Sliding};
 pub use asperity_contact::solver::{Device, Method};
 use asperity_contact::temperature::Thermal;
+use asperity_contact::with::{BodyConstants, Capabilities, Surroundings};
 
 /// A case, resolved to SI.
 #[derive(Debug, Clone, Serialize)]
@@ -100,12 +97,9 @@ pub struct Case {
     /// Requested output of the stress under the surface; `None` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub subsurface: Option<SubsurfaceSpec>,
-    /// Requested conductance of the contacts; `None` if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub conductance: Option<ConductanceSpec>,
-    /// Requested flow through the gap; `None` if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub flow: Option<GapFlowSpec>,
+    /// The capabilities that are asked for, each with its table.
+    #[serde(flatten)]
+    pub with: Capabilities,
     /// Output options.
     pub output: Output,
     #[serde(skip)]
@@ -146,6 +140,17 @@ pub struct Body {
     /// over.
     #[serde(skip)]
     pub mount: Option<Mount>,
+}
+
+impl Body {
+    /// Returns the constants of the body.
+    fn constants(&self) -> BodyConstants {
+        BodyConstants {
+            material: self.material,
+            conductivity: self.thermal.map(|thermal| thermal.conductivity).or(self.conductivity),
+            resistivity: self.resistivity,
+        }
+    }
 }
 
 /// Conversion of the heights of a body to those of the case.
@@ -360,6 +365,26 @@ impl Case {
         self.friction.as_ref().is_some_and(|friction| {
             Sliding { friction: friction.law, direction: [1.0, 0.0] }.shear_displaces_normally(couples)
         })
+    }
+
+    /// Returns what surrounds a contact of the case.
+    pub fn surroundings(&self) -> Surroundings {
+        Surroundings {
+            bodies: [&self.lower, &self.upper].map(Body::constants),
+            boundary: self.contact.boundary,
+            moves: self.motion.is_some(),
+            dragging_speed: self.dragging_speed(),
+            has_friction: self.friction.is_some(),
+        }
+    }
+
+    /// Returns the sum of the speeds at which the two bodies move past the contact.
+    fn dragging_speed(&self) -> Option<MetrePerSecond> {
+        let Some(motion) = self.motion else { return self.sliding.and_then(|sliding| sliding.speed) };
+        match motion.strategy {
+            Strategy::Overlap => motion.speed,
+            Strategy::Shift { speed_lower, speed_upper } => Some(speed_lower.abs() + speed_upper.abs()),
+        }
     }
 
     /// Reads a case file. Paths of files are relative to its folder.

@@ -4,12 +4,10 @@ use std::path::{Path, PathBuf};
 
 use super::adhesion::adhesion;
 use super::body::body;
-use super::conductance::conductance;
 use super::contact::contact;
 use super::cursor::Table;
 use super::document::Document;
 use super::friction::{friction, stages};
-use super::gap_flow::flow;
 use super::motion::motion;
 use super::output::output;
 use super::plasticity::plasticity;
@@ -22,6 +20,9 @@ use super::subsurface::subsurface;
 use super::topography::{one_tells_the_other, topography};
 use super::{Case, TopographySpec};
 use asperity_base::error::Result;
+use asperity_base::table::Table as _;
+use asperity_contact::each_capability;
+use asperity_contact::with::{Capabilities, Capability, Listed, uses};
 
 /// Reads a topography in a separate table `[topography]`; also returns its document.
 pub(super) fn topography_alone(text: &str, folder: &Path) -> Result<(TopographySpec, Document)> {
@@ -55,10 +56,10 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     known_in(root)?;
     let stem = || file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let title = keys::TITLE.of(root)?.unwrap_or_else(stem);
-    let has_conductance = keys::CONDUCTANCE.entry(root).is_some();
-    let lower = body(&keys::LOWER.demand(root)?, folder, has_conductance)?;
+    let is_alone = uses("conductivity", |name| root.get(name).is_some());
+    let lower = body(&keys::LOWER.demand(root)?, folder, is_alone)?;
     let upper_table = keys::UPPER.demand(root)?;
-    let upper = body(&upper_table, folder, has_conductance)?;
+    let upper = body(&upper_table, folder, is_alone)?;
     one_tells_the_other(&lower.topography, &upper.topography, &upper_table)?;
     let contact = contact(&keys::CONTACT.demand(root)?)?;
     let adhesion = keys::ADHESION.of(root)?.map(|table| adhesion(&table)).transpose()?;
@@ -81,8 +82,11 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     let heated = lower.thermal.is_some();
     let temperature = keys::TEMPERATURE.of(root)?.map(|table| temperature(&table, heated)).transpose()?;
     let subsurface = keys::SUBSURFACE.of(root)?.map(|table| subsurface(&table)).transpose()?;
-    let conductance = keys::CONDUCTANCE.of(root)?.map(|table| conductance(&table)).transpose()?;
-    let flow = keys::FLOW.of(root)?.map(|table| flow(&table)).transpose()?;
+    let mut with = Capabilities::default();
+    each_capability!(C => if let Some(table) = root.table(C::NAME)? {
+        known_in(&table)?;
+        C::read(&table)?.ask(&mut with);
+    });
     Ok(Case {
         title,
         lower,
@@ -97,8 +101,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
         temperature,
         plasticity,
         subsurface,
-        conductance,
-        flow,
+        with,
         output: output(root)?,
         document: Document::default(),
     })

@@ -146,11 +146,10 @@ pub(super) fn acceleration(table: &Table<'_>) -> Result<Acceleration> {
         .with_max_wear(acceleration::MAX_WEAR.of(table)?))
 }
 
-/// Reads the thermal constants of a body, all of them or none. A conductance needs the conductivity alone.
-pub(super) fn thermal(table: &Table<'_>, has_conductance: bool) -> Result<Option<Thermal>> {
+/// Reads the thermal constants of a body, all of them or none. The conductivity `is_alone` if the others are not needed.
+pub(super) fn thermal(table: &Table<'_>, is_alone: bool) -> Result<Option<Thermal>> {
     let keys = [body::CONDUCTIVITY, body::HEAT_CAPACITY, body::DENSITY];
-    let optional = usize::from(has_conductance);
-    if keys[optional..].iter().all(|key| key.entry(table).is_none()) {
+    if keys[usize::from(is_alone)..].iter().all(|key| key.entry(table).is_none()) {
         return Ok(None);
     }
     let [conductivity, heat_capacity, density] = keys.map(|key| key.required(table));

@@ -9,10 +9,12 @@ use crate::subsurface::Plan;
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::Grid;
 use asperity_base::units::Second;
+use asperity_contact::each_capability;
 use asperity_contact::material::Compliances;
 use asperity_contact::motion::{PlasticUpdate, memory_together};
 use asperity_contact::operator::{FreeFft, Operator};
 use asperity_contact::solver::{self, Control, Coupling, Method};
+use asperity_contact::with::{Capability, Listed};
 
 /// Cost of a run. Memory in bytes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -248,7 +250,7 @@ impl Sizes<'_> {
             let kept = if case.friction.is_some() { 2.0 * kept } else { kept };
             2.0 * (cells[0] + cells[1]) + 2.0 * kept
         });
-        let results = NUMBER * results + volumes + self.passage_memory(threads);
+        let results = NUMBER * results + volumes + self.memory_of_capabilities(threads);
         Memory { solver, together, results, volumes }
     }
 
@@ -400,7 +402,7 @@ impl Sizes<'_> {
             let planes = spec.layers + spec.planes.len();
             effort += passes * STRESS * planes as f64 * work(nx) / together(planes);
         }
-        effort += self.passage(boundary, digits, &together);
+        effort += self.of_capabilities(boundary, digits, &together);
         // A new counterbody is made for each pass.
         let times = match case.motion {
             Some(MotionSpec { counter: CounterBody::Fresh, passes, .. }) => [1.0, passes as f64],
@@ -435,19 +437,16 @@ impl Sizes<'_> {
         if every == 0 { passes } else { (self.contacts() / every as f64).max(passes) }
     }
 
-    /// Work of the conductance and of the flow through the gap.
-    fn passage(&self, boundary: f64, digits: f64, together: &dyn Fn(usize) -> f64) -> f64 {
-        let (case, [nx, ny]) = (self.case, self.facing());
+    /// Work of the capabilities.
+    fn of_capabilities(&self, boundary: f64, digits: f64, together: &dyn Fn(usize) -> f64) -> f64 {
+        let [nx, ny] = self.facing();
         let work = nx * ny * (nx * ny).max(2.0).log2();
-        let conductance = case.conductance.map_or(0.0, |spec| {
-            let gas = if spec.gas.is_some() { CONDUCTING_GAS } else { 1.0 };
-            CONDUCTANCE * gas * boundary * digits * self.observed(spec.every)
-                / together(self.observed_together(spec.every))
+        let mut effort = 0.0;
+        each_capability!(C => if let Some(asked) = C::asked(&self.case.with) {
+            let every = asked.every();
+            effort += asked.effort(boundary, digits) * self.observed(every) / together(self.observed_together(every));
         });
-        let flow = case.flow.map_or(0.0, |spec| {
-            FLOW * self.observed(spec.every) / together(self.observed_together(spec.every))
-        });
-        (conductance + flow) * work
+        effort * work
     }
 
     /// Number of contacts of a step that an observer with this interval looks at.
@@ -458,18 +457,17 @@ impl Sizes<'_> {
         }
     }
 
-    /// Memory of the conductance and of the flow through the gap, bytes: their solvers, one for each thread, and the gaps of a pass.
-    fn passage_memory(&self, threads: usize) -> f64 {
-        let (case, [nx, ny]) = (self.case, self.facing());
-        let together = |every: Option<usize>| every.map_or(0, |every| self.observed_together(every));
-        let [conductance, flow] =
-            [case.conductance.map(|spec| spec.every), case.flow.map(|spec| spec.every)].map(together);
-        let gaps = NUMBER * conductance.max(flow) as f64 * nx * ny;
-        let at_once = |positions: usize| threads.clamp(1, positions.max(1)).min(positions) as f64;
-        let conductance = at_once(conductance) * NUMBER * 14.0 * nx * ny;
-        let flow = at_once(flow)
-            * (asperity_contact::flow::memory([nx as usize, ny as usize]) + NUMBER * 2.0 * nx * ny);
-        gaps + conductance.max(flow)
+    /// Memory of the capabilities, bytes: their solvers, one for each thread, and the gaps of a pass.
+    fn memory_of_capabilities(&self, threads: usize) -> f64 {
+        let [nx, ny] = self.facing();
+        let (mut looked_at, mut largest) = (0, 0.0_f64);
+        each_capability!(C => if let Some(asked) = C::asked(&self.case.with) {
+            let positions = self.observed_together(asked.every());
+            let at_once = threads.clamp(1, positions.max(1)).min(positions) as f64;
+            looked_at = looked_at.max(positions);
+            largest = largest.max(at_once * C::memory([nx as usize, ny as usize]));
+        });
+        NUMBER * looked_at as f64 * nx * ny + largest
     }
 
     /// Work of films and flash temperatures in a computed pass.
@@ -581,11 +579,6 @@ const GROWTH: f64 = 0.09;
 const POSITION: f64 = 3.7e5;
 /// Work of the stiffness of a contact, in the unit of effort for each cell and log₂ N.
 const STIFFNESS: f64 = 12.0;
-/// Work of the conductance of a contact, as [`STIFFNESS`], and how many times that with gas.
-const CONDUCTANCE: f64 = 1.1 * STIFFNESS;
-const CONDUCTING_GAS: f64 = 1.5;
-/// Work of the flow through a gap along both axes: 0.2 to 0.4 µs for each cell and log₂ N.
-const FLOW: f64 = 250.0;
 /// Work of the stress on a plane, in the same unit.
 const STRESS: f64 = 120.0;
 /// Work of a surface: read or generated, prepared, with its figures for the estimate, in the same unit.

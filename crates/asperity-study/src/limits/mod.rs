@@ -11,7 +11,7 @@ mod table; // the limits: what exceeds them, and what a warning says
 
 use crate::case::{Case, LoadingPath};
 use crate::estimate::Estimate;
-use crate::observed::{BrokenLimit, LIMITS_TABLE};
+use crate::limit::{BrokenLimit, LIMITS_TABLE};
 use crate::results::Writer;
 use crate::tables::{self, GrowingTable};
 use asperity_base::error::Result;

@@ -4,7 +4,7 @@ use super::bounds::{Bounds, LARGE_DISPLACEMENT};
 use super::findings::{Finding, Findings};
 use crate::case::{Case, Side};
 use crate::estimate::STEEP;
-use crate::observed::{BrokenLimit, Limit};
+use crate::limit::{BrokenLimit, Limit};
 use asperity_base::choice::Choice;
 use asperity_base::units::{self, Dimension, Metre};
 use asperity_surface::Topography;

@@ -55,7 +55,7 @@ impl Axis {
     }
 
     /// SI unit of the numbers; empty for pure numbers and texts.
-    pub fn unit(&self) -> String {
+    pub fn unit(&self) -> &'static str {
         self.dimension.filter(|_| self.numbers.is_some()).map(Dimension::si).unwrap_or_default()
     }
 

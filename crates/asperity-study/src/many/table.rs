@@ -18,8 +18,9 @@ use crate::io::fields::FieldFile;
 use crate::results::{NO_LOCKS, Results};
 use crate::summary::{Outcome, Summary};
 use crate::tables;
-use asperity_base::choice::Choice;
 use asperity_base::error::{Error, Result};
+use asperity_contact::each_capability;
+use asperity_contact::with::{Capability, Listed, Row as _};
 
 /// The finished and failed cases of a study.
 ///
@@ -151,8 +152,11 @@ impl Table {
         add(DONE.name, DONE.unit, &|row| f64::from(u8::from(row.failure.is_none())));
         for (n, axis) in self.axes.iter().enumerate() {
             // An index of texts has no unit; a pure number has 1.
-            let unit =
-                if axis.numbers().is_some() && axis.unit().is_empty() { "1".to_owned() } else { axis.unit() };
+            let unit = if axis.numbers().is_some() && axis.unit().is_empty() {
+                "1".to_owned()
+            } else {
+                axis.unit().to_owned()
+            };
             add(axis.key(), &unit, &|row| {
                 let index = row.indices[n] as usize;
                 axis.numbers().map_or(index as f64, |numbers| numbers[index])
@@ -219,7 +223,7 @@ fn is_damage(error: &io::Error) -> bool {
 
 /// Returns the numbers of a summary: the record of a static contact, or the last point of a sweep, or the last pass of a
 /// motion. Then those of wear in place, of running-in, of the residual plastic flow, of adhesion, of the last most stressed point, and of
-/// the last conductance and flow through the gap.
+/// of the capabilities.
 fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     let mut numbers = Vec::new();
     match &summary.outcome {
@@ -242,12 +246,12 @@ fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     if let Some(stress) = summary.subsurface.last() {
         add(&mut numbers, "subsurface_", stress);
     }
-    if let Some(conductance) = summary.conductance.last() {
-        add_beside(&mut numbers, "conductance_", conductance);
-    }
-    for flow in &summary.flow {
-        add_beside(&mut numbers, &format!("flow_{}_", flow.along.word()), flow);
-    }
+    each_capability!(C => {
+        let rows = C::rows(&summary.found);
+        // Of the means over passes that over the last one.
+        let of_last = rows.iter().filter(|row| row.pass() == rows.last().and_then(|last| last.pass()));
+        of_last.for_each(|row| add_beside::<C>(&mut numbers, row));
+    });
     numbers
 }
 
@@ -258,18 +262,16 @@ fn add(numbers: &mut Vec<(String, f64)>, prefix: &str, record: &impl serde::Seri
     }
 }
 
-/// Adds the numbers of a record of an observer. Its contact has some of them too, which have one column. The names that say `thermal` or
-/// `electrical` have no prefix.
-fn add_beside(numbers: &mut Vec<(String, f64)>, prefix: &str, record: &impl serde::Serialize) {
+/// Adds the numbers of a row of a capability. Its contact has some of them too, which have one column.
+fn add_beside<C: Capability>(numbers: &mut Vec<(String, f64)>, row: &C::Row) {
     const PLACE: [&str; 2] = ["pass", "step"];
     const OF_CONTACT: [&str; 3] = ["load", "mean_pressure", "contact_area"];
-    for (key, value) in of_record(record) {
+    for (key, value) in of_record(row) {
         let is_there = |key: &str| numbers.iter().any(|(known, _)| known == key);
         if PLACE.contains(&key.as_str()) || OF_CONTACT.contains(&key.as_str()) && is_there(&key) {
             continue;
         }
-        let names_kind = ["thermal_", "electrical_"].iter().any(|kind| key.starts_with(kind));
-        flatten(numbers, if names_kind { key } else { format!("{prefix}{key}") }, &value);
+        flatten(numbers, format!("{}{key}", C::prefix(row, &key)), &value);
     }
 }
 
@@ -378,7 +380,7 @@ mod tests {
         // The same residual is another number, and the same load is not.
         assert_eq!([of("conductance_residual"), of("flow_x_residual")], [Some(1e-7), Some(1e-14)]);
         let mut beside = vec![("contact_area".to_owned(), 1e-12)];
-        add_beside(&mut beside, "flow_x_", &summary.flow[0]);
+        add_beside::<asperity_contact::flow::Leakage>(&mut beside, &summary.found.flow[0]);
         assert_eq!(beside.iter().filter(|(name, _)| name.ends_with("contact_area")).count(), 1);
         let names: std::collections::BTreeSet<_> = numbers.iter().map(|(name, _)| name).collect();
         assert_eq!(names.len(), numbers.len(), "{numbers:?}");

@@ -13,11 +13,12 @@ use crate::identity;
 use crate::io::atomic;
 use crate::io::fields::{Attribute, Fields};
 use crate::io::lock::{self, Lock};
-use crate::observed::LIMITS_TABLE;
-use crate::observed::OBSERVERS;
+use crate::limit::LIMITS_TABLE;
 use crate::tables;
 use asperity_base::error::{Error, Result};
+use asperity_contact::each_capability;
 use asperity_contact::motion::{StepRecord, SweepRecord};
+use asperity_contact::with::Capability;
 use serde_json::Value;
 
 /// Treatment of existing results.
@@ -301,9 +302,8 @@ pub(super) fn clear(results: &Results, kept: ExistingResults, keep: Keep) -> Res
             {
                 results.remove(&at(name))?;
             }
-            for name in OBSERVERS.into_iter().chain([LIMITS_TABLE]) {
-                results.remove(&results.observer_table(name))?;
-            }
+            each_capability!(C => results.remove(&results.observer_table(C::NAME))?);
+            results.remove(&results.observer_table(LIMITS_TABLE))?;
             let folders = [results.fields_folder(), results.figures_folder()];
             for path in folders.into_iter().filter(|path| path.exists()) {
                 fs::remove_dir_all(&path).map_err(|source| Error::File { path, source })?;
@@ -323,9 +323,7 @@ const AT_REST: [&str; 5] = ["fields.h5", "fields.vti", "subsurface.h5", "subsurf
 fn clear_later(results: &Results, passes: usize, keep: Keep) -> Result<()> {
     let mut names: Vec<_> = (0..=passes).map(|pass| results.fields_path(pass)).collect();
     names.extend((1..=passes).map(|pass| results.subsurface_path(Some(pass))));
-    for name in OBSERVERS {
-        names.extend((1..=passes).map(|pass| results.observer_fields(name, pass)));
-    }
+    each_capability!(C => names.extend((1..=passes).map(|pass| results.observer_fields(C::NAME, pass))));
     names.push(results.state_path(passes));
     let first = if keep == Keep::Last { passes } else { 1 };
     names.extend((first..=passes).map(|pass| results.volume_path(Some(pass))));

@@ -11,10 +11,9 @@
 //!     fields.h5            a static contact
 //!     increments.csv       with friction or a history, a row per increment of its loading
 //!     updates.csv          a contact that wears in place: a row per update
-//!     conductance.csv      a row per observed contact, if requested
+//!     CAPABILITY.csv       rows of a capability for each contact that it looks at, if requested: `flow.csv`
+//!     fields/CAPABILITY-0001.h5    its fields at the positions or points kept
 //!     limits.csv           a row per limit of the model that a step exceeds, if any
-//!     flow.csv             a row per observed contact and direction, if requested
-//!     fields/flow-0001.h5  fields of the observers at the positions or points kept
 //!     sweep.csv            a load sweep: a row per point; `fields.h5` is that of the last
 //!     fields/point-0001.h5 the pressure and the gap of the points kept
 //!     subsurface.h5        the stress under its surface, if requested
@@ -52,17 +51,18 @@ use super::case::Case;
 use super::{identity, summary, tables};
 use crate::io::fields::{Attribute, Fields};
 use crate::io::regular;
-use crate::observed::{BrokenLimit, LIMITS_TABLE};
-use crate::observed::{ConductanceRecord, GapFlowRecord};
+use crate::limit::{BrokenLimit, LIMITS_TABLE};
 use crate::summary::{Outcome, Summary};
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::Grid;
+use asperity_contact::each_capability;
 use asperity_contact::motion::{
     IncrementRecord, LoadingState, Pair, PassRecord, SlidingState, State, StepRecord, SweepRecord,
     UpdateRecord, WarmStart,
 };
 use asperity_contact::plasticity::{PlasticState, TensorField, VolumeField};
 use asperity_contact::stress::Component;
+use asperity_contact::with::{Capability, Listed, Observations};
 use asperity_surface::Topography;
 
 /// A results directory, open for reading.
@@ -343,23 +343,25 @@ impl Results {
         self.fields_folder().join(format!("{name}-{step:04}.h5"))
     }
 
-    /// Reads the conductance of the observed contacts; empty if it was not requested.
+    /// Reads the rows of a capability; empty if it was not requested.
     ///
     /// # Errors
     /// [`Error::File`].
-    pub fn conductance(&self) -> Result<Vec<ConductanceRecord>> {
-        self.observed("conductance")
+    pub fn rows<C: Capability>(&self) -> Result<Vec<C::Row>> {
+        self.observed(C::NAME)
     }
 
-    /// Reads the flow through the gap of the observed contacts, a row for each direction; empty if it was not requested.
+    /// Reads the rows of all capabilities.
     ///
     /// # Errors
     /// [`Error::File`].
-    pub fn flow(&self) -> Result<Vec<GapFlowRecord>> {
-        self.observed("flow")
+    pub fn found(&self) -> Result<Observations> {
+        let mut found = Observations::default();
+        each_capability!(C => C::add(&mut found, self.rows::<C>()?));
+        Ok(found)
     }
 
-    /// Opens the fields of the conductance, or of the flow (`name`), of the positions of a pass or at a point that are kept.
+    /// Opens the fields of the capability of this `name`, of the positions of a pass or at a point that are kept.
     ///
     /// # Errors
     /// [`Error::File`].

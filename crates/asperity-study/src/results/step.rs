@@ -13,9 +13,10 @@ use super::{Results, cap_name, is_nth, pressure_name, temperature_name, traction
 use crate::case::Keep;
 use crate::io::fields::FieldFile;
 use crate::subsurface::{Plan, SubsurfaceRecord};
-use crate::tables::{self, GrowingTable, Record};
+use crate::tables::{self, GrowingTable};
 use asperity_base::error::Result;
 use asperity_base::grid::{CellValues, Field};
+use asperity_base::record::Record;
 use asperity_contact::motion::{
     IncrementRecord, LoadedContact, Output, PassReport, Step, StepRecord, SweepRecord, UpdateRecord,
 };

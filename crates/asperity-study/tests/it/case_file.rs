@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use asperity_base::Error;
 use asperity_base::units::{Dimension, format, format_number};
 use asperity_study::Case;
-use asperity_study::case::rules::Rule;
+use asperity_study::case::rules::Exclusion;
 use asperity_study::case::schema::{Exists, Key, Section};
 
 /// Dimensions with units listed in docs/input.md.
@@ -107,7 +107,7 @@ fn every_key_and_every_rule_is_explained_in_one_line() {
             assert!(!text.contains(['|', '\n']) && !text.contains("  "), "{}: {}", name(section), key.name);
         }
     }
-    for Rule { this, with, message, hint, .. } in asperity_study::rules() {
+    for Exclusion { this, with, message, hint, .. } in asperity_study::rules() {
         let texts = [this, with, message];
         assert!(texts.iter().all(|text| !text.is_empty() && !text.contains(['|', '\n'])), "{message}");
         assert!(!hint.contains(['|', '\n']) && !hint.contains("  "), "{message}");
@@ -192,8 +192,8 @@ fn table_of_keys(sections: &[&Section]) -> String {
 }
 
 fn table_of_rules() -> String {
-    let row = |rule: &Rule| format!("| {} | {} | {} |\n", rule.this, rule.with, rule.hint);
-    let rows: String = asperity_study::rules().map(row).collect();
+    let row = |rule: &Exclusion| format!("| {} | {} | {} |\n", rule.this, rule.with, rule.hint);
+    let rows: String = asperity_study::rules().iter().map(row).collect();
     format!("| this | does not go with | instead |\n|---|---|---|\n{rows}")
 }
 

@@ -13,6 +13,7 @@ mod kinematics;
 mod limits;
 mod loading;
 mod passage;
+mod python_keys;
 mod real_surface;
 mod resume;
 mod rolling;

@@ -4,12 +4,12 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use asperity_base::{Error, Field, Grid};
-use asperity_contact::conductance::{self, Joint, Kind};
-use asperity_contact::flow::{self, Along, Ends, Fluid, Settings, Sides};
+use asperity_contact::conductance::{self, ConductanceRecord, Joint, Kind};
+use asperity_contact::flow::{self, Along, Ends, FlowRecord, Fluid, Leakage, Settings, Sides};
 use asperity_contact::motion::{Progress, Watch};
 use asperity_contact::operator::{Boundary, FreeFft, Operator, PeriodicFft};
 use asperity_contact::solver::Params;
-use asperity_study::{Case, ConductanceRecord, Existing, GapFlowRecord, Results, SurfaceInput};
+use asperity_study::{Case, Existing, Results, SurfaceInput};
 use asperity_surface::Axis;
 
 const PASSAGE: &str = "
@@ -105,9 +105,7 @@ fn conducts(grid: Grid, boundary: Boundary, pressure: &Field, gap: &Field) -> f6
         Boundary::PERIODIC => Box::new(PeriodicFft::new(grid, composite)),
         _ => Box::new(FreeFft::new(grid, composite)),
     };
-    let joint = Joint::new(Kind::Thermal, composite)
-        .with_film(2e-8)
-        .with_gas(conductance::Gas { conductivity: 0.026, jump: 0.3e-6 });
+    let joint = Joint::new(Kind::Thermal).with_film(2e-8).with_gas(0.026, 0.3e-6);
     let touching = pressure.mapv(|p| p > 0.0);
     let params = Params::default().with_tolerance(1e-9);
     conductance::solve(operator.as_mut(), &touching, Some(gap), &joint, None, &params)
@@ -139,18 +137,15 @@ fn every_course_says_what_its_contacts_let_through() {
     let folder = tempfile::tempdir().unwrap();
     for (name, case, contacts) in courses() {
         let results = run(&case, &folder.path().join(name), Existing::Keep, &()).unwrap();
-        let rows = results.conductance().unwrap();
-        let flows = results.flow().unwrap();
+        let rows = results.rows::<Joint>().unwrap();
+        let flows = results.rows::<Leakage>().unwrap();
         assert!(rows.len() == contacts || contacts == 0 && !rows.is_empty(), "{name}: {} rows", rows.len());
         assert_eq!(flows.len(), 2 * rows.len(), "{name}");
         for (row, flows) in rows.iter().zip(flows.chunks(2)) {
-            let thermal = row.thermal.as_ref().unwrap();
-            assert!(
-                row.electrical.is_none() && thermal.thermal_conductance.unwrap() > 0.0,
-                "{name}: {row:?}"
-            );
+            let thermal = &row.quantities;
+            assert!(thermal.kind == Kind::Thermal && thermal.conductance.unwrap() > 0.0, "{name}: {row:?}");
             assert!((row.spot_share + row.gas_share - 1.0).abs() < 1e-9, "{name}: {row:?}");
-            assert!(near(row.power.unwrap(), 10.0 * thermal.thermal_conductance.unwrap(), 1e-12));
+            assert!(near(row.power.unwrap(), 10.0 * thermal.conductance.unwrap(), 1e-12));
             for (flow, along) in flows.iter().zip([Axis::X, Axis::Y]) {
                 assert_eq!((flow.pass, Some(flow.step), flow.along), (row.pass, row.step, along), "{name}");
                 assert!(flow.load == row.load && flow.contact_area == row.contact_area, "{name}");
@@ -162,14 +157,17 @@ fn every_course_says_what_its_contacts_let_through() {
         }
         let summary = results.summary().unwrap();
         if case.motion.is_some() {
-            let passes: Vec<_> = summary.conductance.iter().map(|row| (row.pass, row.step)).collect();
+            let passes: Vec<_> = summary.found.conductance.iter().map(|row| (row.pass, row.step)).collect();
             assert_eq!(passes, [(Some(1), None), (Some(2), None)], "{name}");
             let of_last: Vec<&ConductanceRecord> = rows.iter().filter(|row| row.pass == Some(2)).collect();
-            let mean =
-                of_last.iter().map(|row| row.conductance().unwrap()).sum::<f64>() / of_last.len() as f64;
-            assert!(near(summary.conductance[1].conductance().unwrap(), mean, 1e-12), "{name}");
+            let mean = of_last.iter().map(|row| row.quantities.conductance.unwrap()).sum::<f64>()
+                / of_last.len() as f64;
+            assert!(
+                near(summary.found.conductance[1].quantities.conductance.unwrap(), mean, 1e-12),
+                "{name}"
+            );
         } else {
-            assert_eq!(summary.conductance.first(), rows.last(), "{name}");
+            assert_eq!(summary.found.conductance.first(), rows.last(), "{name}");
             // As by the solvers on the fields that are written.
             let fields = results.static_fields().unwrap();
             let read = |name: &str| fields.read(name).unwrap();
@@ -182,16 +180,19 @@ fn every_course_says_what_its_contacts_let_through() {
             let within = if name == "worn" { 0.02 } else { 1e-5 };
             let last = rows.last().unwrap();
             let alone = conducts(grid, boundary, &pressure, &gap);
-            assert!(near(last.conductance().unwrap(), alone, within), "{name}: {last:?} {alone}");
-            assert!(near(grid.cell_area() * flux.sum(), 10.0 * last.conductance().unwrap(), 1e-5), "{name}");
+            assert!(near(last.quantities.conductance.unwrap(), alone, within), "{name}: {last:?} {alone}");
+            assert!(
+                near(grid.cell_area() * flux.sum(), 10.0 * last.quantities.conductance.unwrap(), 1e-5),
+                "{name}"
+            );
             let flow = &flows[flows.len() - 2];
             let alone = leaks(grid, boundary, &pressure, &gap);
             // A gap to the third power.
             assert!(near(flow.leakage, alone, 10.0 * within), "{name}: {flow:?} {alone}");
             assert_eq!(flow.leakage > 0.0, rate.iter().any(|rate| *rate > 0.0), "{name}");
-            assert_eq!(summary.flow, GapFlowRecord::last(&flows), "{name}");
+            assert_eq!(summary.found.flow, FlowRecord::last(&flows), "{name}");
             let in_memory = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
-            assert_eq!((&in_memory.conductance, &in_memory.gap_flow), (&rows, &flows), "{name}");
+            assert_eq!((&in_memory.found.conductance, &in_memory.found.flow), (&rows, &flows), "{name}");
         }
     }
 }
@@ -263,7 +264,7 @@ fn each_axis_has_the_ends_and_sides_of_its_boundary() {
             let found =
                 flow::solve(&gap, &grid, &Settings { ends, sides, along, ..Settings::default() }).unwrap();
             let alone = found.along[axis].as_ref().unwrap().leakage(&OIL).unwrap();
-            let row = &rest.gap_flow[axis];
+            let row = &rest.found.flow[axis];
             assert!(alone > 0.0 && near(row.leakage, alone, 1e-9), "{one} {axis}: {row:?} {alone}");
         }
     }
@@ -274,13 +275,13 @@ fn a_gas_has_the_fields_of_its_leakage() {
     let (inlet, outlet) = (5e5, 2e5);
     let mut case = case("", "load = \"0.05 N\"", "");
     let liquid = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
-    let spec = case.flow.as_mut().unwrap();
+    let spec = case.with.flow.as_mut().unwrap();
     (spec.gas, spec.outlet, spec.pressure) = (true, Some(outlet), inlet - outlet);
     let gas = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
     let field = |rest: &asperity_study::StaticResult, name: &str| {
         rest.fields.fields.iter().find(|field| field.name == name).unwrap().values.clone()
     };
-    let ratio = gas.gap_flow[0].leakage / liquid.gap_flow[0].leakage;
+    let ratio = gas.found.flow[0].leakage / liquid.found.flow[0].leakage;
     assert!(near(ratio, (inlet * inlet - outlet * outlet) / (2.0 * outlet * 1e5), 1e-12), "{ratio}");
     let rates = ["flow_x", "flow_y"].map(|name| (field(&liquid, name), field(&gas, name)));
     for (liquid, gas) in rates {
@@ -300,9 +301,10 @@ fn a_path_to_and_fro_has_one_flush_position() {
     let folder = tempfile::tempdir().unwrap();
     let motion = "[motion]\nspeed = \"1 m/s\"\nstride = 12\npasses = 2\npath = \"reciprocating\"";
     let mut case = case("", "load = \"0.05 N\"", motion);
-    case.flow.as_mut().unwrap().every = 0;
+    case.with.flow.as_mut().unwrap().every = 0;
     let results = run(&case, folder.path(), Existing::Keep, &()).unwrap();
-    let seen: Vec<_> = results.flow().unwrap().iter().map(|row| (row.pass, row.step, row.along)).collect();
+    let seen: Vec<_> =
+        results.rows::<Leakage>().unwrap().iter().map(|row| (row.pass, row.step, row.along)).collect();
     let at = |pass| [Axis::X, Axis::Y].map(|along| (Some(pass), seen[0].1, along));
     assert_eq!(seen, [at(1), at(2)].concat());
 }

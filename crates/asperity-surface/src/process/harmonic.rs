@@ -28,16 +28,16 @@ pub(super) fn harmonic(grid: &Grid, z: &mut Field) {
     }
 }
 
-/// A graph of nodes with up to four neighbours, connected by conductances, some of them to ground.
+/// A graph of nodes with up to four neighbours, connected by couplings, some of them to ground.
 ///
-/// Its matrix A has ground + conductances on the diagonal and −conductances off it. It is symmetric, and positive definite
+/// Its matrix A has ground + couplings on the diagonal and −couplings off it. It is symmetric, and positive definite
 /// if every part has a connection to ground.
 struct Network {
-    /// Conductance from each node to ground.
+    /// Coupling from each node to ground.
     ground: Vec<f64>,
-    /// Neighbours at −x, +x, −y, +y; the node itself, with zero conductance, if there is none.
+    /// Neighbours at −x, +x, −y, +y; the node itself, with zero coupling, if there is none.
     neighbours: Vec<[u32; 4]>,
-    conductances: Vec<[f64; 4]>,
+    couplings: Vec<[f64; 4]>,
     /// Position on the grid of this network.
     cells: Vec<[usize; 2]>,
 }
@@ -59,13 +59,13 @@ impl Network {
             ];
             for (side, neighbour) in around.into_iter().enumerate() {
                 let Some(neighbour) = neighbour else { continue };
-                let conductance = if side < 2 { ratio } else { 1.0 / ratio };
+                let coupling = if side < 2 { ratio } else { 1.0 / ratio };
                 if z[neighbour].is_nan() {
                     network.neighbours[node][side] = number[neighbour[0] * grid.shape[1] + neighbour[1]];
-                    network.conductances[node][side] = conductance;
+                    network.couplings[node][side] = coupling;
                 } else {
-                    network.ground[node] += conductance;
-                    sources[node] += conductance * (z[neighbour] - mean);
+                    network.ground[node] += coupling;
+                    sources[node] += coupling * (z[neighbour] - mean);
                 }
             }
         }
@@ -76,7 +76,7 @@ impl Network {
         Self {
             ground: vec![0.0; cells.len()],
             neighbours: (0..cells.len()).map(|node| [node as u32; 4]).collect(),
-            conductances: vec![[0.0; 4]; cells.len()],
+            couplings: vec![[0.0; 4]; cells.len()],
             cells,
         }
     }
@@ -110,8 +110,8 @@ impl Network {
                 let other = joint[self.neighbours[node][side] as usize];
                 if other != own {
                     network.neighbours[own as usize][side] = other;
-                    network.conductances[own as usize][side] +=
-                        self.conductances[node][side] / block[side / 2] as f64;
+                    network.couplings[own as usize][side] +=
+                        self.couplings[node][side] / block[side / 2] as f64;
                 }
             }
         }
@@ -122,7 +122,7 @@ impl Network {
     fn diagonal(&self) -> Vec<f64> {
         self.ground
             .iter()
-            .zip(&self.conductances)
+            .zip(&self.couplings)
             .map(|(ground, links)| ground + links.iter().sum::<f64>())
             .collect()
     }
@@ -130,7 +130,7 @@ impl Network {
     /// Current into `node` from its neighbours.
     fn inflow(&self, node: usize, x: &[f64]) -> f64 {
         let [a, b, c, d] = self.neighbours[node].map(|neighbour| x[neighbour as usize]);
-        let [ga, gb, gc, gd] = self.conductances[node];
+        let [ga, gb, gc, gd] = self.couplings[node];
         (ga * a + gb * b) + (gc * c + gd * d)
     }
 }

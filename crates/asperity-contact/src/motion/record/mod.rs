@@ -24,3 +24,46 @@ pub use running::{HeatRecord, RunningRecord};
 pub use step::StepRecord;
 pub use sweep::SweepRecord;
 pub use update::UpdateRecord;
+
+use crate::error::Error;
+use asperity_base::record::{Column, Record};
+
+impl Record for StepRecord {
+    const COLUMNS: &'static [Column] = Self::COLUMNS;
+
+    fn at(&self, error: Error) -> Error {
+        error.if_of_step(|source| Error::AtPass { pass: self.pass, source })
+    }
+}
+
+impl Record for PassRecord {
+    const COLUMNS: &'static [Column] = Self::COLUMNS;
+
+    fn at(&self, error: Error) -> Error {
+        error.if_of_step(|source| Error::AtPass { pass: self.pass, source })
+    }
+}
+
+impl Record for IncrementRecord {
+    const COLUMNS: &'static [Column] = Self::COLUMNS;
+
+    fn at(&self, error: Error) -> Error {
+        error.if_of_step(|source| Error::AtIncrement { increment: self.increment, source })
+    }
+}
+
+impl Record for UpdateRecord {
+    const COLUMNS: &'static [Column] = Self::COLUMNS;
+
+    fn at(&self, error: Error) -> Error {
+        error.if_of_step(|source| Error::AtUpdate { update: self.update, source })
+    }
+}
+
+impl Record for SweepRecord {
+    const COLUMNS: &'static [Column] = Self::COLUMNS;
+}
+
+impl Record for StaticRecord {
+    const COLUMNS: &'static [Column] = Self::COLUMNS;
+}

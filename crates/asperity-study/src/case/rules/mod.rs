@@ -10,7 +10,6 @@ mod examples;
 mod loading;
 mod motion;
 mod output;
-mod passage;
 mod plasticity;
 mod running;
 mod temperature;
@@ -18,12 +17,14 @@ mod temperature;
 use super::cursor::{Entry, Table};
 use super::{Body, Case, FrictionSpec, MotionSpec};
 use asperity_base::error::{Error, Result};
+use asperity_contact::each_capability;
 use asperity_contact::motion::Strategy;
+use asperity_contact::with::{Capability, Listed};
 
 /// A rule: two entries of a case file exclude each other, or one requires the other.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
-pub struct Rule {
+pub struct Exclusion {
     /// The excluded entry, in Markdown.
     pub this: &'static str,
     /// The entry that excludes it, in Markdown.
@@ -37,6 +38,16 @@ pub struct Rule {
     pub at: &'static str,
     /// Keys that break the rule, as written above the tables of a case file.
     pub example: &'static [&'static str],
+}
+
+/// An [`Exclusion`] that is found in the tables of a case.
+struct Rule {
+    this: &'static str,
+    with: &'static str,
+    message: &'static str,
+    hint: &'static str,
+    at: &'static str,
+    example: &'static [&'static str],
     /// Returns the entry of the case file that breaks the rule.
     broken: for<'a> fn(&Tables<'a>) -> Option<Entry<'a>>,
 }
@@ -50,15 +61,47 @@ struct Tables<'a> {
 /// Returns an error if the case breaks a rule.
 pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
     let tables = Tables { root, case };
-    match rules().find_map(|rule| Some(rule.error(&(rule.broken)(&tables)?))) {
-        Some(error) => Err(error),
-        None => Ok(()),
+    for rule in tables_of_rules().into_iter().flatten() {
+        if let Some(entry) = (rule.broken)(&tables) {
+            return Err(exclusion!(rule).error(&entry));
+        }
     }
+    let surroundings = case.surroundings();
+    each_capability!(C => for rule in C::RULES {
+        let is_broken = C::asked(&case.with).is_some_and(|asked| (rule.broken)(asked, &surroundings));
+        if let Some(entry) = tables.at(rule.at).filter(|_| is_broken) {
+            return Err(exclusion!(rule).error(&entry));
+        }
+    });
+    Ok(())
 }
 
 /// Returns the rules of a case file, in the order in which a case is checked.
-pub fn rules() -> impl Iterator<Item = &'static Rule> {
-    let tables: [&[Rule]; 10] = [
+pub fn rules() -> Vec<Exclusion> {
+    let rules = tables_of_rules().into_iter().flatten();
+    let mut exclusions: Vec<_> = rules.map(|rule| exclusion!(rule)).collect();
+    each_capability!(C => exclusions.extend(C::RULES.iter().map(|rule| exclusion!(rule))));
+    exclusions
+}
+
+/// Describes a rule, of a case or of a capability.
+macro_rules! exclusion {
+    ($rule:ident) => {
+        Exclusion {
+            this: $rule.this,
+            with: $rule.with,
+            message: $rule.message,
+            hint: $rule.hint,
+            at: $rule.at,
+            example: $rule.example,
+        }
+    };
+}
+
+use exclusion;
+
+fn tables_of_rules() -> [&'static [Rule]; 9] {
+    [
         bodies::RULES,
         motion::RULES,
         loading::RULES,
@@ -66,14 +109,12 @@ pub fn rules() -> impl Iterator<Item = &'static Rule> {
         running::RULES,
         temperature::RULES,
         output::RULES,
-        passage::RULES,
         adhesion::RULES,
         device::RULES,
-    ];
-    tables.into_iter().flatten()
+    ]
 }
 
-impl Rule {
+impl Exclusion {
     fn error(&self, entry: &Entry<'_>) -> Error {
         let message = self.message.replace("{key}", entry.key()).replace("{path}", entry.path());
         let message = message.replace("{value}", &entry.written());

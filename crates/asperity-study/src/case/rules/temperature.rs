@@ -6,6 +6,7 @@ use super::examples::{
     AT_ANY_SPEED, CONDUCTS, GENERATED, LINE, MOVES, RUBS, SLIDES, UPPER_CONDUCTS, WARM, WEARS,
 };
 use asperity_contact::motion::PlasticUpdate;
+use asperity_contact::with::uses;
 
 pub(super) const RULES: &[Rule] = &[
     Rule {
@@ -40,7 +41,8 @@ pub(super) const RULES: &[Rule] = &[
         at: "lower.conductivity",
         example: &[CONDUCTS, UPPER_CONDUCTS],
         broken: |tables| {
-            let is_needed = tables.case.lower.thermal.is_some() && tables.case.conductance.is_none();
+            let uses = uses("conductivity", |name| tables.at(name).is_some());
+            let is_needed = tables.case.lower.thermal.is_some() && !uses;
             tables.at("lower.conductivity").filter(|_| is_needed && tables.case.temperature.is_none())
         },
     },

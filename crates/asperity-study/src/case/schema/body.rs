@@ -51,18 +51,18 @@ pub(crate) mod both {
             table("plasticity", Absent("elastic"), "plastic deformation below the surface, see [below](#plasticity)");
         CONDUCTIVITY: Optional<f64> = optional(
             "conductivity",
-            quantity(Dimension::Conductivity, AboveZeroOrInfinite("no resistance, only for [conductance]"))
+            quantity(Dimension::Conductivity, AboveZeroOrInfinite("no resistance, only where heat passes a contact"))
                 .exists(exists::CONDUCTIVITY),
             "unknown",
             "\"46 W/(m K)\"",
-            "thermal conductivity, for the flash temperature and for [conductance]; give it for both bodies",
+            "thermal conductivity, for the flash temperature and for heat that passes a contact; give it for both bodies",
         );
         RESISTIVITY: Optional<f64> = optional(
             "resistivity",
             RESISTANCE,
             "unknown",
             "\"1.7e-8 ohm m\"",
-            "electrical resistivity, for [conductance] with `kind = \"electrical\"`; give it for both bodies",
+            "electrical resistivity, for a current that passes a contact; give it for both bodies",
         );
         HEAT_CAPACITY: Optional<f64> = optional(
             "heat_capacity",
@@ -110,14 +110,14 @@ pub(crate) mod coating {
             quantity(Dimension::Conductivity, AboveZero).exists(exists::CONDUCTIVITY),
             "unknown",
             "\"20 W/(m K)\"",
-            "its thermal conductivity, for [conductance]",
+            "its thermal conductivity, for heat that passes a contact",
         );
         RESISTIVITY: Optional<f64> = optional(
             "resistivity",
             RESISTANCE,
             "unknown",
             "\"1e-6 ohm m\"",
-            "its electrical resistivity, for [conductance]",
+            "its electrical resistivity, for a current that passes a contact",
         );
     }
 }

@@ -4,27 +4,7 @@
 //! Constants; CRC Handbook of Chemistry and Physics; Ashby, Materials Selection in Mechanical Design. Further sources are named
 //! beside the range.
 
-/// Magnitudes of a quantity that exist.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Exists {
-    /// Not declared: only for values that are not physical quantities.
-    Undeclared,
-    /// Any value that the bounds of the key allow, for this reason.
-    Any(&'static str),
-    /// Magnitudes from `least` to `most`, SI.
-    Within {
-        /// The smallest magnitude.
-        least: f64,
-        /// The largest magnitude.
-        most: f64,
-        /// The things at both ends: "soft gels to diamond".
-        of: &'static str,
-        /// Other meanings of the same number: a unit, or a key as `dimensionless = {}`.
-        slips: &'static [&'static str],
-    },
-}
-
-use Exists::{Any, Within};
+use asperity_base::table::Exists::{self, Any, Within};
 
 const fn within(least: f64, most: f64, of: &'static str, slips: &'static [&'static str]) -> Exists {
     Within { least, most, of, slips }
@@ -61,11 +41,6 @@ pub(super) const SHEAR_STRENGTH: Exists = within(1e2, 2e10, "liquid films to har
 pub(super) const SPEED: Exists =
     within(1e-13, 2e4, "creep of geological faults to projectiles", &["mm/s", "um/s"]);
 pub(super) const TEMPERATURE: Exists = within(1.0, 4000.0, "liquid helium to melting tungsten", &["°C"]);
-pub(super) const VISCOSITY: Exists = within(1e-6, 30.0, "gases to cold gear oils", &["mPa s", "uPa s"]);
-pub(super) const FLUID_PRESSURE: Exists =
-    within(1e-3, 4e9, "vacuum pumps to elastohydrodynamic contacts", &["bar", "MPa"]);
-pub(super) const GAS: Exists = within(1e-3, 1.0, "heavy vapours to hydrogen", &["mW/(m K)"]);
-pub(super) const JUMP: Exists = within(1e-10, 1.0, "compressed to rarefied gases", &["um", "nm"]);
 pub(super) const PITCH: Exists = within(1e-11, 1e-3, "atoms to cells that see no roughness", &["um", "nm"]);
 pub(super) const ROUGHNESS: Exists = within(1e-12, 1e-2, "atomic planes to gravel roads", &["nm", "um"]);
 pub(super) const SLOPE: Exists = within(1e-6, 10.0, "polished silicon to brushes", &[]);

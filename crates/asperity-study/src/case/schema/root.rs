@@ -30,7 +30,5 @@ section! { &[], "";
     );
     ADHESION: Nested = table("adhesion", Absent("none"), "attraction between the bodies");
     SUBSURFACE: Nested = table("subsurface", Absent("none"), "stress below the surface");
-    CONDUCTANCE: Nested = table("conductance", Absent("none"), "thermal or electrical conductance of the contacts");
-    FLOW: Nested = table("flow", Absent("none"), "flow of a fluid through the gap");
     OUTPUT: Nested = table("output", Absent("its defaults"), "stored results");
 }

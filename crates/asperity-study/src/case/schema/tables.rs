@@ -11,18 +11,6 @@ const OF_A_STUDY: [&str; 4] = ["base", "axes", "table", "exclude"];
 /// The kind of topographies and hardness maps in the memory of a program. Hints do not mention it.
 const GIVEN: &str = "given";
 
-impl Section {
-    fn has(&self, key: &str) -> bool {
-        self.keys.iter().any(|known| known.name == key)
-    }
-
-    /// Whether its keys require a choice of `of`, such as `form = "sphere"` for `form`.
-    fn suits(&self, kind: &str) -> bool {
-        self.kind.is_empty()
-            || kind.strip_prefix(self.kind).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
-    }
-}
-
 /// Returns the dotted name under which a table is declared. A table of an array has the name of the array, a layer that of its topography.
 fn declared(path: &str) -> String {
     let parts = path.trim_matches(['[', ']']).split('.');
@@ -57,7 +45,7 @@ pub(crate) fn declaration(key: &str) -> Option<&'static Key> {
 
 /// Whether a key stands above all tables of a case.
 pub(crate) fn is_of_root(key: &str) -> bool {
-    root::SECTION.has(key)
+    sections("").any(|section| section.has(key))
 }
 
 /// Returns an error if a key of the table is unknown for every choice.

@@ -4,10 +4,11 @@ use std::ops::Deref;
 
 use super::super::cursor::{Entry, Table};
 use super::super::document::Document;
-use super::exists::{self, Exists};
-use super::{Bounds, Fallback, Key, Kind};
+use super::exists;
+use super::{Bounds, Exists, Fallback, Key, Kind};
 use asperity_base::choice::Choice;
-use asperity_base::error::Result;
+use asperity_base::error::{Error, Result};
+use asperity_base::table::Source;
 use asperity_base::units::Dimension;
 use asperity_surface::Axis;
 
@@ -120,18 +121,6 @@ pub(super) use section;
 
 // How keys are read.
 
-impl Key {
-    /// Returns the entry of the key, if it is given.
-    pub(in crate::case) fn entry<'a>(&self, table: &Table<'a>) -> Option<Entry<'a>> {
-        table.get(self.name)
-    }
-
-    /// Returns the entry of a required key.
-    pub(in crate::case) fn demand<'a>(&self, table: &Table<'a>) -> Result<Entry<'a>> {
-        self.entry(table).ok_or_else(|| missing(self, table))
-    }
-}
-
 macro_rules! is_a_key {
     ($($name:ident$(<$type:ident>)?),+) => {$(
         impl$(<$type>)? Deref for $name$(<$type>)? {
@@ -141,10 +130,30 @@ macro_rules! is_a_key {
                 &self.key
             }
         }
+
+        impl$(<$type>)? $name$(<$type>)? {
+            /// Returns the entry of the key, if it is given.
+            pub(in crate::case) fn entry<'a>(&self, table: &Table<'a>) -> Option<Entry<'a>> {
+                table.get(self.key.name)
+            }
+        }
     )+};
 }
 
 is_a_key!(Typed<T>, Optional<T>, Nested);
+
+macro_rules! has_a_value {
+    ($($name:ident),+) => {$(
+        impl<T> $name<T> {
+            /// Returns the entry of a key that must be given.
+            pub(in crate::case) fn demand<'a>(&self, table: &Table<'a>) -> Result<Entry<'a>> {
+                self.entry(table).ok_or_else(|| missing(&self.key, table))
+            }
+        }
+    )+};
+}
+
+has_a_value!(Typed, Optional);
 
 impl<T> Typed<T> {
     /// Returns the value in `table`, or the default.
@@ -226,7 +235,31 @@ impl Nested {
     }
 }
 
-fn missing(key: &Key, table: &Table<'_>) -> asperity_base::error::Error {
+impl Source for Table<'_> {
+    fn real(&self, key: &Key, kind: &Kind) -> Result<Option<f64>> {
+        self.get(key.name).map(|entry| real(kind, key, &entry)).transpose()
+    }
+
+    fn count(&self, key: &Key) -> Result<Option<usize>> {
+        self.get(key.name).map(|entry| (COUNT.read)(key, &entry)).transpose()
+    }
+
+    fn flag(&self, key: &Key) -> Result<Option<bool>> {
+        self.get(key.name).map(|entry| entry.flag()).transpose()
+    }
+
+    fn word(&self, key: &Key) -> Result<Option<usize>> {
+        let Kind::Choice(words) = key.kind else { unreachable!("a word is declared as one") };
+        let words: Vec<(&str, usize)> = words.iter().copied().zip(0..).collect();
+        self.get(key.name).map(|entry| entry.word(&words)).transpose()
+    }
+
+    fn missing(&self, key: &Key) -> Error {
+        missing(key, self)
+    }
+}
+
+fn missing(key: &Key, table: &Table<'_>) -> Error {
     let hint = format!("for example `{} = {}`", key.name, key.example);
     table.error(format!("missing key '{}' in {}", key.name, table.name()), Some(hint))
 }
@@ -269,6 +302,9 @@ pub(super) const fn number_named(noun: &'static str, bounds: Bounds) -> Value<f6
 pub(super) const fn count(least: u64) -> Value<usize> {
     count_to(least, u64::MAX)
 }
+
+/// A count within the limits of its key.
+const COUNT: Value<usize> = count(0);
 
 /// A count with limits.
 pub(super) const fn count_to(least: u64, most: u64) -> Value<usize> {
@@ -377,22 +413,6 @@ fn expected(kind: &Kind, key: &Key) -> String {
             Bounds::Any | Bounds::AboveZeroOrInfinite(_) | Bounds::Within(..) => noun.to_owned(),
         },
         _ => unreachable!("a key that is read as a number is declared as one"),
-    }
-}
-
-impl Bounds {
-    /// Whether a number lies within the bounds.
-    fn hold(&self, value: f64) -> bool {
-        match *self {
-            Self::Any => true,
-            Self::FromZero | Self::FromZeroOrInfinite(_) => value >= 0.0,
-            Self::AboveZero | Self::AboveZeroOrInfinite(_) => value > 0.0,
-            Self::Between { least, most, open: [from, to] } => {
-                let above = if from { value > least } else { value >= least };
-                above && if to { value < most } else { value <= most }
-            }
-            Self::Within(range, zero) => range.holds(value) || (zero && value == 0.0),
-        }
     }
 }
 

@@ -1,0 +1,275 @@
+//! Tables of keys, such as those of a case file: each key is declared once, with its name, the accepted values, the default, an
+//! example and the meaning.
+//!
+//! The reader of a table, its messages, documentation, schema and units are derived from the declaration. A struct whose fields are the
+//! keys of a table derives [`Table`] with `asperity-derive`.
+
+use std::fmt;
+
+use crate::error::{Error, Result};
+use crate::units::{Dimension, Range};
+
+/// Keys that belong to one table, or to each of several tables.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section {
+    /// The dotted names of the tables: `lower.wear`, `upper.wear`; empty for the keys above all tables.
+    pub tables: &'static [&'static str],
+    /// The choice that gives the keys a meaning, as in a case file: `form = "sphere"`; empty if they always have one.
+    pub kind: &'static str,
+    /// The keys, in the order of the documentation.
+    pub keys: &'static [Key],
+}
+
+/// A key of the case file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Key {
+    /// The name.
+    pub name: &'static str,
+    /// The accepted values.
+    pub kind: Kind,
+    /// The default.
+    pub default: Fallback,
+    /// An example of the value, as in a case file; empty for a table.
+    pub example: &'static str,
+    /// The meaning, in Markdown.
+    pub text: &'static str,
+    /// Magnitudes of the quantity that exist; a value outside is accepted with a warning.
+    pub exists: Exists,
+}
+
+/// The accepted values of a key. Its text is, for example, `length > 0`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Kind {
+    /// A number in SI, or a text with a unit.
+    Quantity(Dimension, Bounds),
+    /// A number without a unit, with its name in messages.
+    Number(&'static str, Bounds),
+    /// A whole number, both ends included.
+    Count {
+        /// The smallest.
+        least: u64,
+        /// The largest.
+        most: u64,
+    },
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// True or false.
+    Flag,
+    /// A text.
+    Text,
+    /// A table.
+    Table,
+    /// An array of tables.
+    Tables,
+    /// One value for x and y, or an array of two.
+    Pair(&'static Kind),
+    /// A component along x, or an array of the components along x and y.
+    Vector(&'static Kind),
+    /// Values of another form.
+    Other {
+        /// Dimension of its numbers; none for pure numbers.
+        dimension: Option<Dimension>,
+        /// The form, in Markdown.
+        value: &'static str,
+    },
+}
+
+/// The accepted numbers, in addition to the limits of [`Dimension::range`] and [`NUMBERS`](crate::units::NUMBERS).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bounds {
+    /// All finite numbers.
+    Any,
+    /// Values of at least 0.
+    FromZero,
+    /// Values of at least 0, and infinity with its meaning.
+    FromZeroOrInfinite(&'static str),
+    /// Values above 0.
+    AboveZero,
+    /// Values above 0, and infinity with its meaning.
+    AboveZeroOrInfinite(&'static str),
+    /// Values between two numbers.
+    Between {
+        /// The lower end.
+        least: f64,
+        /// The upper end.
+        most: f64,
+        /// Whether each end is excluded.
+        open: [bool; 2],
+    },
+    /// Values in a narrower range of magnitudes, and 0 if true.
+    Within(Range, bool),
+}
+
+/// Default of a key.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fallback {
+    /// Nothing: the key must be given.
+    Required,
+    /// This value, as the case file would write it.
+    Value(&'static str),
+    /// No value; these words describe the behaviour, in Markdown.
+    Absent(&'static str),
+}
+
+/// Magnitudes of a quantity that exist.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Exists {
+    /// Not declared: only for values that are not physical quantities.
+    Undeclared,
+    /// Any value that the bounds of the key allow, for this reason.
+    Any(&'static str),
+    /// Magnitudes from `least` to `most`, SI.
+    Within {
+        /// The smallest magnitude.
+        least: f64,
+        /// The largest magnitude.
+        most: f64,
+        /// The things at both ends: "soft gels to diamond".
+        of: &'static str,
+        /// Other meanings of the same number: a unit, or a key as `dimensionless = {}`.
+        slips: &'static [&'static str],
+    },
+}
+
+/// A table of keys whose struct is its dictionary.
+pub trait Table: Sized {
+    /// The keys, in the order of the fields.
+    const SECTION: Section;
+
+    /// Reads the keys of a table.
+    ///
+    /// # Errors
+    /// The error of the source for a missing key or a value that is not accepted, at its place.
+    fn read(source: &dyn Source) -> Result<Self>;
+}
+
+/// A place from which the keys of a table are read. Each method returns `None` for a key that is not given.
+pub trait Source {
+    /// Reads a number, or a quantity in SI, within the bounds of its kind, which a key of [`Kind::Other`] does not have itself.
+    ///
+    /// # Errors
+    /// The value is of another kind, or outside the bounds.
+    fn real(&self, key: &Key, kind: &Kind) -> Result<Option<f64>>;
+
+    /// Reads a count.
+    ///
+    /// # Errors
+    /// As [`Self::real`].
+    fn count(&self, key: &Key) -> Result<Option<usize>>;
+
+    /// Reads true or false.
+    ///
+    /// # Errors
+    /// As [`Self::real`].
+    fn flag(&self, key: &Key) -> Result<Option<bool>>;
+
+    /// Reads one of the words of a key, as its index.
+    ///
+    /// # Errors
+    /// As [`Self::real`].
+    fn word(&self, key: &Key) -> Result<Option<usize>>;
+
+    /// Returns the error for a missing key.
+    fn missing(&self, key: &Key) -> Error;
+}
+
+impl Section {
+    /// Whether it declares a key of this name.
+    pub fn has(&self, key: &str) -> bool {
+        self.keys.iter().any(|known| known.name == key)
+    }
+
+    /// Whether its keys require a choice of `of`, such as `form = "sphere"` for `form`.
+    pub fn suits(&self, kind: &str) -> bool {
+        self.kind.is_empty()
+            || kind.strip_prefix(self.kind).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
+    }
+}
+
+impl Kind {
+    /// Dimension of its numbers; none for pure numbers and for other values.
+    pub fn dimension(&self) -> Option<Dimension> {
+        match self {
+            Self::Quantity(dimension, _) => Some(*dimension),
+            Self::Other { dimension, .. } => *dimension,
+            Self::Pair(item) | Self::Vector(item) => item.dimension(),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Quantity(dimension, bounds) => write!(f, "{}{bounds}", bare_noun(dimension.noun())),
+            Self::Number(_, bounds) => write!(f, "number{bounds}"),
+            Self::Count { least, most: u64::MAX } => write!(f, "whole number ≥ {least}"),
+            Self::Count { least, most } => write!(f, "whole number, {least} … {most}"),
+            Self::Choice(words) => {
+                f.write_str(&words.iter().map(|word| format!("`\"{word}\"`")).collect::<Vec<_>>().join(", "))
+            }
+            Self::Flag => f.write_str("`true`, `false`"),
+            Self::Text => f.write_str("text"),
+            Self::Table => f.write_str("table"),
+            Self::Tables => f.write_str("tables"),
+            Self::Pair(item) => write!(f, "{item}, or two: `[x, y]`"),
+            Self::Vector(item) => write!(f, "{item} along x, or `[x, y]`"),
+            Self::Other { value, .. } => f.write_str(value),
+        }
+    }
+}
+
+impl Bounds {
+    /// Whether a number lies within the bounds.
+    pub fn hold(&self, value: f64) -> bool {
+        match *self {
+            Self::Any => true,
+            Self::FromZero | Self::FromZeroOrInfinite(_) => value >= 0.0,
+            Self::AboveZero | Self::AboveZeroOrInfinite(_) => value > 0.0,
+            Self::Between { least, most, open: [from, to] } => {
+                let above = if from { value > least } else { value >= least };
+                above && if to { value < most } else { value <= most }
+            }
+            Self::Within(range, zero) => range.holds(value) || (zero && value == 0.0),
+        }
+    }
+}
+
+/// Removes the article from a noun.
+fn bare_noun(noun: &str) -> &str {
+    noun.split_once(' ').map_or(noun, |(_, noun)| noun)
+}
+
+/// The text in the tables of the documentation, after a noun: ` > 0`.
+impl fmt::Display for Bounds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Any => Ok(()),
+            Self::FromZero => f.write_str(" ≥ 0"),
+            Self::FromZeroOrInfinite(meaning) => write!(f, " ≥ 0, or `inf`: {meaning}"),
+            Self::AboveZero => f.write_str(" > 0"),
+            Self::AboveZeroOrInfinite(meaning) => write!(f, " > 0, or `inf`: {meaning}"),
+            Self::Between { least, most, open: [false, false] } => write!(f, ", {least} … {most}"),
+            Self::Between { least, most, open: [from, to] } => {
+                write!(
+                    f,
+                    " {} {least}, {} {most}",
+                    ["≥", ">"][usize::from(from)],
+                    ["≤", "<"][usize::from(to)]
+                )
+            }
+            Self::Within(range, zero) => write!(f, ", {}{range}", if zero { "0 or " } else { "" }),
+        }
+    }
+}
+
+/// The text in the tables of the documentation.
+impl fmt::Display for Fallback {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Required => f.write_str("required"),
+            Self::Value(value) => write!(f, "`{value}`"),
+            Self::Absent(text) => f.write_str(text),
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! What a capability is.
+
+use std::fmt::Debug;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::views::{Curve, Line, Map};
+use super::{Capabilities, Observations};
+use crate::error::Result;
+use crate::grid::Field;
+use crate::material::Material;
+use crate::motion::{ObservedContact, Pair, SweepRecord};
+use crate::operator::Boundary;
+use crate::solver::Params;
+use crate::units::{MetrePerSecond, Pascal};
+use asperity_base::record::{Column, Record};
+use asperity_base::table::Table;
+
+/// Something that is computed from each solved contact and changes nothing. Its struct is the table of the case.
+pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Sync + 'static {
+    /// Name of its table in a case and in a summary, of its rows in `NAME.csv`, and of its field files `fields/NAME-NNNN.h5`.
+    const NAME: &'static str;
+    /// Heading of its section on the page.
+    const TITLE: &'static str;
+    /// Its meaning in the list of the tables of a case.
+    const MEANING: &'static str;
+    /// Name of what it computes in the rows of `asperity check`: "conducts".
+    const VERB: &'static str;
+
+    /// A row of its table: what it has computed from a contact, or from a contact along one axis.
+    type Row: Row;
+    /// What computes the rows.
+    type Observer: Observer<Row = Self::Row>;
+
+    /// Combinations that exclude it, and what it requires.
+    const RULES: &'static [Rule<Self>];
+    /// Its curves. The first answers the question that the user asked.
+    const CURVES: &'static [Curve<Self::Row>];
+    /// The maps of its fields.
+    const MAPS: &'static [Map<Self::Row>];
+    /// Keys of a body that it uses, without the others of their group.
+    const CONSTANTS: &'static [&'static str];
+    /// Prefixes of its columns in the table of a study, see [`Self::prefix`].
+    const PREFIXES: &'static [&'static str];
+
+    /// Interval of the positions of a pass, or of the increments, updates or points, that are looked at: 1 for all of them; 0 for
+    /// the position of full overlap of each pass, or for the last contact.
+    fn every(&self) -> usize;
+
+    /// Prepares the computation for the contacts of a pair of bodies.
+    ///
+    /// # Errors
+    /// The reason why it is not possible.
+    fn begin(&self, given: &Given<'_>) -> Result<Self::Observer>;
+
+    /// Returns the rows of a summary: those of the last contact, or of a motion what tells of its passes.
+    fn summary(rows: &[Self::Row]) -> Vec<Self::Row>;
+
+    /// Describes what is asked for, for `asperity check`.
+    fn describe(&self, surroundings: &Surroundings) -> String;
+
+    /// Returns the numbers of a row, the answer to the question that the user asked first.
+    fn numbers(row: &Self::Row) -> Vec<Line>;
+
+    /// Returns reasons in the rows not to trust them. The `points` are those of a sweep.
+    fn doubts(&self, rows: &[Self::Row], surroundings: &Surroundings, points: &[SweepRecord]) -> Vec<String>;
+
+    /// Returns the prefix of the columns of a row in the table of a study, one of [`Self::PREFIXES`]; empty for a column that needs
+    /// none.
+    fn prefix(row: &Self::Row, column: &str) -> &'static str;
+
+    /// Work of a contact for each cell and log₂ of their number, in units of a convolution with free boundary. `boundary` is the
+    /// work of one with the boundary of the case, and `digits` those of the tolerance over six.
+    fn effort(&self, boundary: f64, digits: f64) -> f64;
+
+    /// Memory of the computation from a contact, bytes.
+    fn memory(shape: [usize; 2]) -> f64;
+}
+
+/// A capability in the list.
+pub trait Listed: Capability {
+    /// Returns its table, if a case asks for it.
+    fn asked(all: &Capabilities) -> Option<&Self>;
+
+    /// Asks for it.
+    fn ask(self, all: &mut Capabilities);
+
+    /// Returns its rows.
+    fn rows(all: &Observations) -> &[Self::Row];
+
+    /// Sets its rows.
+    fn add(all: &mut Observations, rows: Vec<Self::Row>);
+}
+
+/// A row of a capability.
+pub trait Row: Record + DeserializeOwned + Clone + PartialEq + Debug + Send + Sync {
+    /// Its groups of columns, by the names of their records.
+    const GROUPS: &'static [(&'static str, &'static [Column])];
+
+    /// Pass of a motion, from 1; `None` for a static contact.
+    fn pass(&self) -> Option<usize>;
+
+    /// Mean pressure over the apparent area.
+    fn mean_pressure(&self) -> Pascal;
+}
+
+/// Computes the rows of a capability.
+pub trait Observer: Send + Sync {
+    /// A row.
+    type Row;
+
+    /// Computes the rows and the fields of a contact.
+    ///
+    /// # Errors
+    /// The reason why they cannot be computed.
+    fn observe(
+        &self,
+        place: Place,
+        contact: &ObservedContact<'_>,
+    ) -> Result<(Vec<Self::Row>, Vec<NamedField>)>;
+}
+
+/// Place of a contact in its course.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Place {
+    /// Number of the pass, from 1; `None` for a static contact.
+    pub pass: Option<usize>,
+    /// Number of the position, increment, update or point, from 1, but from 0 for updates; 1 for a contact in one step.
+    pub step: usize,
+}
+
+/// A field with its name in files.
+#[derive(Debug, Clone)]
+pub struct NamedField {
+    /// The name.
+    pub name: &'static str,
+    /// Unit of the values, SI.
+    pub unit: &'static str,
+    /// The values, `[ix, iy]`.
+    pub values: Field,
+}
+
+/// Constants of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyConstants {
+    /// Elastic constants and the coating.
+    pub material: Material,
+    /// Thermal conductivity, W/(m K); `None` if it is unknown.
+    pub conductivity: Option<f64>,
+    /// Electrical resistivity, Ω m; `None` if it is unknown.
+    pub resistivity: Option<f64>,
+}
+
+/// What surrounds a contact: the constants of both bodies, and what they do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Surroundings {
+    /// The lower and the upper body.
+    pub bodies: [BodyConstants; 2],
+    /// Continuation of the surfaces beyond the grid.
+    pub boundary: Boundary,
+    /// Whether the bodies move over each other in passes.
+    pub moves: bool,
+    /// Sum of the speeds at which both bodies move past the contact; `None` if it is unknown or they are at rest.
+    pub dragging_speed: Option<MetrePerSecond>,
+    /// Whether there is friction.
+    pub has_friction: bool,
+}
+
+impl Surroundings {
+    /// Describes the contacts that an interval selects.
+    pub fn often(&self, every: usize) -> String {
+        match (self.moves, every) {
+            (true, 0) => "once a pass".to_owned(),
+            (true, 1) => "at each position".to_owned(),
+            (true, every) => format!("at every {every}th position"),
+            (false, 0) => "of the last contact".to_owned(),
+            (false, 1) => "of each contact".to_owned(),
+            (false, every) => format!("of every {every}th contact"),
+        }
+    }
+}
+
+/// What a capability is given before the first contact.
+#[derive(Debug)]
+pub struct Given<'a> {
+    /// The bodies.
+    pub pair: &'a Pair,
+    /// What surrounds the contacts.
+    pub surroundings: Surroundings,
+    /// Parameters of the solver.
+    pub params: Params,
+}
+
+/// A combination that excludes a capability `C`, or something that it requires.
+#[derive(Debug)]
+pub struct Rule<C: 'static> {
+    /// The excluded entry, in Markdown.
+    pub this: &'static str,
+    /// The entry that excludes it, in Markdown.
+    pub with: &'static str,
+    /// The message of the error.
+    pub message: &'static str,
+    /// The hint.
+    pub hint: &'static str,
+    /// The dotted key that the error points to, and without which the rule is not broken.
+    pub at: &'static str,
+    /// Keys that break the rule, as written above the tables of a case file.
+    pub example: &'static [&'static str],
+    /// Whether the rule is broken.
+    pub broken: fn(&C, &Surroundings) -> bool,
+}

@@ -1,0 +1,142 @@
+//! The conductance of a contact in words, curves and maps.
+
+use super::{ConductanceRecord, Joint, Kind, MAX_CORRELATED_FRACTION};
+use crate::units::{Dimension, format, format_number};
+use crate::with::Surroundings;
+use crate::with::views::{Curve, Line, Map, Scale, Series};
+use asperity_base::Choice;
+
+/// Joint conductance, with that of the spots among gas, and that of clean spots by the correlation.
+pub(super) const CURVES: &[Curve<ConductanceRecord>] = &[Curve {
+    names: ["joint_conductance", "joint_conductance_positions"],
+    title: "joint conductance",
+    column: |row| row.quantities.joint_column(),
+    series: &[
+        Series {
+            name: "computed",
+            has: |_| true,
+            value: |row| row.quantities.joint_conductance,
+            is_dashed: false,
+            is_beside: false,
+            may_end: false,
+        },
+        Series {
+            name: "through the spots",
+            has: |row| row.gas_share > 0.0,
+            value: |row| row.quantities.joint_conductance.map(|joint| joint * row.spot_share),
+            is_dashed: false,
+            is_beside: true,
+            may_end: false,
+        },
+        Series {
+            name: "correlation of clean spots",
+            has: |row| row.film_share == 0.0,
+            value: |row| row.quantities.joint_correlation,
+            is_dashed: true,
+            is_beside: true,
+            may_end: false,
+        },
+    ],
+}];
+
+/// The flux.
+pub(super) const MAPS: &[Map<ConductanceRecord>] = &[Map {
+    field: "flux",
+    title: "flux through the contact",
+    quantity: "flux",
+    unit: |row| flux_unit(row.quantities.kind),
+    scale: Scale::FromZeroOrLogarithmic,
+    mark: |_, _| None,
+    marked: "",
+}];
+
+/// Unit of a flux.
+pub(super) fn flux_unit(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Thermal => "W/m²",
+        Kind::Electrical => "A/m²",
+    }
+}
+
+pub(super) fn describe(joint: &Joint, surroundings: &Surroundings) -> String {
+    let film =
+        joint.film.map_or(String::new(), |film| format!(", film {}", format(film, joint.kind.insulance())));
+    let gas = joint.gas.map_or(String::new(), |gas| {
+        let jump = format(joint.jump, Dimension::Length);
+        format!(", gas {} with a jump distance of {jump}", format(gas, Dimension::Conductivity))
+    });
+    format!("{}{film}{gas}; {}", joint.kind.word(), surroundings.often(joint.every))
+}
+
+pub(super) fn numbers(row: &ConductanceRecord) -> Vec<Line> {
+    let quantities = &row.quantities;
+    let (kind, joint) = (quantities.kind, quantities.joint_conductance);
+    let mut lines = conducts(kind, quantities.conductance, joint);
+    if let (Some(joint), Some(line)) = (joint.filter(|joint| *joint > 0.0), lines.get_mut(1)) {
+        if row.gas_share > 0.0 {
+            line.value += &format!(", of which the spots {}", of_area(kind, joint * row.spot_share));
+        }
+        match quantities.joint_correlation {
+            Some(h) if row.film_share == 0.0 => {
+                line.value += &format!(", spots by the correlation {}", of_area(kind, h));
+            }
+            None if row.contact_fraction() > MAX_CORRELATED_FRACTION => {
+                line.value += &format!(
+                    " ({:.0} % of the area touch: beyond the {:.0} % of the correlations)",
+                    100.0 * row.contact_fraction(),
+                    100.0 * MAX_CORRELATED_FRACTION
+                );
+            }
+            _ => {}
+        }
+    }
+    let cells = format_number(row.median_spot_cells);
+    lines.push(Line::detail(
+        "spots",
+        format!("{}, with {cells} cells in the median", format_number(row.spots)),
+    ));
+    let share = |share: f64| format!("{} %", format_number((1000.0 * share).round() / 10.0));
+    lines.push(Line::detail("shares", shares([row.spot_share, row.gas_share, row.film_share].map(share))));
+    lines
+}
+
+/// Describes the shares of spots, gas and film.
+pub fn shares([spots, gas, film]: [String; 3]) -> String {
+    format!("spots {spots}, gas {gas} of what passes; film {film} of the resistance")
+}
+
+/// Describes a conductance and a joint conductance.
+pub fn conducts(kind: Kind, conductance: Option<f64>, joint: Option<f64>) -> Vec<Line> {
+    let whole = match kind {
+        Kind::Thermal => Dimension::ThermalConductance,
+        Kind::Electrical => Dimension::ElectricalConductance,
+    };
+    let Some(conductance) = conductance else {
+        return vec![Line::new("conductance", "no resistance: all cells touch without a film")];
+    };
+    let mut value = format(conductance, whole);
+    if conductance > 0.0 {
+        value += &format!(", resistance {}", resistance(kind, conductance.recip()));
+    }
+    let mut lines = vec![Line::new("conductance", value)];
+    lines.extend(joint.map(|joint| Line::new("joint conductance", of_area(kind, joint))));
+    lines
+}
+
+/// Writes a resistance with its unit.
+pub fn resistance(kind: Kind, value: f64) -> String {
+    let dimension = match kind {
+        Kind::Thermal => Dimension::ThermalResistance,
+        Kind::Electrical => Dimension::ElectricalResistance,
+    };
+    format(value, dimension)
+}
+
+/// Writes a conductance of an area with its unit.
+fn of_area(kind: Kind, value: f64) -> String {
+    let dimension = match kind {
+        Kind::Thermal => Dimension::ThermalConductanceOfArea,
+        Kind::Electrical => Dimension::ElectricalConductanceOfArea,
+    };
+    format(value, dimension)
+}

@@ -1,0 +1,75 @@
+//! The table `[flow]`: the fluid, the pressure that drives it, and the gap beyond the grid.
+
+use serde::Serialize;
+
+use super::{Along, Ends, Fluid};
+use crate::operator::Boundary;
+use crate::units::{Pascal, PascalSecond};
+use asperity_base::table::Exists;
+use asperity_derive::Table;
+
+/// The leakage of a fluid through the gap of each contact.
+#[derive(Table, Debug, Clone, Copy, PartialEq, Serialize)]
+#[table("flow")]
+#[non_exhaustive]
+pub struct Leakage {
+    /// Viscosity of the fluid, constant.
+    #[key(quantity = Viscosity, range = AboveZero, example = "\"80 mPa s\"", exists = VISCOSITY)]
+    pub viscosity: PascalSecond,
+    /// Pressure difference that drives the leakage.
+    #[key(quantity = Pressure, range = FromZero, default = 1e5, example = "\"1 bar\"", exists = PRESSURE)]
+    pub pressure: Pascal,
+    /// Direction of the pressure gradient.
+    #[key(choice, default = Along::Both, example = "\"x\"")]
+    pub along: Along,
+    /// `"periodic"`: the gap repeats itself, under a mean gradient of pressure; `"reservoirs"`: the fluid has two pressures at the ends of the
+    /// grid, and the sides are closed along a free axis.
+    #[key(
+        choice,
+        absent = "`\"periodic\"` along periodic axes, `\"reservoirs\"` along free ones",
+        example = "\"reservoirs\""
+    )]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ends: Option<Ends>,
+    /// Whether the fluid is an ideal gas at constant temperature; needs `outlet`.
+    #[key(flag, default = false, example = "true")]
+    pub gas: bool,
+    /// Absolute pressure of a gas at the outlet, to which its leakage refers.
+    #[key(
+        quantity = Pressure,
+        range = AboveZero,
+        absent = "with a gas: must be given",
+        example = "\"1 bar\"",
+        exists = PRESSURE
+    )]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub outlet: Option<Pascal>,
+    /// Interval of the positions of a pass, or of the increments, updates or points, whose flow is computed; 0: once a pass, where the left
+    /// edges are flush, or for the last contact alone.
+    #[key(count = 0, default = 1, example = "4")]
+    pub every: usize,
+}
+
+/// Viscosities.
+const VISCOSITY: Exists =
+    Exists::Within { least: 1e-6, most: 30.0, of: "gases to cold gear oils", slips: &["mPa s", "uPa s"] };
+/// Pressures of fluids.
+const PRESSURE: Exists = Exists::Within {
+    least: 1e-3,
+    most: 4e9,
+    of: "vacuum pumps to elastohydrodynamic contacts",
+    slips: &["bar", "MPa"],
+};
+
+impl Leakage {
+    /// Returns the fluid with the difference of its pressure.
+    pub fn fluid(&self) -> Fluid {
+        Fluid { viscosity: self.viscosity, drop: self.pressure, outlet: self.outlet }
+    }
+
+    /// Returns how the gap of a contact with this boundary goes on beyond the grid, for a flow along `axis`.
+    pub fn ends_along(&self, axis: usize, boundary: Boundary) -> Ends {
+        let by_boundary = if boundary.repeats(axis) { Ends::Periodic } else { Ends::Reservoirs };
+        self.ends.unwrap_or(by_boundary)
+    }
+}

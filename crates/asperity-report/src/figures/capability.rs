@@ -1,0 +1,199 @@
+//! Figures of the capabilities: the curves and maps that each declares.
+
+use asperity_base::units::{Dimension, format};
+use asperity_base::{Field, Grid};
+use asperity_contact::each_capability;
+use asperity_contact::with::views::{Curve, Map as MapOf, Scale, Series as SeriesOf};
+use asperity_contact::with::{Capability, Listed, Row};
+use asperity_study::Results;
+use asperity_study::io::fields::Fields;
+
+use super::Curves;
+use super::sheet::Sheet;
+use super::stored::StoredArray;
+use crate::draw::{Axis, Chart, Colours, Map, Maps, Mark, Quantity, Series, Unit};
+use crate::error::Result;
+
+/// From such a ratio of the largest to the smallest value an axis is logarithmic.
+const DECADE: f64 = 10.0;
+/// Relative change of the load from which the curves are drawn over the mean pressure.
+const LOADED: f64 = 0.01;
+
+/// Draws the figures. The curves have all contacts, `of_all`, and the maps the last one, `of`.
+///
+/// `done` are the passes of a motion that are done before the first and after each of the computed ones.
+pub(super) fn draw(results: &Results, done: &[usize], of: &str, of_all: &str, sheet: &mut Sheet) -> Result {
+    let case = results.case()?;
+    each_capability!(C => if C::asked(&case.with).is_some() {
+        let rows = results.rows::<C>()?;
+        curves::<C>(&rows, done).into_iter().try_for_each(|curves| sheet.add_curves(curves, of_all))?;
+        // The fields of a static contact are those of its last contact.
+        if rows.iter().all(|row| row.pass().is_none()) {
+            maps::<C>(&results.static_fields()?, &C::summary(&rows), of, sheet)?;
+        }
+    });
+    Ok(())
+}
+
+/// The maps of the last contact, whose `rows` there are.
+fn maps<C: Capability>(fields: &Fields, rows: &[C::Row], of: &str, sheet: &mut Sheet) -> Result {
+    let (names, Some(row)) = (fields.names()?, rows.last()) else { return Ok(()) };
+    for map in C::MAPS.iter().filter(|map| names.iter().any(|name| name == map.field)) {
+        let stored = StoredArray::read(fields, map.field)?;
+        if stored.field.iter().all(|value| *value == 0.0) {
+            continue;
+        }
+        let quantity = Quantity::new(map.quantity, Unit::Of((map.unit)(row)));
+        let place = rows.iter().find_map(|row| (map.mark)(row, map.field));
+        sheet.add(map.field, map.title, of, || {
+            Ok(field_map(map, &stored.field, &stored.grid, quantity, place))
+        })?;
+    }
+    Ok(())
+}
+
+/// Whether a map with this scale is logarithmic, and down to which share of its largest value, if it has a limit.
+pub(crate) fn logarithmic(scale: Scale, field: &Field) -> Option<Option<f64>> {
+    match scale {
+        Scale::FromZeroOrLogarithmic => field.iter().all(|value| *value > 0.0).then_some(None),
+        Scale::Logarithmic(least) => Some(Some(least)),
+    }
+}
+
+/// The map of a field, with a mark at its place.
+pub fn field_map<'a, R>(
+    map: &MapOf<R>,
+    field: &'a Field,
+    grid: &Grid,
+    quantity: Quantity,
+    place: Option<[f64; 2]>,
+) -> Maps<'a> {
+    let draw = |colours| Map::new("", field, grid, quantity, colours);
+    let drawn = match logarithmic(map.scale, field) {
+        None => draw(Colours::Pressure),
+        Some(None) => draw(Colours::Logarithmic),
+        Some(Some(least)) => {
+            let largest = field.iter().copied().fold(0.0, f64::max);
+            draw(Colours::Logarithmic).range([least * largest, largest])
+        }
+    };
+    Maps::new(vec![match place {
+        Some(place) => drawn.marked(place, map.marked),
+        None => drawn,
+    }])
+}
+
+/// The curves of a capability over the loads of a sweep, or over the passes, and over the contacts of the last pass; none for a single
+/// contact.
+pub(crate) fn curves<C: Capability>(rows: &[C::Row], done: &[usize]) -> Vec<Curves> {
+    let last = rows.last().and_then(Row::pass);
+    let of_last: Vec<&C::Row> = rows.iter().filter(|row| row.pass() == last).collect();
+    let mut curves = Vec::new();
+    for curve in C::CURVES {
+        let over_passes = over_passes(curve, rows, done);
+        let name = curve.names[usize::from(over_passes.is_some())];
+        curves.extend(over_passes);
+        curves.extend(over_contacts(curve, &of_last, name));
+    }
+    curves
+}
+
+/// A curve over the passes, with the mean over the contacts of each; none for a single pass.
+fn over_passes<R: Row>(curve: &Curve<R>, rows: &[R], done: &[usize]) -> Option<Curves> {
+    let after = |pass: Option<usize>| pass.and_then(|pass| done.get(pass)).map(|done| *done as f64);
+    let points = |series: &SeriesOf<R>| -> Vec<[f64; 2]> {
+        let rows: Vec<_> = rows.iter().filter(|row| (series.has)(row)).collect();
+        let mean = |rows: &[&R]| {
+            let sum = rows.iter().map(|row| (series.value)(row)).sum::<Option<f64>>();
+            Some([after(rows[0].pass())?, sum.map_or(f64::NAN, |sum| sum / rows.len() as f64)])
+        };
+        rows.chunk_by(|one, other| one.pass() == other.pass()).filter_map(mean).collect()
+    };
+    let drawn = curve.series.iter().filter(|series| !series.is_beside);
+    let drawn = drawn.map(|series| (series, points(series))).filter(|(_, points)| !points.is_empty());
+    let drawn: Vec<_> = drawn.collect();
+    if drawn.iter().all(|(_, points)| points.len() < 2) {
+        return None;
+    }
+    // A single curve needs no name.
+    let is_alone = drawn.len() == 1;
+    let series = drawn.into_iter().map(|(series, points)| {
+        let name = if is_alone { "" } else { series.name };
+        Series::new(name, points, if series.is_dashed { Mark::Dashed } else { Mark::LineAndPoints })
+    });
+    let (x, y) = (Axis::linear("pass", Unit::Count), Axis::of(curve.title, (curve.column)(rows.first()?)));
+    let chart = Chart::new("", x, y, series.collect());
+    Some(Curves::new(curve.names[0], format!("{} over the passes", curve.title), chart))
+}
+
+/// A curve over the contacts; none for a single one.
+fn over_contacts<R: Row>(curve: &Curve<R>, rows: &[&R], name: &'static str) -> Option<Curves> {
+    let of =
+        |series: &SeriesOf<R>| -> Vec<&R> { rows.iter().copied().filter(|row| (series.has)(row)).collect() };
+    if curve.series.iter().all(|series| of(series).len() < 2) {
+        return None;
+    }
+    let order = Order::of(rows);
+    let series = curve.series.iter().filter_map(|series| {
+        let rows = of(series);
+        let mark = match rows.iter().filter(|row| (series.value)(row).is_some()).count() {
+            0 => return None,
+            // A single number has no line.
+            2.. if series.is_dashed => Mark::Dashed,
+            _ => Mark::LineAndPoints,
+        };
+        let name = format!("{}{}", series.name, order.end(series, &rows));
+        Some(Series::new(name, order.points(series, &rows), mark))
+    });
+    let series = series.collect();
+    let vertical = Axis { log: order.log, ..Axis::of(curve.title, (curve.column)(rows.first()?)) };
+    let over = if order.by_pressure { " over mean pressure" } else { ", contact after contact" };
+    let chart = Chart::new("", order.axis(), vertical, series);
+    Some(Curves::new(name, format!("{}{over}", curve.title), chart))
+}
+
+/// How the contacts are lined up: by their mean pressure, or one after another.
+struct Order {
+    by_pressure: bool,
+    log: bool,
+}
+
+impl Order {
+    fn of<R: Row>(rows: &[&R]) -> Self {
+        let pressures = || rows.iter().map(|row| row.mean_pressure());
+        let [least, most] = [f64::min, f64::max].map(|pick| pressures().fold(f64::NAN, pick));
+        let by_pressure = most > (1.0 + LOADED) * least;
+        Self { by_pressure, log: by_pressure && least > 0.0 && most >= DECADE * least }
+    }
+
+    fn axis(&self) -> Axis {
+        match self.by_pressure {
+            true => Axis { log: self.log, ..Axis::of("mean pressure", "mean_pressure") },
+            false => Axis::linear("contact", Unit::Number),
+        }
+    }
+
+    /// The points of a curve. A value of 0 has no logarithm.
+    fn points<R: Row>(&self, series: &SeriesOf<R>, rows: &[&R]) -> Vec<[f64; 2]> {
+        let shown = |value: f64| if value > 0.0 || !self.log { value } else { f64::NAN };
+        let point = |(index, row): (usize, &&R)| {
+            let place = if self.by_pressure { row.mean_pressure() } else { index as f64 + 1.0 };
+            [place, shown((series.value)(row).unwrap_or(f64::NAN))]
+        };
+        let mut points: Vec<[f64; 2]> = rows.iter().enumerate().map(point).collect();
+        points.sort_by(|one, other| one[0].total_cmp(&other[0]));
+        points
+    }
+
+    /// Names the pressure from which on the values of a curve are 0, after its name.
+    fn end<R: Row>(&self, series: &SeriesOf<R>, rows: &[&R]) -> String {
+        let value = |row: &&&R| (series.value)(row).unwrap_or(0.0);
+        let open = rows.iter().filter(|row| value(row) > 0.0).map(|row| row.mean_pressure());
+        let open = open.fold(0.0, f64::max);
+        let closed = rows.iter().map(|row| row.mean_pressure()).filter(|pressure| *pressure > open);
+        let end = closed.reduce(f64::min).filter(|_| self.by_pressure && series.may_end);
+        end.map_or(String::new(), |pressure| {
+            format!(", closed from {}", format(pressure, Dimension::Pressure))
+        })
+    }
+}

@@ -1,0 +1,98 @@
+//! The sections of the capabilities: the numbers, maps and curves that each declares.
+
+use asperity_contact::each_capability;
+use asperity_contact::with::views::Line;
+use asperity_contact::with::{Capability, Listed, Row};
+use serde_json::Value;
+
+use super::Section;
+use super::curves;
+use super::found::PageData;
+use super::html::{escaped, facts};
+use super::packed::QuantisedField;
+use super::plane::{self, Plane, Shades};
+use crate::draw::Unit;
+use crate::figures;
+
+/// Smallest value with a colour of its own over the largest, on a map whose scale has no limit.
+const LEAST: f64 = 1e-6;
+
+/// The sections of the capabilities that the case asks for, and the data that they show.
+pub(super) fn sections(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Vec<Section> {
+    let mut sections = Vec::new();
+    each_capability!(C => if C::asked(&found.case.with).is_some() {
+        sections.push((C::NAME, C::TITLE, Some(section::<C>(found, data, charts))));
+    });
+    sections
+}
+
+/// The answers of the capabilities: the first number of each row, with what was asked for.
+pub(super) fn answers(found: &PageData) -> Vec<(&'static str, Line)> {
+    let mut answers = Vec::new();
+    each_capability!(C => if C::asked(&found.case.with).is_some() {
+        let rows = C::summary(&found.results.rows::<C>().unwrap_or_default());
+        answers.extend(of_last::<C>(&rows).iter().filter_map(|row| {
+            Some((C::MEANING, C::numbers(row).into_iter().next()?))
+        }));
+    });
+    answers
+}
+
+/// The rows of the last contact, or of the last pass.
+fn of_last<C: Capability>(rows: &[C::Row]) -> Vec<C::Row> {
+    let last = rows.last().and_then(Row::pass);
+    rows.iter().filter(|row| row.pass() == last).cloned().collect()
+}
+
+fn section<C: Capability>(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> String {
+    let rows = found.kept(found.results.rows::<C>()).unwrap_or_default();
+    let done = figures::done(&found.kept(found.results.passes()).unwrap_or_default());
+    let last = of_last::<C>(&C::summary(&rows));
+    let numbers = last.iter().flat_map(C::numbers);
+    let numbers: Vec<_> = numbers.map(|line| (line.name.into_owned(), escaped(&line.value))).collect();
+    let mut html = facts(numbers);
+    if !found.moves() && found.is_finished() {
+        let planes = planes::<C>(found, &last);
+        if !planes.is_empty() {
+            html += &plane::html(planes, data);
+        }
+    }
+    html + &curves::html(figures::curves_of_capability::<C>(&rows, &done), charts)
+}
+
+/// The maps of the last contact.
+fn planes<C: Capability>(found: &mut PageData, rows: &[C::Row]) -> Vec<Plane> {
+    let Some(fields) = found.fields(found.results.static_fields()) else { return Vec::new() };
+    let plane = |map: &asperity_contact::with::views::Map<C::Row>| -> Option<Plane> {
+        let (stored, row) = (fields.read(map.field).ok()?, rows.last()?);
+        let pitch = [stored.pitch[0], stored.pitch[1]];
+        let field = stored.into_field()?;
+        if field.iter().all(|value| *value <= 0.0) {
+            return None;
+        }
+        let scale = figures::logarithmic(map.scale, &field);
+        Some(Plane {
+            file: map.field.to_owned(),
+            title: sentence(map.title),
+            map: match scale {
+                Some(least) => QuantisedField::logarithmic(&field, pitch, least.unwrap_or(LEAST)),
+                None => QuantisedField::positive(&field, pitch),
+            },
+            x: 0.0,
+            down: false,
+            quantity: map.quantity,
+            unit: Unit::Of((map.unit)(row)),
+            shades: if scale.is_some() { Shades::Logarithmic } else { Shades::FromZero },
+            spans: Vec::new(),
+            mark: rows.iter().find_map(|row| (map.mark)(row, map.field)).map(|place| (place, map.marked)),
+        })
+    };
+    C::MAPS.iter().filter_map(plane).collect()
+}
+
+/// A name as a sentence.
+pub(super) fn sentence(name: &str) -> String {
+    let mut characters = name.chars();
+    let first = characters.next().map(|first| first.to_uppercase().collect::<String>()).unwrap_or_default();
+    format!("{first}{}.", characters.as_str())
+}

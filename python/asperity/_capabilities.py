@@ -1,0 +1,125 @@
+"""The capabilities: what they compute from a contact, and what they have found in the contacts of a case."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from . import _conductance, _gap_flow
+from ._solved import Solved
+from ._table import Table, by_direction, records
+from ._units import Quantity
+
+
+class Observed:
+    """What the capabilities of a case have found in its contacts."""
+
+    _found: dict[str, list[dict[str, Any]]]
+
+    @property
+    def conductances(self) -> Table:
+        """A record for each contact whose conductance was asked for, with the columns of `conductance.csv`, else empty."""
+        return records(self._found.get("conductance", []), [])
+
+    @property
+    def leakages(self) -> dict[str, Table]:
+        """The flow through the gap under a pressure that falls along ``"x"`` and along ``"y"``: a table each.
+
+        They have the columns of `flow.csv`. Empty if it was not asked for.
+        """
+        return by_direction(self._found.get("flow", []))
+
+
+class OfContact(Observed, Solved):
+    """What the capabilities compute from a contact."""
+
+    def conductance(
+        self,
+        *,
+        conductivity: Quantity | Sequence[Quantity],
+        kind: _conductance.Kind = "thermal",
+        film: Quantity | None = None,
+        gas: Quantity | None = None,
+        jump: Quantity | None = None,
+        tolerance: float = 1e-6,
+        threads: int | None = None,
+    ) -> _conductance.Conductance:
+        """Compute the thermal or electrical conductance of this contact.
+
+        Cells in contact, gap, pitch and boundary are those of the contact. The bodies are half-spaces without coatings: for coated bodies
+        use the keyword `conductance` of :func:`contact`.
+
+        Parameters
+        ----------
+        conductivity, kind, film, gas, jump, tolerance, threads
+            As in :func:`asperity.conductance`.
+
+        Returns
+        -------
+        Conductance
+
+        Raises
+        ------
+        asperity.errors.BadInput, asperity.errors.NotConverged
+            For the same reasons as :func:`asperity.conductance`.
+
+        Examples
+        --------
+        >>> import asperity as asp
+        >>> steel = asp.Material(young="210 GPa", poisson=0.3)
+        >>> c = asp.contact(asp.form.flat((64, 64), pitch="6 um"), asp.form.sphere("10 mm"), steel, steel, load="10 N")
+        >>> f"{c.conductance(conductivity='46 W/(m K)').conductance:.3g} W/K"
+        '0.00797 W/K'
+        """
+        return _conductance.conductance(
+            self, conductivity=conductivity, kind=kind, film=film, gas=gas, jump=jump, tolerance=tolerance, threads=threads
+        )
+
+    def flow(
+        self,
+        *,
+        viscosity: Quantity | None = None,
+        pressure: Quantity | None = None,
+        outlet: Quantity | None = None,
+        ends: _gap_flow.Ends | None = None,
+        sides: _gap_flow.Sides | None = None,
+        faces: _gap_flow.Faces = "linear",
+        threads: int | None = None,
+    ) -> _gap_flow.GapFlow:
+        """Compute the flow of a fluid through the gap of this contact.
+
+        Gap and pitch are those of the contact. So are the ends and sides by default: along a free axis reservoirs and walls.
+
+        Parameters
+        ----------
+        viscosity, pressure, outlet, ends, sides, faces, threads
+            As in :func:`asperity.flow`.
+
+        Returns
+        -------
+        GapFlow
+
+        Raises
+        ------
+        asperity.errors.BadInput, asperity.errors.Memory
+            For the same reasons as :func:`asperity.flow`.
+
+        Examples
+        --------
+        >>> import asperity as asp
+        >>> steel = asp.Material(young="210 GPa", poisson=0.3)
+        >>> rough = asp.generate.self_affine((64, 64), "1 um", hurst=0.8, sq="0.2 um", shortest="8 um", seed=1)
+        >>> c = asp.contact(asp.form.flat(), rough, steel, steel, mean_pressure="50 MPa", boundary="periodic")
+        >>> f"{c.flow(viscosity='80 mPa s', pressure='1 bar').leakage[0]:.2g} m³/s"
+        '5e-15 m³/s'
+        """
+        return _gap_flow.flow(
+            self,
+            viscosity=viscosity,
+            pressure=pressure,
+            outlet=outlet,
+            ends=ends,
+            sides=sides,
+            faces=faces,
+            threads=threads,
+        )
