@@ -1,5 +1,6 @@
-//! Tests of the whole: the order of crates and modules, and the messages of all of them.
+//! Tests of the whole: the order of crates and modules, the names of capabilities, and the messages of all of them.
 
+mod capabilities;
 mod circles;
 mod messages;
 mod module_order;

@@ -13,7 +13,6 @@ use crate::units::Pascal;
 use crate::with::{Given, NamedField, Observer, Place};
 
 /// Computes the conductance of each contact.
-
 pub struct ConductanceObserver {
     joint: Joint,
     operators: Operators,

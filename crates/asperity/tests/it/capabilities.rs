@@ -1,0 +1,85 @@
+//! A capability is a folder: its name stands outside only in the files listed here, each of which lets a user call it by name.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::support::crates;
+
+/// A word, the folder of its capability, and the files outside it in which the word stands.
+const CAPABILITIES: [(&str, &str, &[&str]); 2] = [
+    (
+        "conductance",
+        "with/conductance",
+        &[
+            // The list, and its names in both libraries.
+            "asperity-contact/src/with/mod.rs",
+            "asperity-contact/src/lib.rs",
+            "asperity/src/lib.rs",
+            // Units.
+            "asperity-base/src/units/quantity.rs",
+            "asperity-base/src/units/range.rs",
+            // The command that begins from a map.
+            "asperity-cli/src/from_map/conductance.rs",
+            "asperity-cli/src/from_map/mod.rs",
+            // Its functions in Python, and the types that are made from its table.
+            "asperity-python/src/maps.rs",
+            "asperity/__init__.py",
+            "asperity/_capabilities.py",
+            "asperity/_conductance.py",
+            "asperity/keys.py",
+        ],
+    ),
+    (
+        "leakage",
+        "with/flow",
+        &[
+            "asperity-contact/src/with/mod.rs",
+            "asperity-contact/src/lib.rs",
+            "asperity/src/lib.rs",
+            "asperity-cli/src/from_map/flow.rs",
+            "asperity-derive/src/lib.rs",
+            "asperity-python/src/maps.rs",
+            "asperity/__init__.py",
+            "asperity/_capabilities.py",
+            "asperity/_gap_flow.py",
+            "asperity/keys.py",
+        ],
+    ),
+];
+
+#[test]
+fn the_name_of_a_capability_stands_outside_its_folder_in_few_files() {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../python/asperity");
+    let sources = crates().into_iter().map(|(_, source)| source).chain([package]);
+    let files: Vec<PathBuf> = sources.flat_map(|source| files_below(&source)).collect();
+    assert!(files.len() > 300, "{} files", files.len());
+    for (word, folder, known) in CAPABILITIES {
+        let is_elsewhere = |file: &&PathBuf| {
+            let path = file.to_string_lossy();
+            !path.contains(folder)
+                && !["/verification", "/reference", "/tests"].iter().any(|part| path.contains(part))
+        };
+        let names_it = |file: &&PathBuf| {
+            let text = fs::read_to_string(file).unwrap();
+            text.split("#[cfg(test)]").next().unwrap_or_default().to_lowercase().contains(word)
+        };
+        let found: Vec<&PathBuf> = files.iter().filter(is_elsewhere).filter(names_it).collect();
+        let unknown: Vec<_> =
+            found.iter().filter(|file| !known.iter().any(|known| file.ends_with(known))).collect();
+        assert!(unknown.is_empty(), "'{word}' stands in {unknown:#?}");
+        let gone: Vec<_> =
+            known.iter().filter(|known| !found.iter().any(|file| file.ends_with(known))).collect();
+        assert!(gone.is_empty(), "'{word}' no longer stands in {gone:#?}");
+    }
+}
+
+fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    entries
+        .flat_map(|path| match path.is_dir() {
+            true => files_below(&path),
+            false => vec![path],
+        })
+        .filter(|path| path.extension().is_some_and(|kind| kind == "rs" || kind == "py"))
+        .collect()
+}
