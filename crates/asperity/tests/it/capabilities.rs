@@ -36,6 +36,8 @@ const CAPABILITIES: [(&str, &str, &[&str]); 2] = [
             "asperity-contact/src/with/mod.rs",
             "asperity-contact/src/lib.rs",
             "asperity/src/lib.rs",
+            // A case that shows it.
+            "asperity-cli/src/example.rs",
             "asperity-cli/src/from_map/flow.rs",
             "asperity-derive/src/lib.rs",
             "asperity-python/src/maps.rs",
