@@ -9,7 +9,9 @@ use asperity::solver::{Control, Creep, Friction, Rolling, Tangential};
 use asperity::study::case::{
     AdhesionRange, AdhesionSpec, Body, Boundary, CounterBody, LoadingPath, Mount, Side, StrategyKind, WearKey,
 };
-use asperity::study::{Bodies, Case, Demand, Estimate, MountedSurface, Plan, SurfaceInput, bodies, estimate};
+use asperity::study::{
+    Bodies, Case, Demand, Estimate, MountedSurface, Plan, SurfaceInput, bodies, estimate, json_schema,
+};
 use asperity::units::{self, Dimension, bytes};
 use asperity::with::{Capability, Listed};
 
@@ -20,7 +22,10 @@ use crate::{machine, place};
 use asperity_report::words::{clipped, closed_form};
 
 pub(crate) fn check(arguments: &Check) -> Outcome {
-    let case = place::case_on(&arguments.case, "check", arguments.device)?;
+    let Some(path) = &arguments.case else {
+        return print(&format!("{:#}\n", json_schema()));
+    };
+    let case = place::case_on(path, "check", arguments.device)?;
     let demand = machine::demand(&case)?;
     let bodies = bodies(&case, SurfaceInput::default())?;
     let estimate = estimate(&case, &bodies)?;

@@ -112,6 +112,7 @@ pub mod parts {
 
 pub use adhesion::AdhesionSummary;
 pub use case::Case;
+pub use case::json_schema;
 pub use case::rules::rules;
 pub use case::schema::keys;
 pub use case::schema::tables::dimension as dimension_of_key;

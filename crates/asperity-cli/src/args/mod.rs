@@ -120,10 +120,14 @@ pub(crate) struct Paper {
 /// Reads both surfaces and prints the grid, the pair, positions, passes, memory and warnings. Solves nothing.
 /// The exit code is 1 if no pressure up to the hardness can carry the load, and 2 if the case has a mistake.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  asperity check case.toml\n  asperity check --schema > case.schema.json")]
 pub(crate) struct Check {
     /// Case file
-    #[arg(value_name = "CASE.toml")]
-    pub(crate) case: PathBuf,
+    #[arg(value_name = "CASE.toml", required_unless_present = "schema")]
+    pub(crate) case: Option<PathBuf>,
+    /// Print the JSON schema of case files, by which an editor completes and checks their keys
+    #[arg(long, conflicts_with_all = ["case", "device"])]
+    pub(crate) schema: bool,
     /// Device that would solve the contact, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or host
     #[arg(long, value_name = "DEVICE", value_parser = choice::<Device>())]
     pub(crate) device: Option<Device>,
