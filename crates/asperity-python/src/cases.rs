@@ -37,7 +37,7 @@ impl CoreStudy {
 
     /// Returns key, unit and values of each axis: numbers in SI, or texts.
     fn axes<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, String, Bound<'py, PyList>)>> {
-        let axis = |axis: &Axis| Ok((axis.key().to_owned(), axis.unit(), values(py, axis)?));
+        let axis = |axis: &Axis| Ok((axis.key().to_owned(), axis.unit().to_owned(), values(py, axis)?));
         self.study.axes().iter().map(axis).collect()
     }
 
