@@ -326,12 +326,15 @@ fn with_spin(spin: f64) -> String {
 }
 
 fn loading_path(stages: &[Stage]) -> String {
-    let increments = stages.iter().map(|stage| stage.increments).sum();
+    let increments = Stage::increments(stages);
+    let cycles: usize = stages.iter().filter_map(|stage| stage.cycles).map(|cycles| cycles.count).sum();
     let slides = |stage: &Stage| matches!(stage.loading.tangential, Tangential::Sliding(_));
     format!(
-        "{} in {}{}",
+        "{}{} in {}{}{}",
+        if cycles > 1 { "up to " } else { "" },
         plural(increments, "increment", "increments"),
         plural(stages.len(), "stage", "stages"),
+        if cycles > 0 { format!(", {}", plural(cycles, "cycle", "cycles")) } else { String::new() },
         if stages.iter().any(slides) { ", sliding" } else { "" }
     )
 }

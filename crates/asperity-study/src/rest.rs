@@ -19,9 +19,10 @@ use crate::tables;
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::{CellValues, Field, check_finite};
 use asperity_contact::motion::{
-    ElastoPlasticContact, FILM, IncrementRecord, LoadedContact, Output, Pair, PlasticResult, PlasticVolume,
-    Point, Slide, SlidingState, Stage, State, StaticContact, StaticRecord, SweepRecord, UpdateRecord, WEAR,
-    Watch, WearInPlace, WornContact, load_in_stages, press, press_elasto_plastic, roll, sweep,
+    Body, ChangedBodies, ElastoPlasticContact, FILM, IncrementRecord, LoadedContact, Output, Pair,
+    PlasticResult, PlasticVolume, Point, Slide, SlidingState, Stage, StagedLoading, StaticContact,
+    StaticRecord, SweepRecord, UpdateRecord, WEAR, Watch, WearInPlace, WornContact, press,
+    press_elasto_plastic, roll, sweep,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Equilibrium, Friction, Params, Rolling, Solution};
@@ -198,16 +199,16 @@ impl StaticProblem<'_> {
     fn load_in_stages(self, stages: &[Stage]) -> Result<StaticResult> {
         let case = self.case;
         self.begin()?;
-        let increments = stages.iter().map(|stage| stage.increments).sum();
-        let under_way = |writer: &Writer| writer.results().loading_under_way(&self.pair, increments);
+        let under_way = |writer: &Writer| writer.results().loading_under_way(&self.pair, stages.len());
         let left = self.writer.map(under_way).transpose()?.flatten();
         let done = left.as_ref().map_or(&[][..], |left| &left.increments);
         let mut kept = self.writer.map(|writer| writer.increments(done)).transpose()?;
         let done = done.last().map(|last| last.increment);
         let (mut observers, mut limits) = (self.observers(done)?, self.limits(done)?);
         let (boundary, outputs) = (self.boundary(), &mut outputs(&mut observers, &mut limits, &mut kept));
-        let contact =
-            load_in_stages(&self.pair, boundary, self.law, stages, &self.params, left, self.watch, outputs)?;
+        let (pair, law, stages) = (self.pair.clone(), self.law.copied(), stages.to_vec());
+        let loading = case.fretting(StagedLoading::new(pair, boundary, law, stages, self.params)?)?;
+        let contact = loading.run(left, self.watch, outputs)?;
         self.loaded(contact, limits.all()).seen_by(case, observers)
     }
 
@@ -281,8 +282,9 @@ impl StaticProblem<'_> {
         let jumps = adhesion::jumps(&contact.increments).into_iter().collect();
         let warnings =
             [broken, review::loaded(&contact), jumps, self.review(contact.solution.normal())].concat();
-        let LoadedContact { record, increments, solution, plastic, slip, .. } = contact;
-        let fields = fields(self.pair, solution, plastic, slip);
+        let LoadedContact { record, increments, solution, plastic, slip, changed, .. } = contact;
+        let pair = changed.map_or(self.pair, |ChangedBodies { pair, .. }| pair);
+        let fields = fields(pair, solution, plastic, slip);
         StaticResult { increments, warnings, ..StaticResult::of(record, fields) }
     }
 
@@ -362,6 +364,9 @@ fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field
     }
     add("displacement", "m", normal.displacement);
     add("gap", "m", gap);
+    for (name, values) in states(&pair) {
+        add(name, "m", values);
+    }
     add("lower", "m", pair.lower.heights);
     add("upper", "m", pair.upper.heights);
     add("plastic", "m", plastic);
@@ -392,6 +397,17 @@ const STATES: [(&str, [&str; 2]); 3] = [
     ("film_grown", ["film_grown_lower", "film_grown_upper"]),
 ];
 
+/// Returns the state of laws on both bodies, m, by the names of its fields.
+fn states(pair: &Pair) -> Vec<(&'static str, Field)> {
+    let of_bodies = |(state, names): (&str, [&'static str; 2])| {
+        let of_body =
+            |(name, body): (&'static str, &Body)| Some((name, body.state.get(state)?.values.clone()));
+        let bodies = names.into_iter().zip([&pair.lower, &pair.upper]);
+        bodies.filter_map(of_body).collect::<Vec<_>>()
+    };
+    STATES.into_iter().flat_map(of_bodies).collect()
+}
+
 /// Creates the fields of a contact that wore in place, with its worn bodies.
 fn worn_fields(contact: WornContact, friction: Option<Friction>) -> RestFields {
     let WornContact { state: SlidingState { pair, .. }, solution, temperature, .. } = contact;
@@ -404,12 +420,8 @@ fn worn_fields(contact: WornContact, friction: Option<Friction>) -> RestFields {
     add("pressure", "Pa", solution.pressure);
     add("displacement", "m", solution.displacement);
     add("gap", "m", gap);
-    for (state, names) in STATES {
-        for (name, body) in names.into_iter().zip([&pair.lower, &pair.upper]) {
-            if let Some(State { values, .. }) = body.state.get(state) {
-                add(name, "m", values.clone());
-            }
-        }
+    for (name, values) in states(&pair) {
+        add(name, "m", values);
     }
     add("lower", "m", pair.lower.heights);
     add("upper", "m", pair.upper.heights);

@@ -9,6 +9,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
+use asperity::motion::Stage;
 use asperity::study;
 use asperity::study::case::{Case, LoadingPath};
 use asperity::study::{Existing, Results};
@@ -86,7 +87,7 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
 /// Whether a static contact is computed in increments or points, which are stored one by one.
 fn in_steps(case: &Case) -> bool {
     match case.loading_path(1.0) {
-        Some(LoadingPath::Stages(stages)) => stages.iter().map(|stage| stage.increments).sum::<usize>() > 1,
+        Some(LoadingPath::Stages(stages)) => Stage::increments(&stages) > 1,
         Some(LoadingPath::Sweep(points)) => points.len() > 1,
         Some(LoadingPath::Rolling(_)) | None => false,
     }

@@ -33,7 +33,7 @@ fn answers(summary: &Summary) -> String {
     let mut text = String::new();
     each_capability!(C => {
         let rows = C::rows(&summary.found);
-        // Of the means over passes that over the last one.
+        // A motion has the mean of each pass, of which the last one is shown.
         let of_last = rows.iter().filter(|row| row.pass() == rows.last().and_then(|last| last.pass()));
         for numbers in of_last.flat_map(C::numbers).filter(|numbers| !numbers.is_detail) {
             text += &line(&numbers.name, &numbers.value);

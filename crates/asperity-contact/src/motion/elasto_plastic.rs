@@ -4,11 +4,11 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::facing;
 use crate::motion::course::{self, Course, Output, Step};
-use crate::motion::loading::{Stage, shear_record, static_record};
+use crate::motion::loading::{shear_record, static_record};
 use crate::motion::pair::Pair;
 use crate::motion::plastic_volume::{self, PlasticSums, PlasticVolume};
 use crate::motion::record::{IncrementRecord, PlasticRecord, PlasticStepRecord, StaticRecord};
-use crate::motion::state::Origin;
+use crate::motion::stage::{Origin, Stage};
 use crate::motion::watch::{StaticWatch, Watch};
 use crate::operator::Boundary;
 use crate::plasticity::{Interface, PlasticBody, PlasticContact, PlasticParams, RelativePosition};
@@ -166,7 +166,7 @@ impl LastLoad {
             Some([x, y]) if x.hypot(y) > 0.0 => Tangential::Sliding([x, y].map(|part| part / x.hypot(y))),
             _ => Tangential::Force([0.0; 2]),
         };
-        Stage { loading: Loading { normal: Control::Load(0.0), tangential }, increments }
+        Stage::new(Loading { normal: Control::Load(0.0), tangential }, increments)
     }
 }
 

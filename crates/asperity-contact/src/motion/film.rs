@@ -211,7 +211,7 @@ impl Film {
                     growth * contact_cells.time
                 });
                 contact_cells.add(body, removed, |index| {
-                    removal * contact_cells.pressure[index] * contact_cells.sliding_distance
+                    removal * contact_cells.pressure[index] * contact_cells.sliding_distance(index)
                 });
             }
             FilmLaw::MechanoChemical { x, c4, .. } => {
@@ -222,7 +222,7 @@ impl Film {
             }
             FilmLaw::SolidLubricant { wear } => {
                 contact_cells.add(body, removed, |index| {
-                    wear * contact_cells.pressure[index] * contact_cells.sliding_distance
+                    wear * contact_cells.pressure[index] * contact_cells.sliding_distance(index)
                 });
             }
         }

@@ -8,7 +8,7 @@ use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::motion::record::{HeatRecord, LostVolume};
 use crate::motion::rim::Interior;
-use crate::solver::Sliding;
+use crate::solver::{FrictionalSolution, Sliding};
 use crate::units::{Kelvin, Metre, Pascal, PerPascal, Second, WattPerSquareMetre};
 
 /// A law by which the contacts of a pass change the bodies: plastic flow, wear, a film.
@@ -42,7 +42,7 @@ pub trait Law: Send + Sync {
     }
 
     /// Largest depth that the law removes from each body per pressure and distance slid, 1/Pa, with shear equal to
-    /// `friction` times the pressure. It limits the extrapolation over passes, before pressures oscillate.
+    /// `friction` times the pressure. If it is not 0, the first sum of the law is in proportion to the pressure. It limits the extrapolation over passes, before pressures oscillate.
     fn per_pressure(&self, friction: f64) -> [PerPascal; 2] {
         let _ = friction;
         [0.0; 2]
@@ -81,13 +81,29 @@ pub struct ContactCells<'a> {
     pub shear: &'a [Pascal],
     /// Surface temperature of the lower and of the upper body on each of these cells, K; NaN if unknown.
     pub temperature: [&'a [Kelvin]; 2],
-    /// Sliding distance from this position to the next, m.
-    pub sliding_distance: Metre,
+    sliding: Slid<'a>,
     /// Time from this position to the next, s; NaN if the speed is unknown.
     pub time: Second,
 }
 
+/// How far the cells in contact slide.
+#[derive(Debug, Clone, Copy)]
+enum Slid<'a> {
+    /// All of them as far, m.
+    Alike(Metre),
+    /// Each by its own distance, m.
+    Each(&'a [Metre]),
+}
+
 impl ContactCells<'_> {
+    /// Returns the distance that a cell in contact slides, by its index: from this position to the next, or in an increment, m.
+    pub fn sliding_distance(&self, index: usize) -> Metre {
+        match self.sliding {
+            Slid::Alike(distance) => distance,
+            Slid::Each(distances) => distances[index],
+        }
+    }
+
     /// Adds the value of each cell in contact, by its index, to a sum on a body, 0 the lower or 1 the upper one. Between
     /// two columns the value is split by their weights, so that the total added is the sum of the values.
     pub fn add(&self, body: usize, sum: &mut Field, value: impl Fn(usize) -> f64) {
@@ -205,12 +221,70 @@ pub(super) fn sums(
             interference: &contact.interference(),
             shear: &shear,
             temperature: [&temperature[0], &temperature[1]],
-            sliding_distance: position_data.distance,
+            sliding: Slid::Alike(position_data.distance),
             time: position_data.time,
         };
         laws.iter().zip(&mut sums).for_each(|(law, sums)| law.add(pair, &contact_cells, sums));
     }
     Ok((sums, warm))
+}
+
+/// The slip of an increment, on the cells in contact.
+pub(super) struct CyclicSlip {
+    cells: Vec<u32>,
+    /// Mean of the pressures before and after the increment.
+    pressure: Vec<Pascal>,
+    /// Mean of the largest shear before and after it.
+    shear: Vec<Pascal>,
+    distance: Vec<Metre>,
+}
+
+impl CyclicSlip {
+    /// Returns the slip of the increment of `contact`, as [`FrictionalSolution::dissipation`] counts it: the energy is the sum of
+    /// shear and distance.
+    pub(super) fn of(contact: &FrictionalSolution, before: Option<&FrictionalSolution>) -> Self {
+        let mut found =
+            Self { cells: Vec::new(), pressure: Vec::new(), shear: Vec::new(), distance: Vec::new() };
+        let cells = contact.normal.pressure.indexed_iter().enumerate();
+        for (flat, (cell, pressure)) in cells.filter(|(_, (_, pressure))| **pressure > 0.0) {
+            let limit = contact.shear_limit[cell];
+            let [then, limit_then] = before.map_or([*pressure, limit], |before| {
+                [before.normal.pressure[cell].max(0.0), before.shear_limit[cell]]
+            });
+            let slips = limit > 0.0 && contact.stick[cell] == 0.0;
+            found.cells.push(flat as u32);
+            found.pressure.push(0.5 * (then + pressure));
+            found.shear.push(0.5 * (limit_then + limit));
+            found.distance.push(if slips { contact.slip[0][cell].hypot(contact.slip[1][cell]) } else { 0.0 });
+        }
+        found
+    }
+}
+
+/// Adds the slip of an increment at rest to the sums of `laws`.
+pub(super) fn add_slip(
+    laws: &[Box<dyn Law>],
+    pair: &Pair,
+    slip: &CyclicSlip,
+    time: Second,
+    bulk: [Kelvin; 2],
+    sums: &mut [Sums],
+) {
+    let position = pair.at_rest();
+    let nothing = vec![0.0; slip.cells.len()];
+    let temperature = bulk.map(|bulk| vec![bulk; slip.cells.len()]);
+    let contact_cells = ContactCells {
+        position: &position,
+        cells: [&slip.cells, &slip.cells],
+        placements: pair.placements(&position),
+        pressure: &slip.pressure,
+        interference: &nothing,
+        shear: &slip.shear,
+        temperature: [&temperature[0], &temperature[1]],
+        sliding: Slid::Each(&slip.distance),
+        time,
+    };
+    laws.iter().zip(sums).for_each(|(law, sums)| law.add(pair, &contact_cells, sums));
 }
 
 /// Applies `laws` to a `pair` for `passes` passes with these sums. Adds the volume removed by each law to `lost`, and

@@ -1,29 +1,26 @@
 //! Loading history of a static contact, on which its state depends.
 
+use std::borrow::Cow;
+
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::adhesive::press_from;
 use crate::motion::contact::facing;
 use crate::motion::course::{self, Course, Output, Step};
+use crate::motion::extrapolation::Acceleration;
+use crate::motion::fretting::{ChangedBodies, Laws};
+use crate::motion::law::Law;
 use crate::motion::pair::Pair;
 use crate::motion::record::{AdhesionRecord, IncrementRecord, ShearRecord, StaticRecord};
-use crate::motion::state::{Flattening, LoadedContact, LoadingState, Origin};
+use crate::motion::stage::{Origin, Progress, Stage};
+use crate::motion::state::{Flattening, LoadedContact, LoadingState};
 use crate::motion::watch::{StaticWatch, Watch};
 use crate::operator::{Boundary, CoupledOperator, Operator};
 use crate::solver::{
     self, Bounds, Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Rolling,
-    RollingSolution, Tangential, solve_frictional_watched, solve_rolling_watched,
+    RollingSolution, solve_frictional_watched, solve_rolling_watched,
 };
-use crate::units::{Joule, Metre, SquareMetre};
-
-/// One stage of a loading: the values prescribed at its end, and the number of equal steps to reach them.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stage {
-    /// Loading at the end of the stage. Without friction, tangential values have no effect.
-    pub loading: Loading,
-    /// Number of equal steps, ≥ 1.
-    pub increments: usize,
-}
+use crate::units::{Joule, Kelvin};
 
 /// Loads a pair at full overlap, stage after stage, from before contact or from a state `under_way`. A resumed loading
 /// gives the same result, bit by bit.
@@ -38,8 +35,7 @@ pub struct Stage {
 /// cap, and shrinks nowhere.
 ///
 /// # Errors
-/// The errors of [`solver::solve_frictional`], with several increments in an [`Error::AtIncrement`]; those of the outputs;
-/// [`Error::Unsupported`] without stages; [`Error::Interrupted`].
+/// The errors of [`StagedLoading`].
 ///
 /// # Panics
 /// If the bodies have different shapes.
@@ -54,75 +50,161 @@ pub fn load_in_stages(
     watch: &dyn Watch,
     outputs: &mut [&mut dyn Output],
 ) -> Result<LoadedContact> {
-    let bodies = Bodies::new(pair, boundary, friction, params)?;
-    let mut loading = StagedLoading { bodies, stages, state: under_way };
-    course::run(&mut loading, watch, outputs)?;
-    let state = loading.state.ok_or(Error::Unsupported("a loading needs at least one increment"))?;
-    Ok(loading.bodies.finish(state))
+    let loading = StagedLoading::new(pair.clone(), boundary, friction.copied(), stages.to_vec(), *params)?;
+    loading.run(under_way, watch, outputs)
 }
 
-/// A loading in stages.
-struct StagedLoading<'a> {
-    bodies: Bodies<'a>,
-    stages: &'a [Stage],
+/// Two bodies that are loaded at full overlap, stage after stage, see [`load_in_stages`], and that may wear and grow films where they slip.
+pub struct StagedLoading {
+    pair: Pair,
+    /// Initial gap of the undeformed bodies.
+    gap: Field,
+    solver: Solver,
+    params: Params,
+    boundary: Boundary,
+    stages: Vec<Stage>,
+    laws: Vec<Box<dyn Law>>,
+    acceleration: Acceleration,
+    bulk: [Kelvin; 2],
+}
+
+impl StagedLoading {
+    /// Creates the loading of a `pair`.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] or [`Error::Unsupported`] for invalid input.
+    ///
+    /// # Panics
+    /// If the bodies have different shapes.
+    pub fn new(
+        pair: Pair,
+        boundary: Boundary,
+        friction: Option<Friction>,
+        stages: Vec<Stage>,
+        params: Params,
+    ) -> Result<Self> {
+        stages.iter().filter_map(|stage| stage.cycles).try_for_each(|cycles| cycles.checked().map(|_| ()))?;
+        let (operators, gap) = facing(&pair, boundary)?;
+        let shape = pair.lower_grid().shape;
+        let solver = match friction {
+            None => Solver::Frictionless(params.device.operator(&operators, shape)),
+            Some(friction) => {
+                pair.check_no_adhesion()?;
+                pair.check_shear()?;
+                Solver::Frictional(operators.coupled_on(shape), friction)
+            }
+        };
+        let (acceleration, bulk) = (Acceleration::NONE, [f64::NAN; 2]);
+        Ok(Self { pair, gap, solver, params, boundary, stages, laws: Vec::new(), acceleration, bulk })
+    }
+
+    /// Adds a `law` by which slip changes the bodies. It needs friction.
+    #[must_use]
+    pub fn with_law(mut self, law: impl Law + 'static) -> Self {
+        self.laws.push(Box::new(law));
+        self
+    }
+
+    /// Lets computed cycles stand for several, within these limits.
+    #[must_use]
+    pub fn with_acceleration(self, acceleration: Acceleration) -> Self {
+        Self { acceleration, ..self }
+    }
+
+    /// Sets the temperatures of the bodies, > 0, which the growth of some films needs.
+    #[must_use]
+    pub fn with_bulk(self, bulk: [Kelvin; 2]) -> Self {
+        Self { bulk, ..self }
+    }
+
+    /// The bodies before the loading.
+    pub fn pair(&self) -> &Pair {
+        &self.pair
+    }
+
+    /// Loads the bodies, from before contact or from a state `under_way`. A resumed loading gives the same result, bit by bit.
+    ///
+    /// # Errors
+    /// The errors of [`solver::solve_frictional`], with several increments in an [`Error::AtIncrement`]; those of the outputs;
+    /// [`Error::Unsupported`] without stages and for laws without friction; [`Error::WornAway`]; [`Error::Interrupted`].
+    pub fn run(
+        mut self,
+        under_way: Option<LoadingState>,
+        watch: &dyn Watch,
+        outputs: &mut [&mut dyn Output],
+    ) -> Result<LoadedContact> {
+        let mut state = under_way;
+        let laws = match std::mem::take(&mut self.laws) {
+            laws if laws.is_empty() => None,
+            _ if matches!(self.solver, Solver::Frictionless(_)) => {
+                return Err(Error::Unsupported(
+                    "bodies wear and grow films in a loading by slip, which needs friction",
+                ));
+            }
+            laws => {
+                let (operators, _) = facing(&self.pair, self.boundary)?;
+                let with = (&operators, self.boundary, self.params);
+                Some(Laws::new(&mut self.pair, laws, self.acceleration, self.bulk, with)?)
+            }
+        };
+        let mut laws = laws;
+        if let (Some(laws), Some(changed)) =
+            (&mut laws, state.as_mut().and_then(|state| state.changed.as_mut()))
+        {
+            laws.resume(changed);
+        }
+        let mut increments = Increments { loading: self, laws, state };
+        course::run(&mut increments, watch, outputs)?;
+        let state = increments.state.ok_or(Error::Unsupported("a loading needs at least one increment"))?;
+        Ok(increments.loading.finish(state))
+    }
+}
+
+/// The increments of a loading, one after the other.
+struct Increments {
+    loading: StagedLoading,
+    laws: Option<Laws>,
     /// State after the last increment; `None` before the first.
     state: Option<LoadingState>,
 }
 
-impl Course for StagedLoading<'_> {
+impl Course for Increments {
     type Solved = LoadingState;
 
     fn next(&mut self, watch: &dyn Watch) -> Result<Option<LoadingState>> {
         let state = self.state.take();
-        let done = state.as_ref().map_or(0, |state| state.increments.len());
-        let Some((stage, step)) = Stage::after(self.stages, done) else {
+        let next = state.as_ref().map_or(Progress::BEGIN, |state| state.next);
+        let Some(stage) = self.loading.stages.get(next.stage).copied() else {
             self.state = state;
             return Ok(None);
         };
         if watch.stop() {
             return Err(Error::Interrupted);
         }
+        let done = state.as_ref().map_or(0, |state| state.increments.len());
         let origin = match &state {
-            Some(state) if step > 1 => state.origin,
+            Some(state) if !next.begins_stage() => state.origin,
             Some(state) => Origin::of(&state.contact),
-            None => Origin::apart(self.bodies.gap.iter().copied().fold(f64::INFINITY, f64::min)),
+            None => Origin::apart(self.loading.gap.iter().copied().fold(f64::INFINITY, f64::min)),
         };
-        let Stage { loading, increments } = self.stages[stage];
-        let loading = origin.towards(loading, step as f64 / increments as f64);
-        let all = Stage::increments(self.stages);
+        let (loading, share) = stage.at(next.step, &origin);
+        let all = done + next.left(&self.loading.stages, 1);
         let watch = StaticWatch::new(watch, done, all, loading.normal);
         let at = |source| Error::AtIncrement { increment: done + 1, source };
-        self.bodies.load(stage + 1, loading, origin, state, &watch).map(Some).map_err(|error| match all {
+        self.load(next, loading, share, origin, state, &watch).map(Some).map_err(|error| match all {
             1 => error,
             _ => error.unless_interrupted(at),
         })
     }
 
     fn report<'a>(&'a self, state: &'a LoadingState) -> Step<'a> {
-        Step::Increment { state, of: Stage::increments(self.stages) }
+        let represented = state.changed.as_ref().and_then(|changed| Some(changed.last.as_ref()?.passes));
+        let left = state.next.left(&self.loading.stages, represented.unwrap_or(1));
+        Step::Increment { state, of: state.increments.len() + left }
     }
 
     fn take(&mut self, state: LoadingState) {
         self.state = Some(state);
-    }
-}
-
-impl Stage {
-    /// Total number of increments of all `stages`.
-    pub(super) fn increments(stages: &[Self]) -> usize {
-        stages.iter().map(|stage| stage.increments).sum()
-    }
-
-    /// Returns the index of the stage and its next step, from 1, after `done` increments; `None` after the last.
-    pub(super) fn after(stages: &[Self], done: usize) -> Option<(usize, usize)> {
-        let mut left = done;
-        for (index, stage) in stages.iter().enumerate() {
-            if left < stage.increments {
-                return Some((index, left + 1));
-            }
-            left -= stage.increments;
-        }
-        None
     }
 }
 
@@ -165,7 +247,15 @@ impl LoadedContact {
         let plastic = solution.plastic_interference();
         let record = StaticRecord::new(&solution).attracted(pair, &solution);
         let solution = Equilibrium::Frictionless(Box::new(solution));
-        Ok(Self { record, increments: Vec::new(), solution, plastic, slip: None, dissipation_error: 0.0 })
+        Ok(Self {
+            record,
+            increments: Vec::new(),
+            solution,
+            plastic,
+            slip: None,
+            dissipation_error: 0.0,
+            changed: None,
+        })
     }
 
     /// Solves the contact in steady rolling along x, over the initial `gap`.
@@ -196,84 +286,64 @@ impl LoadedContact {
         let slip = Some(solution.slip.clone());
         let solution = Equilibrium::Frictional(Box::new(solution));
         let record = StaticRecord { shear: Some(shear), ..static_record(&solution, &plastic) };
-        Ok(Self { record, increments: Vec::new(), solution, plastic, slip, dissipation_error: 0.0 })
+        Ok(Self {
+            record,
+            increments: Vec::new(),
+            solution,
+            plastic,
+            slip,
+            dissipation_error: 0.0,
+            changed: None,
+        })
     }
 }
 
-/// Two bodies under a loading, and the solver of an increment.
-struct Bodies<'a> {
-    pair: &'a Pair,
-    /// Initial gap of the undeformed bodies.
-    gap: Field,
-    solver: Solver<'a>,
-    bounds: Bounds,
-    area: SquareMetre,
-    params: &'a Params,
-}
-
-enum Solver<'a> {
-    Frictionless(&'a Pair, Box<dyn Operator>),
-    Frictional(Box<dyn CoupledOperator>, &'a Friction),
+/// The solver of an increment.
+enum Solver {
+    Frictionless(Box<dyn Operator>),
+    Frictional(Box<dyn CoupledOperator>, Friction),
 }
 
 /// Largest ignored decrease of a plastic interference, in tolerances relative to std(u). Both solutions have an error.
 const MAX_DECREASE: f64 = 4.0;
 
-impl<'a> Bodies<'a> {
-    fn new(
-        pair: &'a Pair,
-        boundary: Boundary,
-        friction: Option<&'a Friction>,
-        params: &'a Params,
-    ) -> Result<Self> {
-        let (operators, gap) = facing(pair, boundary)?;
-        let shape = pair.lower_grid().shape;
-        let solver = match friction {
-            None => Solver::Frictionless(pair, params.device.operator(&operators, shape)),
-            Some(friction) => {
-                pair.check_no_adhesion()?;
-                pair.check_shear()?;
-                Solver::Frictional(operators.coupled_on(shape), friction)
-            }
-        };
-        let bounds = pair.bounds(&pair.at_rest(), None);
-        Ok(Self { pair, gap, solver, bounds, area: pair.cell_area(), params })
-    }
-
-    /// Returns the state after an increment that starts from the state `before`.
+impl Increments {
+    /// Returns the state after an increment that starts from the state `before`, in a `share` of the time of a cycle.
     fn load(
         &mut self,
-        stage: usize,
+        next: Progress,
         loading: Loading,
+        share: f64,
         origin: Origin,
         before: Option<LoadingState>,
         watch: &dyn solver::Watch,
     ) -> Result<LoadingState> {
+        let begun = self.laws.as_ref().map(|laws| laws.begin(self.loading.pair.clone()));
+        let mut changed = before.as_ref().map_or(begun, |before| before.changed.clone());
         let (last, mut flattening, mut increments, slip, error) = match before {
             Some(LoadingState { contact, flattening, increments, slip, dissipation_error, .. }) => {
                 (Some(contact), flattening, increments, slip, dissipation_error)
             }
             None => {
-                let deepest = Field::zeros(self.gap.raw_dim());
+                let deepest = Field::zeros(self.loading.gap.raw_dim());
                 (None, Flattening { kept: None, deepest }, Vec::new(), None, 0.0)
             }
         };
-        let (bounds, params) = (&self.bounds, self.params);
+        let StagedLoading { pair, gap, solver, params, stages, .. } = &mut self.loading;
+        let (pair, gap) = match &changed {
+            None => (&*pair, Cow::Borrowed(&*gap)),
+            Some(ChangedBodies { pair, .. }) => (pair, Cow::Owned(pair.initial_gap(&pair.at_rest()))),
+        };
+        let bounds = &pair.bounds(&pair.at_rest(), None);
         let mut contact =
-            self.solver.solve(&flattening.open(&self.gap), bounds, loading, last.as_ref(), params, watch)?;
+            solver.solve(pair, &flattening.open(&gap), bounds, loading, last.as_ref(), params, watch)?;
         let mut stats = contact.normal().stats;
         let mut plastic = contact.normal().plastic_interference();
         let allowed = MAX_DECREASE * params.tolerance * contact.normal().displacement.std(0.0);
         if flattening.exceeds(&plastic, allowed) {
             flattening.keep();
-            contact = self.solver.solve(
-                &flattening.open(&self.gap),
-                bounds,
-                loading,
-                last.as_ref(),
-                params,
-                watch,
-            )?;
+            contact =
+                solver.solve(pair, &flattening.open(&gap), bounds, loading, last.as_ref(), params, watch)?;
             stats = stats.and(&contact.normal().stats);
             plastic = contact.normal().plastic_interference();
         }
@@ -288,15 +358,40 @@ impl<'a> Bodies<'a> {
             (_, solution) => solution.map(|solution| solution.slip.clone()),
         };
         let [dissipation, more_error] = of_friction.unwrap_or_default();
-        let adhesion = self.pair.adhesion().map(|adhesion| {
+        let adhesion = pair.adhesion().map(|adhesion| {
             let record = AdhesionRecord::of(adhesion, contact.normal());
             let last = last.as_ref().map(Equilibrium::normal);
             last.map_or(record, |last| record.since(adhesion, contact.normal(), last))
         });
+        let area = pair.cell_area();
+        let stage = &stages[next.stage];
+        let mut represented = 1;
+        if let (Some(laws), Some(changed), Some(now)) = (&mut self.laws, &mut changed, contact.frictional()) {
+            let before = last.as_ref().and_then(Equilibrium::frictional);
+            changed.work += dissipation;
+            if next.step > 0 {
+                let period = stage.cycles.and_then(|cycles| cycles.period).unwrap_or(f64::NAN);
+                laws.add(changed, now, before, if share > 0.0 { share * period } else { 0.0 });
+                changed.cycle_work += dissipation;
+            }
+            match stage.cycles {
+                Some(cycles) if next.ends_cycle(stages) => {
+                    represented = laws.act_for_cycles(changed, now, cycles.count - next.cycles)?;
+                }
+                Some(_) => {}
+                None => laws.act_once(changed)?,
+            }
+        }
+        let following = next.after(stages, represented, changed.is_some());
+        if let Some(changed) = changed.as_mut().filter(|_| following.stage != next.stage) {
+            changed.last = None;
+        }
+        let fretting = self.laws.as_ref().zip(changed.as_ref()).map(|(laws, changed)| laws.record(changed));
         increments.push(IncrementRecord {
             increment: increments.len() + 1,
-            stage,
-            plastic_volume: self.area * flattening.whole(plastic).sum(),
+            stage: next.stage + 1,
+            fretting,
+            plastic_volume: area * flattening.whole(plastic).sum(),
             dissipation,
             adhesion,
             iterations: stats.iterations,
@@ -304,12 +399,17 @@ impl<'a> Bodies<'a> {
             ..IncrementRecord::of(&contact)
         });
         let dissipation_error = error + more_error;
-        Ok(LoadingState { increments, contact, origin, flattening, slip, dissipation_error })
+        let next = following;
+        Ok(LoadingState { increments, contact, origin, flattening, slip, dissipation_error, next, changed })
     }
+}
 
+impl StagedLoading {
     /// Returns the contact at the end of its loading.
     fn finish(self, state: LoadingState) -> LoadedContact {
-        let LoadingState { increments, contact: solution, flattening, slip, dissipation_error, .. } = state;
+        let LoadingState {
+            increments, contact: solution, flattening, slip, dissipation_error, changed, ..
+        } = state;
         let now = solution.normal().plastic_interference();
         let plastic = flattening.whole(now);
         let sum = |value: fn(&IncrementRecord) -> f64| increments.iter().map(value).sum::<f64>();
@@ -318,7 +418,8 @@ impl<'a> Bodies<'a> {
         let adhesion = adhesion
             .map(|last| last.after(increments.iter().filter_map(|increment| increment.adhesion.as_ref())));
         let normal = solution.normal();
-        let gap = &self.gap + &normal.displacement - normal.approach;
+        let gap = changed.as_ref().map(|changed| changed.pair.initial_gap(&changed.pair.at_rest()));
+        let gap = gap.unwrap_or(self.gap) + &normal.displacement - normal.approach;
         let record = StaticRecord {
             mean_gap: gap.mean().unwrap_or(0.0),
             iterations: increments.iter().map(|increment| increment.iterations).sum(),
@@ -327,14 +428,15 @@ impl<'a> Bodies<'a> {
             adhesion,
             ..static_record(&solution, &plastic)
         };
-        LoadedContact { record, increments, solution, plastic, slip, dissipation_error }
+        LoadedContact { record, increments, solution, plastic, slip, dissipation_error, changed }
     }
 }
 
-impl Solver<'_> {
+impl Solver {
     /// Solves an increment over the initial `gap`, from the `last` one.
     fn solve(
         &mut self,
+        pair: &Pair,
         gap: &Field,
         bounds: &Bounds,
         loading: Loading,
@@ -343,7 +445,7 @@ impl Solver<'_> {
         watch: &dyn solver::Watch,
     ) -> Result<Equilibrium> {
         match self {
-            Self::Frictionless(pair, operator) => {
+            Self::Frictionless(operator) => {
                 let last = last.map(Equilibrium::normal);
                 let operator = operator.as_mut();
                 press_from(pair, operator, gap, bounds, loading.normal, last, params, watch)
@@ -363,43 +465,6 @@ impl Solver<'_> {
                 )
                 .map(|solution| Equilibrium::Frictional(Box::new(solution)))
             }
-        }
-    }
-}
-
-impl Origin {
-    /// Creates the state of bodies that just do not touch, at this approach.
-    pub(super) fn apart(approach: Metre) -> Self {
-        Self { load: 0.0, approach, force: [0.0; 2], displacement: [0.0; 2] }
-    }
-
-    /// Creates the state of a contact in equilibrium.
-    pub(super) fn of(contact: &Equilibrium) -> Self {
-        let (normal, shear) = (contact.normal(), contact.frictional());
-        Self {
-            load: normal.load(),
-            approach: normal.approach,
-            force: shear.map_or([0.0; 2], FrictionalSolution::force),
-            displacement: shear.map_or([0.0; 2], |solution| solution.rigid_displacement),
-        }
-    }
-
-    /// Interpolates the loading towards the end of the stage, which is met exactly.
-    pub(super) fn towards(&self, end: Loading, share: f64) -> Loading {
-        let between = |from: f64, to: f64| if share == 1.0 { to } else { from + share * (to - from) };
-        let both = |from: [f64; 2], to: [f64; 2]| [between(from[0], to[0]), between(from[1], to[1])];
-        Loading {
-            normal: match end.normal {
-                Control::Load(load) => Control::Load(between(self.load, load)),
-                Control::Approach(approach) => Control::Approach(between(self.approach, approach)),
-            },
-            tangential: match end.tangential {
-                Tangential::Force(force) => Tangential::Force(both(self.force, force)),
-                Tangential::Displacement(displacement) => {
-                    Tangential::Displacement(both(self.displacement, displacement))
-                }
-                sliding @ Tangential::Sliding(_) => sliding,
-            },
         }
     }
 }

@@ -7,6 +7,7 @@ mod body;
 mod contact;
 mod course;
 mod film;
+mod fretting;
 mod plastic_volume;
 mod elasto_plastic;
 mod heat;
@@ -26,6 +27,7 @@ mod rim;
 mod simulation;
 mod sliding;
 mod spot;
+mod stage;
 mod state;
 mod sweep;
 mod together;
@@ -44,9 +46,10 @@ pub use elasto_plastic::{ElastoPlasticContact, PlasticPath, PlasticResult, press
 pub use extrapolation::{Acceleration, LastExtrapolation};
 pub use film::{ACTIVATION_ENERGIES, ACTIVATION_VOLUMES, GROWTH_FACTORS, GROWTH_TEMPERATURES, REMOVAL_RATES};
 pub use film::{FILM, Film, FilmLaw, FilmStress, Films};
+pub use fretting::ChangedBodies;
 pub use heat::FLASH;
 pub use law::{ContactCells, Law, Sums};
-pub use loading::{Stage, load_in_stages, roll};
+pub use loading::{StagedLoading, load_in_stages, roll};
 pub use observed::ObservedContact;
 pub use pair::Pair;
 pub use pair::{initial_gap, opposing_values};
@@ -55,16 +58,17 @@ pub use path::{OffsetY, Path, Position, Stroke, overlap_positions, shift_positio
 pub use plastic_volume::PlasticVolume;
 pub use record::lost_volumes::{ENDINGS, is_volume_of_law};
 pub use record::{
-    AdhesionPassRecord, AdhesionRecord, HeatRecord, IncrementRecord, LostVolume, PassPlasticRecord,
-    PassRecord, PlasticRecord, PlasticStepRecord, Regime, ResidualRecord, RunningRecord, ShearRecord,
-    StaticRecord, StepRecord, SweepRecord, UpdateRecord,
+    AdhesionPassRecord, AdhesionRecord, FrettingRecord, HeatRecord, IncrementRecord, LostVolume,
+    PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Regime, ResidualRecord, RunningRecord,
+    ShearRecord, StaticRecord, StepRecord, SweepRecord, UpdateRecord,
 };
 pub use report::PassReport;
 pub use rim::Interior;
 pub use simulation::{Simulation, SolvedPass};
 pub use sliding::{Slide, WearInPlace, WornContact};
 pub use spot::largest_spot;
-pub use state::{Flattening, LoadedContact, LoadingState, Origin, SlidingState};
+pub use stage::{Cycles, Origin, Progress as StageProgress, Stage};
+pub use state::{Flattening, LoadedContact, LoadingState, SlidingState};
 pub use sweep::{Point, sweep};
 pub use together::memory_together;
 pub use truncation::Truncation;

@@ -3,10 +3,12 @@
 use std::borrow::Cow;
 
 use crate::grid::Field;
+use crate::motion::fretting::ChangedBodies;
 use crate::motion::pair::Pair;
 use crate::motion::record::{IncrementRecord, StaticRecord, UpdateRecord};
+use crate::motion::stage::{Origin, Progress};
 use crate::solver::Equilibrium;
-use crate::units::{Joule, Metre, Newton};
+use crate::units::{Joule, Metre};
 
 /// A static contact at the end of its loading, with its history.
 #[derive(Debug, Clone)]
@@ -26,6 +28,8 @@ pub struct LoadedContact {
     /// Bound on the error of the frictional energy in the record, without the contribution of the first increment: see
     /// [`FrictionalSolution::dissipation_error`](crate::solver::FrictionalSolution::dissipation_error).
     pub dissipation_error: Joule,
+    /// Bodies that laws have changed; `None` if none did.
+    pub changed: Option<ChangedBodies>,
 }
 
 /// State of a loading: everything that its next increment depends on.
@@ -43,6 +47,10 @@ pub struct LoadingState {
     pub slip: Option<[Field; 2]>,
     /// Sum over the increments of [`FrictionalSolution::dissipation_error`](crate::solver::FrictionalSolution::dissipation_error).
     pub dissipation_error: Joule,
+    /// The next increment.
+    pub next: Progress,
+    /// Bodies that laws have changed; `None` without laws.
+    pub changed: Option<ChangedBodies>,
 }
 
 /// Plastic interference of the cells of a contact over its loading.
@@ -91,19 +99,6 @@ impl Flattening {
             Some(kept) => kept + &now,
         }
     }
-}
-
-/// State at the beginning of a stage, in each quantity that a stage may prescribe.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Origin {
-    /// Normal force.
-    pub load: Newton,
-    /// Rigid-body approach.
-    pub approach: Metre,
-    /// Force of the upper body on the lower one along x and y.
-    pub force: [Newton; 2],
-    /// Rigid-body displacement of the upper body against the lower one along x and y.
-    pub displacement: [Metre; 2],
 }
 
 /// State of a contact after its updates so far: everything that the next one depends on.

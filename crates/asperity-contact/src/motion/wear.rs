@@ -150,7 +150,8 @@ impl Law for Wear {
                     WearDriver::Pressure => contact_cells.pressure,
                     WearDriver::Shear => contact_cells.shear,
                 };
-                contact_cells.add(body, &mut sums[0], |index| driver[index] * contact_cells.sliding_distance);
+                contact_cells
+                    .add(body, &mut sums[0], |index| driver[index] * contact_cells.sliding_distance(index));
                 if let Some(film) = &self.films[body] {
                     film.add_rates(body, contact_cells, &mut sums[1..]);
                 }

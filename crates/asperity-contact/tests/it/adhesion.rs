@@ -190,9 +190,8 @@ fn a_pair_is_pulled_until_adhesion_does_not_hold() {
     let body = Material::elastic(1.5, 0.0).unwrap();
     let pair = Pair::new(flat, tip, [&body, &body]).unwrap().with_adhesion(exponential(1.5));
     assert!((pair.modulus() - MODULUS).abs() < 1e-12);
-    let stage = |load| Stage {
-        loading: Loading { normal: Control::Load(load), tangential: Tangential::Force([0.0; 2]) },
-        increments: 1,
+    let stage = |load| {
+        Stage::new(Loading { normal: Control::Load(load), tangential: Tangential::Force([0.0; 2]) }, 1)
     };
     let load = |loads: &[f64]| {
         let stages: Vec<Stage> = loads.iter().map(|load| stage(*load)).collect();

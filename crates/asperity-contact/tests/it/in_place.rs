@@ -406,8 +406,9 @@ impl Law for Blunt {
     }
 
     fn add(&self, _: &Pair, contact_cells: &ContactCells, [lower, _]: &mut [Vec<Field>; 2]) {
-        contact_cells
-            .add(0, &mut lower[0], |cell| contact_cells.pressure[cell] * contact_cells.sliding_distance);
+        contact_cells.add(0, &mut lower[0], |cell| {
+            contact_cells.pressure[cell] * contact_cells.sliding_distance(cell)
+        });
     }
 
     fn advance(&self, _: &mut Pair, [lower, upper]: &[Vec<Field>; 2], passes: f64) -> [Field; 2] {

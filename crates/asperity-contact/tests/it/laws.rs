@@ -35,8 +35,9 @@ impl Law for Wear {
 
     fn add(&self, _: &Pair, contact_cells: &ContactCells, [lower, _]: &mut [Vec<Field>; 2]) {
         let [work, way] = lower.as_mut_slice() else { panic!("two sums") };
-        contact_cells.add(0, work, |index| contact_cells.pressure[index] * contact_cells.sliding_distance);
-        contact_cells.add(0, way, |_| contact_cells.sliding_distance);
+        contact_cells
+            .add(0, work, |index| contact_cells.pressure[index] * contact_cells.sliding_distance(index));
+        contact_cells.add(0, way, |index| contact_cells.sliding_distance(index));
     }
 
     fn advance(&self, pair: &mut Pair, [lower, upper]: &[Vec<Field>; 2], passes: f64) -> [Field; 2] {

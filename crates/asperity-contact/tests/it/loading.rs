@@ -45,7 +45,7 @@ fn ball(cells: usize, pitch: f64, hardness: f64) -> Pair {
 
 fn to(load: f64, force: f64, increments: usize) -> Stage {
     let loading = Loading { normal: Control::Load(load), tangential: Tangential::Force([force, 0.0]) };
-    Stage { loading, increments }
+    Stage::new(loading, increments)
 }
 
 /// By independent calculation from the heights: 242 µm², 281 MPa, 63.9 nm.
@@ -149,8 +149,8 @@ impl Case {
                 let angle = random.random_range(0.0..std::f64::consts::TAU);
                 let share = random.random_range(0.0..0.5);
                 let direction = [angle.cos(), angle.sin()];
-                Stage {
-                    loading: Loading {
+                Stage::new(
+                    Loading {
                         normal: match by_load {
                             true => Control::Load(load),
                             false => Control::Approach(lowest + random.random_range(-0.05..0.5)),
@@ -160,8 +160,8 @@ impl Case {
                             false => Tangential::Displacement(direction.map(|n| n * share * 0.2)),
                         },
                     },
-                    increments: random.random_range(1..4),
-                }
+                    random.random_range(1..4),
+                )
             })
             .collect();
         Self { materials: materials.map(Result::unwrap), gap, grid, friction, stages }
@@ -397,7 +397,7 @@ fn a_coefficient_of_friction_is_that_of_what_slides() {
     let friction = Friction::coulomb(0.3).unwrap();
     let under = |tangential| {
         let loading = Loading { normal: Control::Load(1.0), tangential };
-        let stages = [Stage { loading, increments: 1 }];
+        let stages = [Stage::new(loading, 1)];
         load(&pair, Some(&friction), &stages, &Params::default(), &mut []).unwrap().record.shear.unwrap()
     };
     let held = under(Tangential::Force([0.1, 0.0]));

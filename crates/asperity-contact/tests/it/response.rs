@@ -147,7 +147,7 @@ fn what_is_not_known_of_a_response_is_refused() {
     unsupported(press(&pair(), line, load, &params, &()).unwrap_err(), "periodic along one axis");
     let friction = Friction::coulomb(0.2).unwrap();
     let loading = Loading { normal: load, tangential: Tangential::Force([0.01, 0.0]) };
-    let stages = [Stage { loading, increments: 1 }];
+    let stages = [Stage::new(loading, 1)];
     let loaded =
         load_in_stages(&pair(), Boundary::FREE, Some(&friction), &stages, &params, None, &(), &mut []);
     unsupported(loaded.map(|_| ()).unwrap_err(), "gross sliding");

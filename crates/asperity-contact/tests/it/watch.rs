@@ -73,10 +73,7 @@ fn friction_and_rolling_stop_within_an_increment() {
     let load = 1e8 * pair.lower_grid().area();
     let friction = Friction::coulomb(0.3).unwrap().with_junction_growth(9.0);
     let tangential = Tangential::Force([0.1 * load, 0.0]);
-    let stage = asperity_contact::motion::Stage {
-        loading: Loading { normal: Control::Load(load), tangential },
-        increments: 1,
-    };
+    let stage = asperity_contact::motion::Stage::new(Loading { normal: Control::Load(load), tangential }, 1);
     let params = Params::default();
     let staged = |watch: &Patience| {
         load_in_stages(&pair, Boundary::FREE, Some(&friction), &[stage], &params, None, watch, &mut [])

@@ -8,8 +8,8 @@ use super::schema::loading::{friction as keys, history};
 use super::schema::tables::known_in;
 use super::{Case, Number};
 use asperity_base::error::Result;
-use asperity_base::units::SquareMetre;
-use asperity_contact::motion::{Point, Stage};
+use asperity_base::units::{Second, SquareMetre};
+use asperity_contact::motion::{Cycles, Point, Stage};
 use asperity_contact::solver::{Coupling, Creep, Friction, Loading, Rolling, Tangential};
 
 /// Friction, and the tangential loading.
@@ -59,8 +59,14 @@ pub struct StageSpec {
     /// Prescribed tangential loading: force, displacement or sliding.
     #[serde(flatten)]
     pub in_plane: Option<InPlane>,
-    /// Number of equal steps, ≥ 1.
+    /// Number of equal steps, ≥ 1; in a cycle of each way.
     pub increments: usize,
+    /// Number of cycles, in each of which the loading goes there and comes back, ≥ 1; `None` if it goes there once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cycles: Option<usize>,
+    /// Time of a cycle, > 0; unknown if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub period: Option<Second>,
 }
 
 /// Loading path of a static contact: the sequence of prescribed states.
@@ -135,7 +141,7 @@ impl Case {
         let mut loading = Loading { normal, tangential: tangential.unwrap_or(Tangential::Force([0.0; 2])) };
         let flowing = self.plasticity.and_then(|plasticity| plasticity.increments).unwrap_or(1);
         let increments = friction.map_or(flowing, |friction| friction.increments);
-        let mut stages = vec![Stage { loading, increments }];
+        let mut stages = vec![Stage::new(loading, increments)];
         for stage in &self.history {
             if let Some(normal) = stage.normal {
                 loading.normal = normal.control(apparent_area);
@@ -143,7 +149,8 @@ impl Case {
             if let Some(tangential) = stage.in_plane.and_then(InPlane::tangential) {
                 loading.tangential = tangential;
             }
-            stages.push(Stage { loading, increments: stage.increments });
+            let cycles = stage.cycles.map(|count| Cycles { count, period: stage.period });
+            stages.push(Stage::new(loading, stage.increments).with_cycles(cycles));
         }
         Some(LoadingPath::Stages(stages))
     }
@@ -218,6 +225,8 @@ pub(super) fn stages(
             normal: gives(normal).then(|| of_stage(table)).transpose()?,
             in_plane: in_plane(table)?,
             increments: history::INCREMENTS.of(table)?.unwrap_or(steps),
+            cycles: history::CYCLES.of(table)?,
+            period: history::PERIOD.of(table)?,
         })
     };
     entry.tables()?.iter().map(stage).collect()

@@ -14,7 +14,7 @@ use asperity_base::choice::Choice;
 use asperity_base::error::Result;
 use asperity_base::units::{Kelvin, Metre, Pascal, PerPascal};
 use asperity_contact::motion::{
-    Acceleration, Film, FilmLaw, Films, Pair, Simulation, Wear, WearCoefficient, WearInPlace,
+    Acceleration, Film, FilmLaw, Films, Pair, Simulation, StagedLoading, Wear, WearCoefficient, WearInPlace,
 };
 use asperity_contact::temperature::Thermal;
 
@@ -203,6 +203,25 @@ impl Case {
             Some(thermal) => contact.with_heat(thermal),
             None => Ok(contact),
         }
+    }
+
+    /// Adds the same laws to a loading in stages.
+    ///
+    /// # Errors
+    /// The errors of the library.
+    pub(crate) fn fretting(&self, loading: StagedLoading) -> Result<StagedLoading> {
+        let (wear, films) = self.laws(loading.pair())?;
+        let mut loading = loading;
+        if let Some(wear) = wear {
+            loading = loading.with_law(wear);
+        }
+        if let Some(films) = films {
+            loading = loading.with_law(films);
+        }
+        if let Some(temperature) = self.temperature {
+            loading = loading.with_bulk(temperature.bulk);
+        }
+        Ok(loading.with_acceleration(self.acceleration.unwrap_or(Acceleration::NONE)))
     }
 
     /// Creates the laws of wear and film growth of the bodies of a `pair`.

@@ -11,7 +11,7 @@ use asperity_base::grid::Grid;
 use asperity_base::units::Second;
 use asperity_contact::each_capability;
 use asperity_contact::material::Compliances;
-use asperity_contact::motion::{PlasticUpdate, memory_together};
+use asperity_contact::motion::{PlasticUpdate, Stage, memory_together};
 use asperity_contact::operator::{FreeFft, Operator};
 use asperity_contact::solver::{self, Control, Coupling, Method};
 use asperity_contact::with::{Capability, Listed};
@@ -378,7 +378,7 @@ impl Sizes<'_> {
             (None, friction) => match case.loading_path(nx * ny * self.lower.cell_area()) {
                 Some(LoadingPath::Rolling(_)) => of(rolling, 1.0),
                 Some(LoadingPath::Stages(stages)) => {
-                    let increments = stages.iter().map(|stage| stage.increments).sum::<usize>() as f64;
+                    let increments = self.increments(&stages);
                     let shear = match friction.as_ref().map(|friction| friction.law.coupling) {
                         Some(Coupling::Full | Coupling::Goodman) if unlike => SHEAR_UNLIKE,
                         Some(_) => SHEAR,
@@ -422,13 +422,25 @@ impl Sizes<'_> {
             (Some(motion), _) => self.computed_passes(motion.passes) * self.overlaps.len() as f64,
             (None, Some(sliding)) => 1.0 + sliding.updates as f64,
             (None, None) => match case.loading_path(nx * ny * self.lower.cell_area()) {
-                Some(LoadingPath::Stages(stages)) => {
-                    stages.iter().map(|stage| stage.increments).sum::<usize>() as f64
-                }
+                Some(LoadingPath::Stages(stages)) => self.increments(&stages),
                 Some(LoadingPath::Sweep(points)) => points.len() as f64,
                 Some(LoadingPath::Rolling(_)) | None => 1.0,
             },
         }
+    }
+
+    /// Number of increments of the stages of a loading that are computed.
+    fn increments(&self, stages: &[Stage]) -> f64 {
+        /// Computed cycles for each doubling of their number, where computed ones stand for several.
+        const COMPUTED: f64 = 12.0;
+        let jumps = self.case.acceleration.is_some_and(|acceleration| acceleration.max_jump > 1);
+        let of_stage = |stage: &Stage| {
+            let all = Stage::increments(std::slice::from_ref(stage)) as f64;
+            let cycles = stage.cycles.map_or(1.0, |cycles| cycles.count as f64);
+            let computed = if jumps { cycles.min(COMPUTED * cycles.log2().max(1.0)) } else { cycles };
+            all * computed / cycles
+        };
+        stages.iter().map(of_stage).sum()
     }
 
     /// Number of contacts that an observer with this interval looks at.

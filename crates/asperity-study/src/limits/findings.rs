@@ -75,7 +75,10 @@ impl<'a> Findings<'a> {
             ..Self::default()
         };
         match *step {
-            Step::Increment { state, .. } => alone(state.contact.normal()),
+            Step::Increment { state, .. } => Self {
+                changed: state.changed.as_ref().map(|changed| &changed.pair),
+                ..alone(state.contact.normal())
+            },
             Step::Plastic { contact, .. } => {
                 contact.map(Equilibrium::normal).map_or_else(Self::default, alone)
             }

@@ -248,7 +248,7 @@ fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     }
     each_capability!(C => {
         let rows = C::rows(&summary.found);
-        // Of the means over passes that over the last one.
+        // A motion has the mean of each pass, of which the last one counts.
         let of_last = rows.iter().filter(|row| row.pass() == rows.last().and_then(|last| last.pass()));
         of_last.for_each(|row| add_beside::<C>(&mut numbers, row));
     });

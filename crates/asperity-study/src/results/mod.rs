@@ -440,18 +440,20 @@ impl Results {
     ///
     /// # Errors
     /// [`Error::File`] for unreadable files, [`Error::NotResumable`] if they do not fit together.
-    pub(super) fn loading_under_way(&self, pair: &Pair, increments: usize) -> Result<Option<LoadingState>> {
+    pub(super) fn loading_under_way(&self, pair: &Pair, stages: usize) -> Result<Option<LoadingState>> {
         let (mut rows, table) = (self.increments()?, self.increments_path());
         let Some(done) = self.last_state(rows.len(), 1, &table)? else { return Ok(None) };
         let path = self.state_path(done);
         let stored = Stored::open(&path)?;
         let [nx, ny] = pair.lower_grid().shape;
-        if done >= increments || stored.field("pressure")?.dim() != (nx, ny) {
-            return Err(Error::NotResumable { path, reason: "is of another loading" });
+        let of_another = |path| Err(Error::NotResumable { path, reason: "is of another loading" });
+        if stored.field("pressure")?.dim() != (nx, ny) {
+            return of_another(path);
         }
         rows.truncate(done);
         stored.has_rows(&tables::digest("", &rows), &table)?;
-        state::increment::read(&stored, pair, rows).map(Some)
+        let state = state::increment::read(&stored, pair, rows)?;
+        if state.next.stage >= stages { of_another(path) } else { Ok(Some(state)) }
     }
 
     /// Reads the interrupted contact of the `pair` that wears in place, if there is one.

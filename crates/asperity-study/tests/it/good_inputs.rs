@@ -325,9 +325,8 @@ fn what_a_stage_does_not_name_stays() {
         .with_coupling(coupling)
         .with_junction_growth(9.0);
     assert_eq!((friction.law, friction.prescribed), (law, None));
-    let stage = |load, tangential, increments| Stage {
-        loading: Loading { normal: solver::Control::Load(load), tangential },
-        increments,
+    let stage = |load, tangential, increments| {
+        Stage::new(Loading { normal: solver::Control::Load(load), tangential }, increments)
     };
     let expected = [
         stage(2.0, Tangential::Force([0.0, 0.0]), 4),

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::adhesion::AdhesionRecord;
+use super::fretting::FrettingRecord;
 use super::plastic::PlasticStepRecord;
 use crate::units::{CubicMetre, Joule, Metre, Newton, Pascal, SquareMetre};
 use asperity_base::record::columns;
@@ -55,5 +56,8 @@ columns! {
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PlasticStepRecord>,
+        /// Wear and films; none of bodies that do not change.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub fretting: Option<FrettingRecord>,
     }
 }

@@ -5,6 +5,7 @@
 
 mod adhesion;
 mod plastic;
+mod fretting;
 mod increment;
 pub(crate) mod lost_volumes;
 mod pass;
@@ -15,6 +16,7 @@ mod sweep;
 mod update;
 
 pub use adhesion::{AdhesionPassRecord, AdhesionRecord};
+pub use fretting::FrettingRecord;
 pub use increment::IncrementRecord;
 pub use lost_volumes::LostVolume;
 pub use pass::PassRecord;

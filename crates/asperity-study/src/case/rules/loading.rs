@@ -1,11 +1,46 @@
 //! Rules of friction, rolling, sweeps and histories.
 
-use super::super::Boundary;
 use super::super::friction::IN_PLANE;
+use super::super::{Boundary, InPlane, StageSpec};
 use super::Rule;
-use super::examples::{AT_ANY_SPEED, LINE, ROLLS, SWEEP};
+use super::examples::{AT_ANY_SPEED, FLOWS, LINE, ROLLS, RUBS, SWEEP, VOLUME};
 
 pub(super) const RULES: &[Rule] = &[
+    Rule {
+        this: "`cycles` of a stage",
+        with: "`sliding` in it",
+        message: "cycles go there and back, which 'sliding' does not",
+        hint: "give a `force`, a `displacement` or a `load`",
+        at: "history",
+        example: &[RUBS, r#"history = [{ sliding = [1, 0], cycles = 10 }]"#],
+        broken: |tables| {
+            let slides = |stage: &StageSpec| matches!(stage.in_plane, Some(InPlane::Sliding(_)));
+            let both = tables.case.history.iter().any(|stage| stage.cycles.is_some() && slides(stage));
+            tables.of_stage(&["cycles"]).or(tables.at("history")).filter(|_| both)
+        },
+    },
+    Rule {
+        this: "`cycles` of a stage",
+        with: "[plasticity]",
+        message: "elasto-plastic bodies do not support 'cycles'",
+        hint: "write each way as a stage, or give the bodies a `hardness`",
+        at: "history",
+        example: &[FLOWS, VOLUME, r#"history = [{ load = "1 N", cycles = 10 }]"#],
+        broken: |tables| tables.of_stage(&["cycles"]).filter(|_| tables.flows()),
+    },
+    Rule {
+        this: "`period` of a stage",
+        with: "no `cycles`",
+        message: "'period' needs 'cycles'",
+        hint: "for example `cycles = 10000`",
+        at: "history",
+        example: &[RUBS, r#"history = [{ force = "0.1 N", period = "50 ms" }]"#],
+        broken: |tables| {
+            let alone =
+                tables.case.history.iter().any(|stage| stage.period.is_some() && stage.cycles.is_none());
+            tables.of_stage(&["period"]).filter(|_| alone)
+        },
+    },
     Rule {
         this: "`junction_growth`",
         with: "bodies that do not yield",

@@ -15,7 +15,7 @@ mod running;
 mod temperature;
 
 use super::cursor::{Entry, Table};
-use super::{Body, Case, FrictionSpec, MotionSpec};
+use super::{Body, Case, FrictionSpec, LoadingPath, MotionSpec};
 use asperity_base::error::{Error, Result};
 use asperity_contact::each_capability;
 use asperity_contact::motion::Strategy;
@@ -201,6 +201,12 @@ impl<'a> Tables<'a> {
     /// Whether the bodies slide over each other.
     fn slides(&self) -> bool {
         self.case.motion.is_some() || self.case.sliding.is_some()
+    }
+
+    /// Whether the bodies slip on each other in the stages of a loading.
+    fn frets(&self) -> bool {
+        let in_stages = matches!(self.case.loading_path(1.0), Some(LoadingPath::Stages(_)));
+        in_stages && self.case.friction.is_some()
     }
 
     fn rolls(&self) -> bool {

@@ -33,13 +33,27 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "wear, a film",
         with: "a static contact",
-        message: "{key} needs [motion] or [sliding]",
-        hint: "add a [motion] with its `speed`, or [sliding]",
+        message: "{key} needs [motion], [sliding], or [friction] with a force or a displacement",
+        hint: "add a [motion] with its `speed`, [sliding], or [friction] and stages of a [[history]] in which the bodies slip",
         at: "lower.wear",
         example: &[WEARS],
         broken: |tables| {
             let given = tables.of_body("wear", |_| true).or(tables.of_body("film", |_| true));
-            given.filter(|_| !tables.slides())
+            given.filter(|_| !tables.slides() && !tables.frets())
+        },
+    },
+    Rule {
+        this: "a film that grows in cycles",
+        with: "no `period`",
+        message: "missing key 'period' in [[history]]: films grow with time",
+        hint: "for example `period = \"50 ms\"`, the time of a cycle",
+        at: "history",
+        example: &[GROWS, RUBS, r#"history = [{ force = "0.1 N", cycles = 10 }]"#],
+        broken: |tables| {
+            tables.film_that_grows()?;
+            let has_none =
+                tables.case.history.iter().any(|stage| stage.cycles.is_some() && stage.period.is_none());
+            tables.at("history").filter(|_| has_none && tables.frets())
         },
     },
     Rule {

@@ -49,11 +49,23 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[temperature]",
         with: "a static contact",
-        message: "[temperature] needs [motion] or [sliding]",
+        message: "[temperature] needs [motion], [sliding], or bodies that wear or grow films by slip",
         hint: "",
         at: "temperature",
         example: &[WARM],
-        broken: |tables| tables.at("temperature").filter(|_| !tables.slides()),
+        broken: |tables| {
+            let changes = tables.slides() || tables.frets() && tables.case.runs_in();
+            tables.at("temperature").filter(|_| !changes)
+        },
+    },
+    Rule {
+        this: "a flash temperature",
+        with: "a loading in stages",
+        message: "the slip of a loading in stages has no flash temperature",
+        hint: "set `every = 0`, or leave the thermal constants out",
+        at: "temperature.every",
+        example: &[WEARS, RUBS, r#"temperature = { bulk = "100 °C", every = 1 }"#],
+        broken: |tables| tables.flash().filter(|_| !tables.slides()),
     },
     Rule {
         this: "`every` above 1",

@@ -1,6 +1,7 @@
 //! Keys of a contact, its friction and its history.
 
 use super::Bounds::{AboveZero, AboveZeroOrInfinite, Any, FromZero, FromZeroOrInfinite};
+use super::Exists;
 use super::exists;
 use super::typed::{
     FRACTION, Optional, PRESSURE, Typed, Value, choice, count, defaulted, number, number_named, optional,
@@ -238,7 +239,21 @@ pub(crate) mod history {
             count(1),
             "1; for elasto-plastic bodies, the number in [plasticity]",
             "10",
-            "equal steps from the end of the previous stage",
+            "equal steps from the end of the previous stage; in a cycle of each way",
+        );
+        CYCLES: Optional<usize> = optional(
+            "cycles",
+            count(1),
+            "none: the loading goes there once",
+            "10000",
+            "number of cycles, in each of which the loading goes there and comes back",
+        );
+        PERIOD: Optional<f64> = optional(
+            "period",
+            quantity(Dimension::Time, AboveZero).exists(Exists::Any("a cycle of any time")),
+            "unknown",
+            "\"50 ms\"",
+            "time of a cycle, for films that grow",
         );
     }
 }

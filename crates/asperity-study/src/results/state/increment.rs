@@ -1,10 +1,15 @@
 //! State between two increments of a loading.
 
+use super::super::Results;
+use super::super::bodies::add_bodies;
 use super::Stored;
+use super::pass::{add_sums, sums};
 use crate::io::fields::FieldFile;
 use asperity_base::error::Result;
 use asperity_base::grid::{CellValues, Field};
-use asperity_contact::motion::{Flattening, IncrementRecord, LoadingState, Origin, Pair};
+use asperity_contact::motion::{
+    ChangedBodies, Flattening, IncrementRecord, LastExtrapolation, LoadingState, Origin, Pair, StageProgress,
+};
 use asperity_contact::solver::{Bounds, Equilibrium, FrictionalSolution, Solution, Stats};
 
 /// Adds the state after an increment.
@@ -43,6 +48,22 @@ pub(crate) fn add(file: &mut FieldFile, state: &LoadingState) {
         add("stick", "1", &solution.stick);
         file.set("rigid_displacement", solution.rigid_displacement.to_vec());
     }
+    if let Some(changed) = &state.changed {
+        let ChangedBodies { pair, sums, last, work, cycle_work, error, cycles } = changed;
+        add_bodies(file, pair);
+        let grids = [pair.lower_grid(), pair.upper_grid()];
+        add_sums(file, "cycle", &grids, sums);
+        if let Some(last) = last {
+            file.set("jump", last.passes);
+            add_sums(file, "sum", &grids, &last.sums);
+        }
+        file.set("friction_work", *work)
+            .set("cycle_work", *cycle_work)
+            .set("wear_error", *error)
+            .set("cycles_done", *cycles);
+    }
+    let StageProgress { stage, cycles, step } = state.next;
+    file.set("next_stage", stage).set("next_cycles", cycles).set("next_step", step);
     let Origin { load, approach, force, displacement } = state.origin;
     file.set("approach", normal.approach)
         .set("residual", normal.residual)
@@ -58,6 +79,8 @@ pub(crate) fn add(file: &mut FieldFile, state: &LoadingState) {
 
 /// Reads the state after these `increments` of a loading of the `pair` from a `stored` state.
 pub(crate) fn read(stored: &Stored, pair: &Pair, increments: Vec<IncrementRecord>) -> Result<LoadingState> {
+    let changed = stored.holds("lower").then(|| changed(stored, pair)).transpose()?;
+    let pair = changed.as_ref().map_or(pair, |changed| &changed.pair);
     let kept = stored.holds("kept").then(|| stored.field("kept")).transpose()?;
     let flattening = Flattening { kept, deepest: stored.field("deepest")? };
     let bounds = match stored.holds("cap") {
@@ -108,5 +131,31 @@ pub(crate) fn read(stored: &Stored, pair: &Pair, increments: Vec<IncrementRecord
         flattening,
         slip: has_friction.then(|| stored.both("slip")).transpose()?,
         dissipation_error: stored.number("dissipation_error")?,
+        next: StageProgress {
+            stage: stored.number("next_stage")? as usize,
+            cycles: stored.number("next_cycles")? as usize,
+            step: stored.number("next_step")? as usize,
+        },
+        changed,
+    })
+}
+
+/// Reads bodies that laws have changed. They have the hardness of the `pair`, without their films.
+fn changed(stored: &Stored, pair: &Pair) -> Result<ChangedBodies> {
+    let mut pair = pair.clone();
+    (pair.lower.heights, pair.upper.heights) = (stored.field("lower")?, stored.field("upper")?);
+    [pair.lower.state, pair.upper.state] = Results::states_of(&stored.fields)?;
+    let last = match stored.number("jump") {
+        Ok(passes) => Some(LastExtrapolation { passes: passes as usize, sums: sums(&stored.fields, "sum")? }),
+        Err(_) => None,
+    };
+    Ok(ChangedBodies {
+        pair,
+        sums: sums(&stored.fields, "cycle")?,
+        last,
+        work: stored.number("friction_work")?,
+        cycle_work: stored.number("cycle_work")?,
+        error: stored.number("wear_error")?,
+        cycles: stored.number("cycles_done")? as usize,
     })
 }

@@ -18,20 +18,14 @@ use std::path::Path;
 use crate::io::fields::{Attribute, FieldFile, Fields};
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::Grid;
-use asperity_contact::motion::{Guess, LastExtrapolation, LoadedCells, WarmStart};
+use asperity_contact::motion::{Guess, LastExtrapolation, LoadedCells, Sums, WarmStart};
 
 /// Adds the start of the pass after `pass`.
 pub(crate) fn add(file: &mut FieldFile, pass: usize, grids: &[Grid; 2], warm: &WarmStart) {
     file.set("pass", pass).set("represented", warm.represented);
     if let Some(last) = &warm.extrapolation {
         file.set("jump", last.passes);
-        for (law, sums) in last.sums.iter().enumerate() {
-            for (body, grid) in grids.iter().enumerate() {
-                for (index, sum) in sums[body].iter().enumerate() {
-                    file.add_field(&sum_name(law, body, index), "1", grid, [0.0, 0.0], sum);
-                }
-            }
-        }
+        add_sums(file, "sum", grids, &last.sums);
     }
     if let Some(Guess { approach, slope }) = warm.guess {
         file.set("approach", approach).set("slope", slope);
@@ -54,9 +48,35 @@ pub(crate) fn add(file: &mut FieldFile, pass: usize, grids: &[Grid; 2], warm: &W
     }
 }
 
-/// Name of the field with a sum of a repeating law over the last computed pass of a body; all indices are counted from 0.
-fn sum_name(law: usize, body: usize, index: usize) -> String {
-    format!("sum_{}_{}_{}", ["lower", "upper"][body], law + 1, index + 1)
+/// Adds sums of laws, each as a field `SUM_BODY_LAW_INDEX`.
+pub(super) fn add_sums(file: &mut FieldFile, sum: &str, grids: &[Grid; 2], sums: &[Sums]) {
+    for (law, sums) in sums.iter().enumerate() {
+        for (body, grid) in grids.iter().enumerate() {
+            for (index, values) in sums[body].iter().enumerate() {
+                file.add_field(&sum_name(sum, law, body, index), "1", grid, [0.0, 0.0], values);
+            }
+        }
+    }
+}
+
+/// Reads sums of laws.
+pub(super) fn sums(fields: &Fields, sum: &str) -> Result<Vec<Sums>> {
+    let names = fields.names()?;
+    let of_body = |law: usize, body: usize| {
+        let known =
+            (0..).map(|index| sum_name(sum, law, body, index)).take_while(|name| names.contains(name));
+        let read = |name: String| {
+            fields.read(&name)?.into_field().ok_or(Error::Unsupported("a sum that is not a matrix"))
+        };
+        known.map(read).collect::<Result<Vec<_>>>()
+    };
+    let laws = (0..).take_while(|law| names.contains(&sum_name(sum, *law, 0, 0)));
+    laws.map(|law| Ok([of_body(law, 0)?, of_body(law, 1)?])).collect()
+}
+
+/// Name of the field with a sum of a law over a body; all indices are counted from 0.
+fn sum_name(sum: &str, law: usize, body: usize, index: usize) -> String {
+    format!("{sum}_{}_{}_{}", ["lower", "upper"][body], law + 1, index + 1)
 }
 
 /// Reads the state written by [`add`].
@@ -95,18 +115,8 @@ pub(crate) fn read(path: &Path) -> Result<WarmStart> {
         Some(Attribute::Integer(count)) => usize::try_from(*count).ok(),
         _ => None,
     };
-    let sums = |law: usize, body: usize| {
-        let known = (0..).map(|index| sum_name(law, body, index)).take_while(|name| names.contains(name));
-        let sum = |name: String| {
-            fields.read(&name)?.into_field().ok_or(Error::Unsupported("a sum that is not a matrix"))
-        };
-        known.map(sum).collect::<Result<Vec<_>>>()
-    };
-    let extrapolation = count("jump").map(|passes| {
-        let laws = (0..).take_while(|law| names.contains(&sum_name(*law, 0, 0)));
-        let sums = laws.map(|law| Ok([sums(law, 0)?, sums(law, 1)?])).collect::<Result<_>>()?;
-        Ok::<_, Error>(LastExtrapolation { passes, sums })
-    });
+    let extrapolation =
+        count("jump").map(|passes| Ok::<_, Error>(LastExtrapolation { passes, sums: sums(&fields, "sum")? }));
     let represented = count("represented").or(count("pass")).unwrap_or(0);
     Ok(WarmStart { guess, positions, extrapolation: extrapolation.transpose()?, represented })
 }

@@ -1,0 +1,235 @@
+//! Laws that change the bodies during a loading: where a contact slips by less than its size, it wears and grows films where it slips.
+//!
+//! In a stage the laws act after each increment. In a cycle the bodies are frozen: the laws sum over its increments and act at its end,
+//! for the cycle itself or for several at once, with the slip of the computed one. The pressures change with the wear of these cycles. The
+//! depth of a cell follows from the mean of its pressures on the bodies before and after them (the trapezoidal rule), of which the second is
+//! found as a contact with [`Compliant`] cells. Any number of cycles is stable.
+
+use crate::error::Result;
+use crate::grid::{CellValues, Field};
+use crate::motion::extrapolation::{self, Acceleration, Bounds, GridCompliance, LastExtrapolation};
+use crate::motion::film::FILM;
+use crate::motion::law::{self, CyclicSlip, Law, Sums};
+use crate::motion::pair::Pair;
+use crate::motion::record::{FrettingRecord, LostVolume};
+use crate::motion::rim::Interior;
+use crate::motion::wear::WEAR;
+use crate::motion::{Strategy, worn_away};
+use crate::operator::{Boundary, Compliant, Operator, Operators};
+use crate::solver::{Control, FrictionalSolution, Params, solve_normal};
+use crate::units::{Joule, Kelvin, Metre, Second};
+
+/// Laws that change the bodies of a loading.
+pub(super) struct Laws {
+    laws: Vec<Box<dyn Law>>,
+    acceleration: Acceleration,
+    bulk: [Kelvin; 2],
+    interiors: [Interior; 2],
+    operator: Box<dyn Operator>,
+    compliance: GridCompliance,
+    params: Params,
+}
+
+/// Bodies that have changed so far, and the present cycle.
+#[derive(Debug, Clone)]
+pub struct ChangedBodies {
+    /// The bodies.
+    pub pair: Pair,
+    /// Sums of each law over the increments of the present cycle.
+    pub sums: Vec<Sums>,
+    /// The last computed cycle of the present stage.
+    pub last: Option<LastExtrapolation>,
+    /// Energy dissipated by friction so far, with the cycles that were not computed.
+    pub work: Joule,
+    /// The part of the present cycle of it.
+    pub cycle_work: Joule,
+    /// Estimate of the error of the heights so far.
+    pub error: Metre,
+    /// Cycles of all stages so far.
+    pub cycles: usize,
+}
+
+impl Laws {
+    pub(super) fn new(
+        pair: &mut Pair,
+        mut laws: Vec<Box<dyn Law>>,
+        acceleration: Acceleration,
+        bulk: [Kelvin; 2],
+        (operators, boundary, params): (&Operators, Boundary, Params),
+    ) -> Result<Self> {
+        laws.iter_mut().for_each(|law| law.prepare(pair));
+        let shape = pair.lower_grid().shape;
+        Ok(Self {
+            laws,
+            acceleration: acceleration.checked()?,
+            bulk,
+            interiors: Interior::of_bodies([shape; 2], boundary, Strategy::Overlap, 0.0),
+            operator: operators.on(shape),
+            compliance: GridCompliance::of(pair, boundary),
+            params,
+        })
+    }
+
+    /// Number of cycles that a computed one may stand for.
+    pub(super) fn jumps(&self) -> bool {
+        self.acceleration.max_jump > 1
+    }
+
+    /// The bodies before the first increment.
+    pub(super) fn begin(&self, pair: Pair) -> ChangedBodies {
+        let sums = law::nothing(&self.laws, &pair);
+        ChangedBodies { pair, sums, last: None, work: 0.0, cycle_work: 0.0, error: 0.0, cycles: 0 }
+    }
+
+    /// Prepares bodies that come from a file.
+    pub(super) fn resume(&mut self, bodies: &mut ChangedBodies) {
+        self.laws.iter_mut().for_each(|law| law.prepare(&mut bodies.pair));
+    }
+
+    /// Adds an increment to the sums of the laws: its slip since the contact `before`, in this `time`.
+    pub(super) fn add(
+        &self,
+        bodies: &mut ChangedBodies,
+        contact: &FrictionalSolution,
+        before: Option<&FrictionalSolution>,
+        time: Second,
+    ) {
+        let slip = CyclicSlip::of(contact, before);
+        law::add_slip(&self.laws, &bodies.pair, &slip, time, self.bulk, &mut bodies.sums);
+    }
+
+    /// Lets the laws act once for their sums, which begin anew.
+    pub(super) fn act_once(&self, bodies: &mut ChangedBodies) -> Result<()> {
+        let sums = std::mem::replace(&mut bodies.sums, law::nothing(&self.laws, &bodies.pair));
+        worn_away::check_losses(&bodies.pair, &law::tried(&self.laws, &bodies.pair, &sums, 1))?;
+        self.act(bodies, &sums, 1);
+        Ok(())
+    }
+
+    /// Lets the laws act at the end of a cycle. Returns the number of cycles that it stands for, of the `left` ones.
+    pub(super) fn act_for_cycles(
+        &mut self,
+        bodies: &mut ChangedBodies,
+        contact: &FrictionalSolution,
+        left: usize,
+    ) -> Result<usize> {
+        let sums = std::mem::replace(&mut bodies.sums, law::nothing(&self.laws, &bodies.pair));
+        let one = law::tried(&self.laws, &bodies.pair, &sums, 1);
+        worn_away::check_losses(&bodies.pair, &one)?;
+        let bounds = Bounds {
+            left,
+            volumes: [0.0, 1.0],
+            deepest: law::deepest(&one).into_iter().fold(0.0, f64::max),
+            stable: f64::INFINITY,
+        };
+        let most = bodies.last.as_ref().filter(|_| self.jumps());
+        let mut cycles = most.map_or(1, |last| self.acceleration.most(&bounds, last));
+        let highest = contact.normal.pressure.iter().copied().fold(0.0, f64::max);
+        let allowed = self.acceleration.tolerance * self.compliance.single * highest;
+        let (implicit, error) = loop {
+            let implicit = self.implicitly(bodies, contact, &sums, &one, cycles)?;
+            let error = self.error(bodies, &sums, &implicit, cycles);
+            if cycles == 1 || error <= allowed {
+                break (implicit, error);
+            }
+            // The error grows as the square.
+            let fewer = (cycles as f64 * (allowed / error).sqrt()) as usize;
+            cycles = fewer.clamp(1, cycles - 1);
+        };
+        self.act(bodies, &implicit, cycles);
+        bodies.last = Some(LastExtrapolation { passes: cycles, sums });
+        bodies.work += (cycles - 1) as f64 * bodies.cycle_work;
+        bodies.cycle_work = 0.0;
+        bodies.error += error;
+        bodies.cycles += cycles;
+        Ok(cycles)
+    }
+
+    /// Returns the sums of a cycle at the mean of the pressures before and after its wear over so many `cycles`. The depths of `one` cycle
+    /// are known.
+    fn implicitly(
+        &mut self,
+        bodies: &ChangedBodies,
+        contact: &FrictionalSolution,
+        sums: &[Sums],
+        one: &[[Field; 2]],
+        cycles: usize,
+    ) -> Result<Vec<Sums>> {
+        let normal = &contact.normal;
+        let wears: Vec<bool> = self.laws.iter().map(|law| law.per_pressure(1.0) != [0.0; 2]).collect();
+        if !wears.contains(&true) {
+            return Ok(sums.to_vec());
+        }
+        let mut depth = Field::zeros(normal.pressure.raw_dim());
+        for ([lower, upper], _) in one.iter().zip(&wears).filter(|(_, wears)| **wears) {
+            depth += lower;
+            depth += upper;
+        }
+        // Half of the wear is that of the pressures before, half is in proportion to those after.
+        let half = 0.5 * cycles as f64;
+        let mut compliance = depth.clone();
+        compliance.zip_mut_with(&normal.pressure, |depth, pressure| {
+            *depth = if *pressure > 0.0 { half * *depth / pressure } else { 0.0 };
+        });
+        // The gap under the shear, whose contact without wear is the present one.
+        let mut of_pressure = Field::zeros(normal.pressure.raw_dim());
+        self.operator.apply(&normal.pressure, &mut of_pressure);
+        let gap = bodies.pair.initial_gap(&bodies.pair.at_rest()) + &normal.displacement - of_pressure
+            + half * depth;
+        let control = Control::Load(normal.load());
+        let mut operator = Compliant::new(self.operator.as_mut(), CellValues::Field(compliance))?;
+        let start = Some(&normal.pressure);
+        let worn = solve_normal(&mut operator, &gap, &normal.bounds, control, start, &self.params)?;
+        let mut implicit = sums.to_vec();
+        for (sums, _) in implicit.iter_mut().zip(&wears).filter(|(_, wears)| **wears) {
+            for of_body in sums.iter_mut() {
+                ndarray::Zip::from(&mut of_body[0]).and(&worn.pressure).and(&normal.pressure).for_each(
+                    |sum, worn, before| {
+                        *sum *= if *before > 0.0 { 0.5 + 0.5 * worn.max(0.0) / before } else { 1.0 };
+                    },
+                );
+            }
+        }
+        Ok(implicit)
+    }
+
+    /// Estimates the error of the heights by so many `cycles` at once: the difference from those whose sums change as they have changed
+    /// since the computed cycle before.
+    fn error(&self, bodies: &ChangedBodies, sums: &[Sums], implicit: &[Sums], cycles: usize) -> Metre {
+        let tried = |sums: &[Sums]| law::tried(&self.laws, &bodies.pair, sums, cycles);
+        let explicit = match &bodies.last {
+            Some(last) => tried(&extrapolation::extrapolated(sums, last, cycles)),
+            None => tried(sums),
+        };
+        law::difference(&explicit, &tried(implicit))
+    }
+
+    fn act(&self, bodies: &mut ChangedBodies, sums: &[Sums], cycles: usize) {
+        let mut lost: Vec<_> = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
+        law::advance(&self.laws, &mut bodies.pair, sums, cycles as f64, &self.interiors, &mut lost);
+    }
+
+    /// Describes the bodies after an increment.
+    pub(super) fn record(&self, bodies: &ChangedBodies) -> FrettingRecord {
+        let pair = &bodies.pair;
+        let of = |name: &str, of_body: &dyn Fn(&Field) -> f64| {
+            [&pair.lower, &pair.upper]
+                .map(|body| body.state.get(name).map_or(0.0, |state| of_body(&state.values)))
+        };
+        let deepest = |values: &Field| values.iter().copied().fold(0.0, f64::max);
+        let [worn_volume_lower, worn_volume_upper] = of(WEAR, &|values| pair.cell_area() * values.sum());
+        let [max_wear_lower, max_wear_upper] = of(WEAR, &deepest);
+        let [max_film_lower, max_film_upper] = of(FILM, &deepest);
+        FrettingRecord {
+            cycles: bodies.cycles,
+            worn_volume_lower,
+            worn_volume_upper,
+            max_wear_lower,
+            max_wear_upper,
+            max_film_lower,
+            max_film_upper,
+            friction_work: bodies.work,
+            wear_error: bodies.error,
+        }
+    }
+}
