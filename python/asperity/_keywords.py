@@ -55,6 +55,10 @@ class Rest(TypedDict, total=False):
         "Approaches of a sweep in place of `approach`, each on virgin bodies, m."]
     history: Annotated[Sequence[keys.Stage] | None, "",
         "Stages of the loading after the first. Quantities that a stage does not name do not change."]
+    acceleration: Annotated[keys.Acceleration | None, "",
+        "Computed cycles of a `history` stand for several: `tolerance`, `max_jump`, `max_wear`. Without it all cycles are computed."]
+    temperature: Annotated[keys.Temperature | None, "",
+        '`bulk`, K or text such as ``"100 °C"``: the temperature of the bodies, for films that grow in cycles.']
     plasticity: Annotated[keys.Plasticity | None, "",
         "The plastic volume, for bodies with a :class:`Plasticity`: `depth`, `layers`, `growth`, `increments`, "
         "`tolerance`, `unload`."]

@@ -111,8 +111,13 @@ class Stage(TypedDict, total=False):
     sliding : pair of float
         As in [friction], which it requires; at most one of the three; `[x, y]` of any length. Without it: unchanged.
     increments : int
-        Equal steps from the end of the previous stage; whole number ≥ 1. Without it: 1; for elasto-plastic bodies, the
-        number in [plasticity].
+        Equal steps from the end of the previous stage; in a cycle of each way; whole number ≥ 1. Without it: 1; for
+        elasto-plastic bodies, the number in [plasticity].
+    cycles : int
+        Number of cycles, in each of which the loading goes there and comes back; whole number ≥ 1. Without it: none:
+        the loading goes there once.
+    period : float or str
+        Time of a cycle, for films that grow; time > 0. Without it: unknown.
     """
 
     load: Quantity
@@ -122,6 +127,8 @@ class Stage(TypedDict, total=False):
     displacement: Pair
     sliding: Sequence[float]
     increments: int
+    cycles: int
+    period: Quantity
 
 
 class _RequiredPlasticity(TypedDict):

@@ -21,7 +21,7 @@ struct ExampleFiles {
 const STUDY: &str = "load.toml";
 
 /// The examples that the command writes.
-const KITS: [ExampleFiles; 11] = [
+const KITS: [ExampleFiles; 12] = [
     ExampleFiles {
         name: "quickstart",
         about: "two rough steel surfaces run in: 64 × 64 cells, 5 passes",
@@ -36,6 +36,14 @@ const KITS: [ExampleFiles; 11] = [
         name: "friction",
         about: "a ball pushed to and fro on a plane: stick, slip and the loop of Cattaneo and Mindlin",
         files: &[("case.toml", include_bytes!("../examples/friction/case.toml"))],
+    },
+    ExampleFiles {
+        name: "fretting",
+        about: "a ball that frets on a plate: 10 000 cycles of partial slip, of which some 20 are computed",
+        files: &[
+            ("case.toml", include_bytes!("../examples/fretting/case.toml")),
+            ("gross-slip.toml", include_bytes!("../examples/fretting/gross-slip.toml")),
+        ],
     },
     ExampleFiles {
         name: "measured",

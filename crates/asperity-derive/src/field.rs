@@ -5,7 +5,7 @@ use quote::quote;
 use syn::meta::ParseNestedMeta;
 use syn::{Attribute, Error, Expr, ExprLit, Field, Ident, Lit, LitInt, LitStr, Meta, Path, Result, Type};
 
-/// What a key accepts.
+/// The values that a key accepts.
 enum Accepts {
     Choice,
     Flag,

@@ -1,4 +1,4 @@
-//! What is computed from a map of a contact, or of a gap.
+//! Computations from a map of a contact, or of a gap.
 
 use asperity::conductance::{Joint, Kind, composite_conductivity, full_resistance};
 use asperity::flow::{Along, Ends, Faces, FlowAlong, Fluid, Settings, Sides, memory};

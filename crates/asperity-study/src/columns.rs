@@ -7,9 +7,9 @@ use super::summary::{CONVERGED, RunningIn};
 use asperity_base::units::Dimension;
 use asperity_contact::each_capability;
 use asperity_contact::motion::{
-    AdhesionPassRecord, AdhesionRecord, Column, ENDINGS, HeatRecord, IncrementRecord, PassPlasticRecord,
-    PassRecord, PlasticRecord, PlasticStepRecord, Presence, ResidualRecord, RunningRecord, ShearRecord,
-    StaticRecord, StepRecord, SweepRecord, UpdateRecord,
+    AdhesionPassRecord, AdhesionRecord, Column, ENDINGS, FrettingRecord, HeatRecord, IncrementRecord,
+    PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Presence, ResidualRecord, RunningRecord,
+    ShearRecord, StaticRecord, StepRecord, SweepRecord, UpdateRecord,
 };
 use asperity_contact::with::{Capability, Row as _};
 
@@ -32,6 +32,7 @@ pub fn records() -> Vec<(&'static str, &'static [Column])> {
         ("SweepRecord", SweepRecord::OWN_COLUMNS),
         ("IncrementRecord", IncrementRecord::OWN_COLUMNS),
         ("PlasticStepRecord", PlasticStepRecord::OWN_COLUMNS),
+        ("FrettingRecord", FrettingRecord::OWN_COLUMNS),
         ("UpdateRecord", UpdateRecord::OWN_COLUMNS),
         ("PassRecord", PassRecord::OWN_COLUMNS),
         ("RunningRecord", RunningRecord::OWN_COLUMNS),

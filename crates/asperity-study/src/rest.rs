@@ -280,8 +280,13 @@ impl StaticProblem<'_> {
     /// Creates the result from the end of a loading, or of rolling, with the warnings of `broken` limits.
     fn loaded(self, contact: LoadedContact, broken: Vec<String>) -> StaticResult {
         let jumps = adhesion::jumps(&contact.increments).into_iter().collect();
-        let warnings =
-            [broken, review::loaded(&contact), jumps, self.review(contact.solution.normal())].concat();
+        let warnings = [
+            broken,
+            review::loaded(&contact, self.boundary()),
+            jumps,
+            self.review(contact.solution.normal()),
+        ]
+        .concat();
         let LoadedContact { record, increments, solution, plastic, slip, changed, .. } = contact;
         let pair = changed.map_or(self.pair, |ChangedBodies { pair, .. }| pair);
         let fields = fields(pair, solution, plastic, slip);

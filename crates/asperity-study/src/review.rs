@@ -7,8 +7,8 @@ use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, attraction_cut_off, cut_off, 
 use asperity_base::grid::Field;
 use asperity_base::units::{self, Dimension, Joule, Metre, SquareMetre};
 use asperity_contact::motion::{
-    ElastoPlasticContact, Interior, LoadedContact, Pair, PassPlasticRecord, PassRecord, PlasticVolume,
-    ShearRecord, StaticRecord, StepRecord, SweepRecord,
+    ElastoPlasticContact, IncrementRecord, Interior, LoadedContact, Pair, PassPlasticRecord, PassRecord,
+    PlasticVolume, ShearRecord, StaticRecord, StepRecord, SweepRecord,
 };
 use asperity_contact::operator::Boundary;
 
@@ -33,15 +33,40 @@ pub(super) fn sweep(points: &[SweepRecord], last: &LoadedContact) -> Vec<String>
 }
 
 /// Returns the warnings of a static contact loaded in stages, or of a rolling contact.
-pub(super) fn loaded(contact: &LoadedContact) -> Vec<String> {
+pub(super) fn loaded(contact: &LoadedContact, boundary: Boundary) -> Vec<String> {
     let mut warnings = Vec::new();
     let Some(shear) = &contact.record.shear else { return warnings };
     warnings.extend(inaccurate(contact.dissipation_error, shear));
+    warnings.extend(moves_on(contact, boundary));
     let plastic = contact.record.plastic_cells;
     if shear.creepage.is_some() && plastic > 0 {
         warnings.push(format!("{plastic} cells yield {NOT_FLATTENED}"));
     }
     warnings
+}
+
+/// Warns of bodies that wear and shift by more than a small part of their contact, while the same cells stay opposite each other.
+fn moves_on(contact: &LoadedContact, boundary: Boundary) -> Option<String> {
+    /// Amplitude over the width of the largest spot that needs no warning.
+    const SMALL: f64 = 0.2;
+    contact.changed.as_ref()?;
+    let normal = contact.solution.normal();
+    let range = |value: fn(&IncrementRecord) -> f64| {
+        let values = || contact.increments.iter().map(value);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    let amplitude =
+        0.5 * range(|i| i.tangential_displacement_x).hypot(range(|i| i.tangential_displacement_y));
+    let [x, y] = normal.grid.pitch;
+    let width = spot(&normal.pressure, boundary) as f64 * x.min(y);
+    (width > 0.0 && amplitude > SMALL * width).then(|| {
+        format!(
+            "the bodies shift by {} to either side, and their largest spot of contact is {} wide: the model keeps the same cells opposite \
+             each other, which is for slip that is small compared with a spot",
+            units::format(amplitude, Dimension::Length),
+            units::format(width, Dimension::Length)
+        )
+    })
 }
 
 /// Warns of an inaccurate frictional energy.

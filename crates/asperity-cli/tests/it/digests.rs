@@ -28,7 +28,7 @@ struct Variant {
     except: &'static [&'static str],
 }
 
-const VARIANTS: [Variant; 22] = [
+const VARIANTS: [Variant; 23] = [
     as_it_stands("quickstart"),
     as_it_stands("hertz"),
     as_it_stands("friction"),
@@ -36,6 +36,19 @@ const VARIANTS: [Variant; 22] = [
     as_it_stands("paper"),
     as_it_stands("study"),
     as_it_stands("pull-off"),
+    Variant {
+        name: "fretting-small",
+        example: "fretting",
+        edits: &[
+            ("shape = [64, 64]", "shape = [24, 24]"),
+            ("pitch = \"6.5 um\"", "pitch = \"17 um\""),
+            ("load = \"50 N\"", "load = \"50 N\"\ntolerance = 1e-10"),
+            ("cycles = 10_000", "cycles = 40"),
+            ("max_wear = \"1 um\"", "max_wear = \"1 um\"\ntolerance = 1e9\nmax_jump = 8"),
+        ],
+        tolerance: 1e-7,
+        except: &[],
+    },
     Variant {
         name: "pull-off-small",
         example: "pull-off",

@@ -37,8 +37,8 @@ pub struct ChangedBodies {
     pub pair: Pair,
     /// Sums of each law over the increments of the present cycle.
     pub sums: Vec<Sums>,
-    /// The last computed cycle of the present stage.
-    pub last: Option<LastExtrapolation>,
+    /// The last computed cycle of the present stage, and the pressure at its end.
+    pub last: Option<(LastExtrapolation, Field)>,
     /// Energy dissipated by friction so far, with the cycles that were not computed.
     pub work: Joule,
     /// The part of the present cycle of it.
@@ -123,11 +123,11 @@ impl Laws {
             stable: f64::INFINITY,
         };
         let most = bodies.last.as_ref().filter(|_| self.jumps());
-        let mut cycles = most.map_or(1, |last| self.acceleration.most(&bounds, last));
+        let mut cycles = most.map_or(1, |(last, _)| self.acceleration.most(&bounds, last));
         let highest = contact.normal.pressure.iter().copied().fold(0.0, f64::max);
         let allowed = self.acceleration.tolerance * self.compliance.single * highest;
         let (implicit, error) = loop {
-            let implicit = self.implicitly(bodies, contact, &sums, &one, cycles)?;
+            let implicit = self.implicitly(bodies, contact, &sums, cycles)?;
             let error = self.error(bodies, &sums, &implicit, cycles);
             if cycles == 1 || error <= allowed {
                 break (implicit, error);
@@ -137,7 +137,8 @@ impl Laws {
             cycles = fewer.clamp(1, cycles - 1);
         };
         self.act(bodies, &implicit, cycles);
-        bodies.last = Some(LastExtrapolation { passes: cycles, sums });
+        let last = LastExtrapolation { passes: cycles, sums };
+        bodies.last = Some((last, contact.normal.pressure.clone()));
         bodies.work += (cycles - 1) as f64 * bodies.cycle_work;
         bodies.cycle_work = 0.0;
         bodies.error += error;
@@ -145,14 +146,13 @@ impl Laws {
         Ok(cycles)
     }
 
-    /// Returns the sums of a cycle at the mean of the pressures before and after its wear over so many `cycles`. The depths of `one` cycle
-    /// are known.
+    /// Returns the sums of a cycle over so many `cycles`, in the mean: with the slip that goes on changing as since the computed cycle before,
+    /// and with the mean of the pressures before and after their wear.
     fn implicitly(
         &mut self,
         bodies: &ChangedBodies,
         contact: &FrictionalSolution,
         sums: &[Sums],
-        one: &[[Field; 2]],
         cycles: usize,
     ) -> Result<Vec<Sums>> {
         let normal = &contact.normal;
@@ -160,6 +160,17 @@ impl Laws {
         if !wears.contains(&true) {
             return Ok(sums.to_vec());
         }
+        let mut implicit = sums.to_vec();
+        if let Some((last, pressure)) = bodies.last.as_ref().filter(|_| cycles > 1) {
+            let factor = 0.5 * cycles as f64 / last.passes as f64;
+            let of_laws = implicit.iter_mut().zip(&last.sums).zip(&wears).filter(|(_, wears)| **wears);
+            for ((sums, then), _) in of_laws {
+                sums.iter_mut().zip(then).for_each(|(sum, then)| {
+                    with_slip(&mut sum[0], &then[0], [pressure, &normal.pressure], factor);
+                });
+            }
+        }
+        let one = law::tried(&self.laws, &bodies.pair, &implicit, 1);
         let mut depth = Field::zeros(normal.pressure.raw_dim());
         for ([lower, upper], _) in one.iter().zip(&wears).filter(|(_, wears)| **wears) {
             depth += lower;
@@ -180,7 +191,6 @@ impl Laws {
         let mut operator = Compliant::new(self.operator.as_mut(), CellValues::Field(compliance))?;
         let start = Some(&normal.pressure);
         let worn = solve_normal(&mut operator, &gap, &normal.bounds, control, start, &self.params)?;
-        let mut implicit = sums.to_vec();
         for (sums, _) in implicit.iter_mut().zip(&wears).filter(|(_, wears)| **wears) {
             for of_body in sums.iter_mut() {
                 ndarray::Zip::from(&mut of_body[0]).and(&worn.pressure).and(&normal.pressure).for_each(
@@ -198,7 +208,7 @@ impl Laws {
     fn error(&self, bodies: &ChangedBodies, sums: &[Sums], implicit: &[Sums], cycles: usize) -> Metre {
         let tried = |sums: &[Sums]| law::tried(&self.laws, &bodies.pair, sums, cycles);
         let explicit = match &bodies.last {
-            Some(last) => tried(&extrapolation::extrapolated(sums, last, cycles)),
+            Some((last, _)) => tried(&extrapolation::extrapolated(sums, last, cycles)),
             None => tried(sums),
         };
         law::difference(&explicit, &tried(implicit))
@@ -232,4 +242,15 @@ impl Laws {
             wear_error: bodies.error,
         }
     }
+}
+
+/// Carries on the change of the slip of a cycle, by a `factor` of its change from the cycle `then`: `sum` and `then` are in proportion to the
+/// `pressures` of the cell, those of the cycle before and of the present one.
+fn with_slip(sum: &mut Field, then: &Field, pressures: [&Field; 2], factor: f64) {
+    let [before, now] = pressures;
+    ndarray::Zip::from(sum).and(then).and(before).and(now).for_each(|sum, then, before, now| {
+        if *before > 0.0 {
+            *sum = (*sum + factor * (*sum - then * now.max(0.0) / before)).max(0.0);
+        }
+    });
 }

@@ -17,8 +17,8 @@ use crate::motion::state::{Flattening, LoadedContact, LoadingState};
 use crate::motion::watch::{StaticWatch, Watch};
 use crate::operator::{Boundary, CoupledOperator, Operator};
 use crate::solver::{
-    self, Bounds, Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Rolling,
-    RollingSolution, solve_frictional_watched, solve_rolling_watched,
+    self, Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Rolling, RollingSolution,
+    solve_frictional_watched, solve_rolling_watched,
 };
 use crate::units::{Joule, Kelvin};
 
@@ -198,7 +198,7 @@ impl Course for Increments {
     }
 
     fn report<'a>(&'a self, state: &'a LoadingState) -> Step<'a> {
-        let represented = state.changed.as_ref().and_then(|changed| Some(changed.last.as_ref()?.passes));
+        let represented = state.changed.as_ref().and_then(|changed| Some(changed.last.as_ref()?.0.passes));
         let left = state.next.left(&self.loading.stages, represented.unwrap_or(1));
         Step::Increment { state, of: state.increments.len() + left }
     }
@@ -334,16 +334,14 @@ impl Increments {
             None => (&*pair, Cow::Borrowed(&*gap)),
             Some(ChangedBodies { pair, .. }) => (pair, Cow::Owned(pair.initial_gap(&pair.at_rest()))),
         };
-        let bounds = &pair.bounds(&pair.at_rest(), None);
         let mut contact =
-            solver.solve(pair, &flattening.open(&gap), bounds, loading, last.as_ref(), params, watch)?;
+            solver.solve(pair, &flattening.open(&gap), loading, last.as_ref(), params, watch)?;
         let mut stats = contact.normal().stats;
         let mut plastic = contact.normal().plastic_interference();
         let allowed = MAX_DECREASE * params.tolerance * contact.normal().displacement.std(0.0);
         if flattening.exceeds(&plastic, allowed) {
             flattening.keep();
-            contact =
-                solver.solve(pair, &flattening.open(&gap), bounds, loading, last.as_ref(), params, watch)?;
+            contact = solver.solve(pair, &flattening.open(&gap), loading, last.as_ref(), params, watch)?;
             stats = stats.and(&contact.normal().stats);
             plastic = contact.normal().plastic_interference();
         }
@@ -438,12 +436,12 @@ impl Solver {
         &mut self,
         pair: &Pair,
         gap: &Field,
-        bounds: &Bounds,
         loading: Loading,
         last: Option<&Equilibrium>,
         params: &Params,
         watch: &dyn solver::Watch,
     ) -> Result<Equilibrium> {
+        let bounds = &pair.bounds(&pair.at_rest(), None);
         match self {
             Self::Frictionless(operator) => {
                 let last = last.map(Equilibrium::normal);

@@ -23,6 +23,7 @@ mod coated;
 mod conductance;
 mod dissimilar;
 mod flow;
+mod fretting;
 mod heat;
 mod in_place;
 mod operators;
@@ -197,6 +198,8 @@ pub const CASES: &[Case] = &[
     in_place::GROOVES_UNDER_FILM,
     in_place::FLAT,
     in_place::BALL,
+    fretting::CYCLE,
+    fretting::JUMPS,
 ];
 
 /// Creates the `checks` of quantities whose relative errors `errors_at` computes at each of the `sizes`.

@@ -1,4 +1,4 @@
-//! What a capability is.
+//! The definition of a capability.
 
 use std::fmt::Debug;
 
@@ -30,7 +30,7 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
 
     /// A row of its table: what it has computed from a contact, or from a contact along one axis.
     type Row: Row;
-    /// What computes the rows.
+    /// The computation of the rows.
     type Observer: Observer<Row = Self::Row>;
 
     /// Combinations that exclude it, and what it requires.
@@ -152,7 +152,7 @@ pub struct BodyConstants {
     pub resistivity: Option<f64>,
 }
 
-/// What surrounds a contact: the constants of both bodies, and what they do.
+/// Surroundings of a contact: the constants of both bodies, and how they move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Surroundings {
     /// The lower and the upper body.
@@ -181,12 +181,12 @@ impl Surroundings {
     }
 }
 
-/// What a capability is given before the first contact.
+/// Everything that a capability gets before the first contact.
 #[derive(Debug)]
 pub struct Given<'a> {
     /// The bodies.
     pub pair: &'a Pair,
-    /// What surrounds the contacts.
+    /// Surroundings of the contacts.
     pub surroundings: Surroundings,
     /// Parameters of the solver.
     pub params: Params,

@@ -2,12 +2,13 @@
 
 use asperity_contact::motion::IncrementRecord;
 
-use super::Curves;
+use super::{Curves, fretting};
 use crate::draw::{Axis, Chart, Charts, Mark, Series};
 
 /// The curves of a loading of several increments.
 pub(crate) fn curves(increments: &[IncrementRecord]) -> Vec<Curves> {
-    vec![Curves::new("loading", "force over displacement", chart(increments))]
+    let curves = Curves::new("loading", "force over displacement", chart(&fretting::shown(increments)));
+    std::iter::once(curves).chain(fretting::curves(increments)).collect()
 }
 
 /// Force over displacement in the plane, or where nothing acts there, load over approach.

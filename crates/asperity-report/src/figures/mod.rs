@@ -3,6 +3,7 @@
 mod course;
 mod plastic;
 mod force_distance;
+mod fretting;
 mod friction;
 mod loading;
 mod motion;
@@ -146,6 +147,9 @@ fn gather_on<'a>(
     let updates = results.updates()?;
     if !updates.is_empty() {
         sliding::draw(&updates, &results.static_fields()?, &of, &mut sheet)?;
+    }
+    if results.increments()?.last().is_some_and(|last| last.fretting.is_some()) {
+        sliding::bodies(&results.static_fields()?, &of, &mut sheet)?;
     }
     let points = results.sweep()?;
     if !points.is_empty() {

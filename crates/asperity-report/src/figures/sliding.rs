@@ -14,6 +14,11 @@ type Number = fn(&UpdateRecord) -> f64;
 
 pub(super) fn draw(updates: &[UpdateRecord], fields: &Fields, of: &str, sheet: &mut Sheet) -> Result {
     curves(updates).into_iter().try_for_each(|curves| sheet.add_curves(curves, of))?;
+    bodies(fields, of, sheet)
+}
+
+/// Draws what wear, films and heat leave on the bodies.
+pub(super) fn bodies(fields: &Fields, of: &str, sheet: &mut Sheet) -> Result {
     let names = fields.names()?;
     let given = |name: &str| names.iter().any(|given| given == name);
     for (state, title, quantity) in

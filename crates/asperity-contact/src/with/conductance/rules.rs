@@ -1,4 +1,4 @@
-//! What a conductance requires of the bodies.
+//! The rules of a conductance.
 
 use super::{Joint, Kind, composite, conductor};
 use crate::with::{Rule, Surroundings};

@@ -1,4 +1,4 @@
-//! What a flow requires.
+//! The rules of a flow.
 
 use super::{Ends, Leakage};
 use crate::with::Rule;

@@ -11,7 +11,7 @@ pub(super) const RULES: &[Rule] = &[
         with: "`sliding` in it",
         message: "cycles go there and back, which 'sliding' does not",
         hint: "give a `force`, a `displacement` or a `load`",
-        at: "history",
+        at: "history.cycles",
         example: &[RUBS, r#"history = [{ sliding = [1, 0], cycles = 10 }]"#],
         broken: |tables| {
             let slides = |stage: &StageSpec| matches!(stage.in_plane, Some(InPlane::Sliding(_)));
@@ -24,7 +24,7 @@ pub(super) const RULES: &[Rule] = &[
         with: "[plasticity]",
         message: "elasto-plastic bodies do not support 'cycles'",
         hint: "write each way as a stage, or give the bodies a `hardness`",
-        at: "history",
+        at: "history.cycles",
         example: &[FLOWS, VOLUME, r#"history = [{ load = "1 N", cycles = 10 }]"#],
         broken: |tables| tables.of_stage(&["cycles"]).filter(|_| tables.flows()),
     },
@@ -33,7 +33,7 @@ pub(super) const RULES: &[Rule] = &[
         with: "no `cycles`",
         message: "'period' needs 'cycles'",
         hint: "for example `cycles = 10000`",
-        at: "history",
+        at: "history.period",
         example: &[RUBS, r#"history = [{ force = "0.1 N", period = "50 ms" }]"#],
         broken: |tables| {
             let alone =

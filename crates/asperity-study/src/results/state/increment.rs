@@ -53,8 +53,9 @@ pub(crate) fn add(file: &mut FieldFile, state: &LoadingState) {
         add_bodies(file, pair);
         let grids = [pair.lower_grid(), pair.upper_grid()];
         add_sums(file, "cycle", &grids, sums);
-        if let Some(last) = last {
+        if let Some((last, pressure)) = last {
             file.set("jump", last.passes);
+            file.add_field("cycle_pressure", "Pa", grid, [0.0, 0.0], pressure);
             add_sums(file, "sum", &grids, &last.sums);
         }
         file.set("friction_work", *work)
@@ -146,7 +147,10 @@ fn changed(stored: &Stored, pair: &Pair) -> Result<ChangedBodies> {
     (pair.lower.heights, pair.upper.heights) = (stored.field("lower")?, stored.field("upper")?);
     [pair.lower.state, pair.upper.state] = Results::states_of(&stored.fields)?;
     let last = match stored.number("jump") {
-        Ok(passes) => Some(LastExtrapolation { passes: passes as usize, sums: sums(&stored.fields, "sum")? }),
+        Ok(passes) => {
+            let sums = sums(&stored.fields, "sum")?;
+            Some((LastExtrapolation { passes: passes as usize, sums }, stored.field("cycle_pressure")?))
+        }
         Err(_) => None,
     };
     Ok(ChangedBodies {

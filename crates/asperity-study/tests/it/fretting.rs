@@ -1,0 +1,168 @@
+//! Bodies that wear and grow films where they slip in the cycles of a loading.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use asperity_base::{Error, Field};
+use asperity_contact::motion::{IncrementRecord, Progress, Watch};
+use asperity_study::{Case, Existing, StaticResult, SurfaceInput};
+
+/// Rough bodies, with wear under a film that grows.
+const ROUGH: &str = r#"
+lower = { young = "210 GPa", poisson = 0.3, hardness = "3 GPa", topography = { generate = "self-affine", shape = [32, 32], pitch = "1 um", hurst = 0.8, sq = "60 nm", shortest = "4 um", seed = 3 }, wear = { coefficient = "1e-5 mm3/(N m)", under_film = "1e-6 mm3/(N m)" }, film = { law = "mechano-chemical", max_thickness = "50 nm", x = 1e-14, c3 = "5 nm", c4 = 0.1, hardness = "1.5 GPa" } }
+upper = { young = "70 GPa", poisson = 0.2, topography = { form = "flat" }, wear = { energy = "1e-5 mm3/J" } }
+contact = { mean_pressure = "30 MPa", boundary = "periodic" }
+temperature = { bulk = "100 °C" }
+acceleration = { max_wear = "20 nm", tolerance = 0.5 }
+[friction]
+coefficient = 0.4
+force = "6 mN"
+increments = 2
+[[history]]
+force = "-6 mN"
+increments = 2
+cycles = 400
+period = "50 ms"
+[[history]]
+load = "20 mN"
+increments = 2
+"#;
+
+/// A ball of steel on a flat body of it.
+fn ball(in_plane: &str, history: &str, coefficient: &str) -> String {
+    format!(
+        r#"
+lower = {{ young = "210 GPa", poisson = 0.3, topography = {{ form = "flat", shape = [48, 48], pitch = "5 um" }}, wear = {{ coefficient = "{coefficient}" }} }}
+upper = {{ young = "210 GPa", poisson = 0.3, topography = {{ form = "sphere", radius = "5 mm" }} }}
+contact = {{ load = "10 N" }}
+friction = {{ coefficient = 0.5, {in_plane}, increments = 4 }}
+acceleration = {{ max_wear = "1 um" }}
+[[history]]
+{history}
+increments = 4
+"#
+    )
+}
+
+fn case(text: &str) -> Case {
+    Case::parse(text, Path::new("case.toml"), Path::new("")).unwrap()
+}
+
+fn solved(text: &str) -> StaticResult {
+    asperity_study::rest(&case(text), SurfaceInput::default(), &()).unwrap()
+}
+
+fn field<'a>(result: &'a StaticResult, name: &str) -> &'a Field {
+    &result.fields.fields.iter().find(|field| field.name == name).unwrap().values
+}
+
+/// Stops after a number of increments.
+struct Stop(AtomicUsize);
+
+impl Watch for Stop {
+    fn at(&self, progress: &Progress) {
+        if progress.solved > 0 && progress.trial > 0 {
+            self.0.fetch_sub(1, Ordering::Relaxed);
+        }
+    }
+
+    fn stop(&self) -> bool {
+        self.0.load(Ordering::Relaxed) == 0
+    }
+}
+
+#[test]
+fn rough_bodies_fret_and_go_on_after_interruptions_with_the_same_bits_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = case(ROUGH);
+    let run = |name: &str, existing, watch: &dyn Watch| {
+        asperity_study::run(&case, SurfaceInput::default(), &folder.path().join(name), existing, watch)
+    };
+    let on = |threads: usize, task: &(dyn Fn() + Sync)| {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(task);
+    };
+    on(1, &|| drop(run("whole", Existing::Keep, &()).unwrap()));
+    on(2, &|| {
+        let mut existing = Existing::Keep;
+        for increments in [1, 7, 23] {
+            let stopped = run("broken", existing, &Stop(increments.into()));
+            assert!(matches!(stopped, Err(Error::Interrupted)), "{:?}", stopped.err());
+            existing = Existing::Resume;
+        }
+        drop(run("broken", existing, &()).unwrap());
+    });
+    for file in ["increments.csv", "fields.h5"] {
+        let read = |name: &str| std::fs::read(folder.path().join(name).join(file)).unwrap();
+        assert!(read("whole") == read("broken"), "{file}");
+    }
+    let result = solved(ROUGH);
+    let last = result.increments.last().unwrap();
+    let fretting = last.fretting.unwrap();
+    assert!(fretting.cycles == 400 && result.increments.len() < 4 * 400, "{fretting:?}");
+    assert!(fretting.worn_volume_lower > 0.0 && fretting.worn_volume_upper > 0.0, "{fretting:?}");
+    assert!(fretting.max_film_lower > 0.0 && fretting.max_film_upper == 0.0, "{fretting:?}");
+    // The worn bodies are those of the fields.
+    let worn = result.fields.grid.cell_area() * field(&result, "wear_upper").sum();
+    assert!((worn / fretting.worn_volume_upper - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn partial_slip_wears_the_annulus_alone_and_gross_slip_everywhere() {
+    let pushed = solved(&ball("force = \"3.5 N\"", "force = \"-3.5 N\"\ncycles = 2000", "1e-5 mm3/(N m)"));
+    let scar = field(&pushed, "wear_lower");
+    let stick = field(&pushed, "stick");
+    let deepest = scar.iter().copied().fold(0.0, f64::max);
+    assert!(deepest > 1e-9 && scar[[24, 24]] == 0.0 && stick[[24, 24]] == 1.0, "{deepest}");
+    let shifted =
+        solved(&ball("displacement = \"5 um\"", "displacement = \"-5 um\"\ncycles = 2000", "1e-5 mm3/(N m)"));
+    let scar = field(&shifted, "wear_lower");
+    assert!(scar[[24, 24]] > 0.9 * scar.iter().copied().fold(0.0, f64::max));
+    // The scar flattens the contact, and its volume is k W times the path of the slip.
+    let [first, last] = [&shifted.increments[3], shifted.increments.last().unwrap()];
+    assert!(last.max_pressure < 0.9 * first.max_pressure && last.contact_area > 1.1 * first.contact_area);
+    let of_energy = |record: &IncrementRecord| {
+        let fretting = record.fretting.unwrap();
+        1e-14 / 0.5 * fretting.friction_work / fretting.worn_volume_lower
+    };
+    assert!((of_energy(last) - 1.0).abs() < 5e-3, "{}", of_energy(last));
+}
+
+#[test]
+fn scar_and_loop_change_together_over_ten_thousand_cycles() {
+    let text = ball("force = \"4 N\"", "force = \"-4 N\"\ncycles = 10000", "1e-4 mm3/(N m)");
+    let result = solved(&text);
+    let ends: Vec<&IncrementRecord> = result
+        .increments
+        .windows(2)
+        .filter(|pair| pair[0].fretting.unwrap().cycles != pair[1].fretting.unwrap().cycles)
+        .map(|pair| &pair[1])
+        .collect();
+    let (first, last) = (ends[0], ends[ends.len() - 1]);
+    assert_eq!(last.fretting.unwrap().cycles, 10_000);
+    assert!(ends.len() < 60, "{}", ends.len());
+    // The stuck middle bears more and more of the load, and the bodies shift further.
+    assert!(last.max_pressure > 1.01 * first.max_pressure);
+    assert!(last.tangential_displacement_x > 1.01 * first.tangential_displacement_x);
+    // A tenth of the tolerance gives the same scar, within the estimate of the error.
+    let finer = solved(&text.replace("max_wear = \"1 um\"", "max_wear = \"1 um\", tolerance = 0.001"));
+    let most = |result: &StaticResult| field(result, "wear_lower").iter().copied().fold(0.0, f64::max);
+    let difference = (most(&result) / most(&finer) - 1.0).abs();
+    assert!(difference < 0.01, "{difference}");
+}
+
+#[test]
+fn cycles_without_wear_repeat_the_loop() {
+    let text = ball("force = \"4 N\"", "force = \"-4 N\"\ncycles = 3", "1e-6 mm3/(N m)");
+    let plain = text
+        .replace(", wear = { coefficient = \"1e-6 mm3/(N m)\" }", "")
+        .replace("acceleration = { max_wear = \"1 um\" }\n", "");
+    let result = solved(&plain);
+    assert_eq!(result.increments.len(), 4 + 3 * 8);
+    assert!(result.increments.iter().all(|increment| increment.fretting.is_none()));
+    let displacement = |index: usize| result.increments[index].tangential_displacement_x;
+    for step in 0..8 {
+        let most = displacement(3);
+        let difference = (displacement(12 + step) - displacement(20 + step)).abs() / most;
+        assert!(difference < 1e-3, "{step}: {difference}");
+    }
+}
