@@ -316,9 +316,9 @@ fn every_example_has_its_digests() {
             count
         });
         // That of 100 000 passes would have a digest as long as its results, those of bodies that flow and of 512 × 512 cells take
-        // minutes.
-        let wanted =
-            usize::from(!["running-in", "rolling", "contact-challenge"].iter().any(|long| name == **long));
+        // minutes. How many cycles a computed one stands for depends on rounding.
+        let without = ["running-in", "rolling", "contact-challenge", "fretting"];
+        let wanted = usize::from(!without.iter().any(|example| name == **example));
         assert!(
             whole == wanted && small > 0,
             "{name:?} has {small} small variants, and {whole} as it stands"
