@@ -37,8 +37,8 @@ pub struct ChangedBodies {
     pub pair: Pair,
     /// Sums of each law over the increments of the present cycle.
     pub sums: Vec<Sums>,
-    /// The last computed cycle of the present stage, and the pressure at its end.
-    pub last: Option<(LastExtrapolation, Field)>,
+    /// The last computed cycle of the present stage.
+    pub last: Option<LastCycle>,
     /// Energy dissipated by friction so far, with the cycles that were not computed.
     pub work: Joule,
     /// The part of the present cycle of it.
@@ -47,6 +47,17 @@ pub struct ChangedBodies {
     pub error: Metre,
     /// Cycles of all stages so far.
     pub cycles: usize,
+}
+
+/// The last computed cycle, needed to choose how many cycles the next one stands for.
+#[derive(Debug, Clone)]
+pub struct LastCycle {
+    /// Cycles that it stands for, and its sums of each law.
+    pub extrapolation: LastExtrapolation,
+    /// Pressure at its end, Pa.
+    pub pressure: Field,
+    /// Energy that friction took in it.
+    pub work: Joule,
 }
 
 impl Laws {
@@ -68,11 +79,6 @@ impl Laws {
             compliance: GridCompliance::of(pair, boundary),
             params,
         })
-    }
-
-    /// Number of cycles that a computed one may stand for.
-    pub(super) fn jumps(&self) -> bool {
-        self.acceleration.max_jump > 1
     }
 
     /// The bodies before the first increment.
@@ -106,13 +112,16 @@ impl Laws {
         Ok(())
     }
 
-    /// Lets the laws act at the end of a cycle. Returns the number of cycles that it stands for, of the `left` ones.
+    /// Lets the laws act at the end of a cycle, after those of its stage that are `done`. Returns the number of cycles that it stands for, of
+    /// the `left` ones.
     pub(super) fn act_for_cycles(
         &mut self,
         bodies: &mut ChangedBodies,
         contact: &FrictionalSolution,
-        left: usize,
+        [done, left]: [usize; 2],
     ) -> Result<usize> {
+        /// Cycles at the beginning of a stage that stand for themselves: the first one still remembers how the loading came there.
+        const SETTLING: usize = 2;
         let sums = std::mem::replace(&mut bodies.sums, law::nothing(&self.laws, &bodies.pair));
         let one = law::tried(&self.laws, &bodies.pair, &sums, 1);
         worn_away::check_losses(&bodies.pair, &one)?;
@@ -122,13 +131,13 @@ impl Laws {
             deepest: law::deepest(&one).into_iter().fold(0.0, f64::max),
             stable: f64::INFINITY,
         };
-        let most = bodies.last.as_ref().filter(|_| self.jumps());
-        let mut cycles = most.map_or(1, |(last, _)| self.acceleration.most(&bounds, last));
+        let most = bodies.last.as_ref().filter(|_| done >= SETTLING && self.acceleration.max_jump > 1);
+        let mut cycles = most.map_or(1, |last| self.acceleration.most(&bounds, &last.extrapolation));
         let highest = contact.normal.pressure.iter().copied().fold(0.0, f64::max);
         let allowed = self.acceleration.tolerance * self.compliance.single * highest;
         let (implicit, error) = loop {
             let implicit = self.implicitly(bodies, contact, &sums, cycles)?;
-            let error = self.error(bodies, &sums, &implicit, cycles);
+            let error = self.error(bodies, &contact.normal.pressure, &sums, &implicit, cycles);
             if cycles == 1 || error <= allowed {
                 break (implicit, error);
             }
@@ -137,10 +146,17 @@ impl Laws {
             cycles = fewer.clamp(1, cycles - 1);
         };
         self.act(bodies, &implicit, cycles);
-        let last = LastExtrapolation { passes: cycles, sums };
-        bodies.last = Some((last, contact.normal.pressure.clone()));
-        bodies.work += (cycles - 1) as f64 * bodies.cycle_work;
+        let (work, several) = (bodies.cycle_work, cycles as f64);
+        let growth = bodies
+            .last
+            .as_ref()
+            .filter(|_| cycles > 1)
+            .map_or(0.0, |last| 0.5 * several / last.extrapolation.passes as f64 * (work - last.work));
+        // One of the cycles has been counted.
+        bodies.work += several * (work + growth) - work;
         bodies.cycle_work = 0.0;
+        let extrapolation = LastExtrapolation { passes: cycles, sums };
+        bodies.last = Some(LastCycle { extrapolation, pressure: contact.normal.pressure.clone(), work });
         bodies.error += error;
         bodies.cycles += cycles;
         Ok(cycles)
@@ -160,16 +176,7 @@ impl Laws {
         if !wears.contains(&true) {
             return Ok(sums.to_vec());
         }
-        let mut implicit = sums.to_vec();
-        if let Some((last, pressure)) = bodies.last.as_ref().filter(|_| cycles > 1) {
-            let factor = 0.5 * cycles as f64 / last.passes as f64;
-            let of_laws = implicit.iter_mut().zip(&last.sums).zip(&wears).filter(|(_, wears)| **wears);
-            for ((sums, then), _) in of_laws {
-                sums.iter_mut().zip(then).for_each(|(sum, then)| {
-                    with_slip(&mut sum[0], &then[0], [pressure, &normal.pressure], factor);
-                });
-            }
-        }
+        let mut implicit = self.with_slip(bodies, &normal.pressure, sums, cycles);
         let one = law::tried(&self.laws, &bodies.pair, &implicit, 1);
         let mut depth = Field::zeros(normal.pressure.raw_dim());
         for ([lower, upper], _) in one.iter().zip(&wears).filter(|(_, wears)| **wears) {
@@ -203,15 +210,44 @@ impl Laws {
         Ok(implicit)
     }
 
-    /// Estimates the error of the heights by so many `cycles` at once: the difference from those whose sums change as they have changed
-    /// since the computed cycle before.
-    fn error(&self, bodies: &ChangedBodies, sums: &[Sums], implicit: &[Sums], cycles: usize) -> Metre {
+    /// Returns the sums of a cycle, in the mean over so many `cycles`, with the slip that goes on changing as since the computed cycle before.
+    /// The pressures stay.
+    fn with_slip(&self, bodies: &ChangedBodies, pressure: &Field, sums: &[Sums], cycles: usize) -> Vec<Sums> {
+        let mut changing = sums.to_vec();
+        let Some(last) = bodies.last.as_ref().filter(|_| cycles > 1) else { return changing };
+        let factor = 0.5 * cycles as f64 / last.extrapolation.passes as f64;
+        let laws = self.laws.iter().zip(&mut changing).zip(&last.extrapolation.sums);
+        for ((_, sums), then) in laws.filter(|((law, _), _)| law.per_pressure(1.0) != [0.0; 2]) {
+            for (sum, then) in sums.iter_mut().zip(then) {
+                ndarray::Zip::from(&mut sum[0]).and(&then[0]).and(&last.pressure).and(pressure).for_each(
+                    |sum, then, before, now| {
+                        if *before > 0.0 {
+                            *sum = (*sum + factor * (*sum - then * now.max(0.0) / before)).max(0.0);
+                        }
+                    },
+                );
+            }
+        }
+        changing
+    }
+
+    /// Estimates the error of the heights by so many `cycles` at once, whose sums are known: the larger one of the differences from those
+    /// of an explicit step, whose sums change as since the computed cycle before, and of the change of the slip.
+    fn error(
+        &self,
+        bodies: &ChangedBodies,
+        pressure: &Field,
+        sums: &[Sums],
+        implicit: &[Sums],
+        cycles: usize,
+    ) -> Metre {
         let tried = |sums: &[Sums]| law::tried(&self.laws, &bodies.pair, sums, cycles);
         let explicit = match &bodies.last {
-            Some((last, _)) => tried(&extrapolation::extrapolated(sums, last, cycles)),
+            Some(last) => tried(&extrapolation::extrapolated(sums, &last.extrapolation, cycles)),
             None => tried(sums),
         };
-        law::difference(&explicit, &tried(implicit))
+        let of_slip = law::difference(&tried(&self.with_slip(bodies, pressure, sums, cycles)), &tried(sums));
+        law::difference(&explicit, &tried(implicit)).max(of_slip)
     }
 
     fn act(&self, bodies: &mut ChangedBodies, sums: &[Sums], cycles: usize) {
@@ -242,15 +278,4 @@ impl Laws {
             wear_error: bodies.error,
         }
     }
-}
-
-/// Carries on the change of the slip of a cycle, by a `factor` of its change from the cycle `then`: `sum` and `then` are in proportion to the
-/// `pressures` of the cell, those of the cycle before and of the present one.
-fn with_slip(sum: &mut Field, then: &Field, pressures: [&Field; 2], factor: f64) {
-    let [before, now] = pressures;
-    ndarray::Zip::from(sum).and(then).and(before).and(now).for_each(|sum, then, before, now| {
-        if *before > 0.0 {
-            *sum = (*sum + factor * (*sum - then * now.max(0.0) / before)).max(0.0);
-        }
-    });
 }

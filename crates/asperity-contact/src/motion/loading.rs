@@ -198,7 +198,8 @@ impl Course for Increments {
     }
 
     fn report<'a>(&'a self, state: &'a LoadingState) -> Step<'a> {
-        let represented = state.changed.as_ref().and_then(|changed| Some(changed.last.as_ref()?.0.passes));
+        let represented =
+            state.changed.as_ref().and_then(|changed| Some(changed.last.as_ref()?.extrapolation.passes));
         let left = state.next.left(&self.loading.stages, represented.unwrap_or(1));
         Step::Increment { state, of: state.increments.len() + left }
     }
@@ -374,7 +375,8 @@ impl Increments {
             }
             match stage.cycles {
                 Some(cycles) if next.ends_cycle(stages) => {
-                    represented = laws.act_for_cycles(changed, now, cycles.count - next.cycles)?;
+                    let left = cycles.count - next.cycles;
+                    represented = laws.act_for_cycles(changed, now, [next.cycles, left])?;
                 }
                 Some(_) => {}
                 None => laws.act_once(changed)?,

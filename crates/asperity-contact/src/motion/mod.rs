@@ -46,7 +46,7 @@ pub use elasto_plastic::{ElastoPlasticContact, PlasticPath, PlasticResult, press
 pub use extrapolation::{Acceleration, LastExtrapolation};
 pub use film::{ACTIVATION_ENERGIES, ACTIVATION_VOLUMES, GROWTH_FACTORS, GROWTH_TEMPERATURES, REMOVAL_RATES};
 pub use film::{FILM, Film, FilmLaw, FilmStress, Films};
-pub use fretting::ChangedBodies;
+pub use fretting::{ChangedBodies, LastCycle};
 pub use heat::FLASH;
 pub use law::{ContactCells, Law, Sums};
 pub use loading::{StagedLoading, load_in_stages, roll};

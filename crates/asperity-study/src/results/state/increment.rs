@@ -8,7 +8,8 @@ use crate::io::fields::FieldFile;
 use asperity_base::error::Result;
 use asperity_base::grid::{CellValues, Field};
 use asperity_contact::motion::{
-    ChangedBodies, Flattening, IncrementRecord, LastExtrapolation, LoadingState, Origin, Pair, StageProgress,
+    ChangedBodies, Flattening, IncrementRecord, LastCycle, LastExtrapolation, LoadingState, Origin, Pair,
+    StageProgress,
 };
 use asperity_contact::solver::{Bounds, Equilibrium, FrictionalSolution, Solution, Stats};
 
@@ -53,10 +54,10 @@ pub(crate) fn add(file: &mut FieldFile, state: &LoadingState) {
         add_bodies(file, pair);
         let grids = [pair.lower_grid(), pair.upper_grid()];
         add_sums(file, "cycle", &grids, sums);
-        if let Some((last, pressure)) = last {
-            file.set("jump", last.passes);
+        if let Some(LastCycle { extrapolation, pressure, work }) = last {
+            file.set("jump", extrapolation.passes).set("last_work", *work);
             file.add_field("cycle_pressure", "Pa", grid, [0.0, 0.0], pressure);
-            add_sums(file, "sum", &grids, &last.sums);
+            add_sums(file, "sum", &grids, &extrapolation.sums);
         }
         file.set("friction_work", *work)
             .set("cycle_work", *cycle_work)
@@ -149,7 +150,11 @@ fn changed(stored: &Stored, pair: &Pair) -> Result<ChangedBodies> {
     let last = match stored.number("jump") {
         Ok(passes) => {
             let sums = sums(&stored.fields, "sum")?;
-            Some((LastExtrapolation { passes: passes as usize, sums }, stored.field("cycle_pressure")?))
+            Some(LastCycle {
+                extrapolation: LastExtrapolation { passes: passes as usize, sums },
+                pressure: stored.field("cycle_pressure")?,
+                work: stored.number("last_work")?,
+            })
         }
         Err(_) => None,
     };
