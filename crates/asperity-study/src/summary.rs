@@ -184,6 +184,7 @@ mod tests {
             shear: None,
             adhesion: None,
             plastic: None,
+            fretting: None,
         };
         let summary = Summary {
             version: "0.1.0".into(),

@@ -169,6 +169,26 @@ fn static_table(record: &StaticRecord, planes: &str) -> String {
             rows.push(("moment", format!("{} N m", format_number(moment))));
         }
     }
+    if let Some(fretting) = &record.fretting {
+        let both = |[lower, upper]: [f64; 2], dimension| {
+            format!(
+                "{} of the lower body, {} of the upper one",
+                format(lower, dimension),
+                format(upper, dimension)
+            )
+        };
+        let volumes = [fretting.worn_volume_lower, fretting.worn_volume_upper];
+        let depths = [fretting.max_wear_lower, fretting.max_wear_upper];
+        rows.extend([
+            ("cycles", fretting.cycles.to_string()),
+            ("worn volume", both(volumes, Dimension::Volume)),
+            ("deepest wear", both(depths, Dimension::Length)),
+        ]);
+        let films = [fretting.max_film_lower, fretting.max_film_upper];
+        if films != [0.0; 2] {
+            rows.push(("thickest film", both(films, Dimension::Length)));
+        }
+    }
     if let Some(plastic) = &record.plastic {
         let residual = plastic.residual.as_ref();
         let tension =

@@ -303,6 +303,7 @@ impl StaticRecord {
             shear: None,
             adhesion: None,
             plastic: None,
+            fretting: None,
         }
     }
 

@@ -413,7 +413,11 @@ impl StagedLoading {
         let now = solution.normal().plastic_interference();
         let plastic = flattening.whole(now);
         let sum = |value: fn(&IncrementRecord) -> f64| increments.iter().map(value).sum::<f64>();
-        let shear = solution.frictional().map(|solution| shear_record(solution, sum(|i| i.dissipation)));
+        // Cycles that were not computed have taken energy, too.
+        let dissipation =
+            changed.as_ref().map_or(sum(|increment| increment.dissipation), |changed| changed.work);
+        let shear = solution.frictional().map(|solution| shear_record(solution, dissipation));
+        let fretting = increments.last().and_then(|last| last.fretting);
         let adhesion = increments.last().and_then(|last| last.adhesion);
         let adhesion = adhesion
             .map(|last| last.after(increments.iter().filter_map(|increment| increment.adhesion.as_ref())));
@@ -426,6 +430,7 @@ impl StagedLoading {
             convolutions: sum(|increment| increment.convolutions),
             shear,
             adhesion,
+            fretting,
             ..static_record(&solution, &plastic)
         };
         LoadedContact { record, increments, solution, plastic, slip, dissipation_error, changed }

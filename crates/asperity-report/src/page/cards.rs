@@ -210,7 +210,13 @@ fn of_points(points: &[SweepRecord]) -> Vec<Card> {
 fn of_rest(found: &PageData, record: &StaticRecord) -> Vec<Card> {
     let share = format_number(100.0 * record.contact_area / record.apparent_area);
     let mean = record.load / record.contact_area;
-    let mut cards = vec![
+    let worn = record.fretting.map(|fretting| {
+        let volume = fretting.worn_volume_lower + fretting.worn_volume_upper;
+        let about = format!("Of both bodies, after {} cycles.", fretting.cycles);
+        Card::new("worn volume", format(volume, Dimension::Volume), about)
+    });
+    let mut cards: Vec<Card> = worn.into_iter().collect();
+    cards.extend([
         Card::new(
             "real area of contact",
             format(record.contact_area, Dimension::Area),
@@ -221,7 +227,7 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> Vec<Card> {
             format(record.max_pressure, Dimension::Pressure),
             "In the most loaded cell.",
         ),
-    ];
+    ]);
     if mean.is_finite() {
         let nominal = format(record.load / record.apparent_area, Dimension::Pressure);
         cards.push(Card::new(

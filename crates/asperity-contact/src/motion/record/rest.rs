@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::adhesion::AdhesionRecord;
+use super::fretting::FrettingRecord;
 use super::plastic::PlasticRecord;
 use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonMetre, Pascal, PerMetre, SquareMetre};
 use asperity_base::record::columns;
@@ -44,6 +45,9 @@ columns! {
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PlasticRecord>,
+        /// Wear and films by slip in the stages of a loading; none of bodies that do not change.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub fretting: Option<FrettingRecord>,
     }
 }
 
