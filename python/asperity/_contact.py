@@ -97,6 +97,18 @@ class Contact(OfContact):
         Energy that they lost in jumps, J.
     jumps : int
         Number of jumps.
+    cycles : int
+        Cycles of bodies that wear or grow films in them.
+    worn_volume_lower, worn_volume_upper : float
+        Volumes that they have worn off, m³.
+    max_wear_lower, max_wear_upper : float
+        Deepest wear of a cell of each body, m.
+    max_film_lower, max_film_upper : float
+        Thickest film on a cell of each body, m.
+    friction_work : float
+        Energy that friction took in all cycles, J.
+    wear_error : float
+        Estimate of the error of the heights by cycles that were not computed, m.
     fields : Fields
         The fields `pressure`, `gap`, `displacement`, `lower`, `upper`, `plastic`. Friction adds `traction_x`, `traction_y`,
         `displacement_x`, `displacement_y`, `slip_x`, `slip_y` and `stick`. A map of the hardness adds `cap`. Adhesion adds
@@ -153,6 +165,15 @@ class Contact(OfContact):
     adhesion_energy: float
     energy_lost: float
     jumps: int
+    cycles: int
+    worn_volume_lower: float
+    worn_volume_upper: float
+    max_wear_lower: float
+    max_wear_upper: float
+    max_film_lower: float
+    max_film_upper: float
+    friction_work: float
+    wear_error: float
     fields: Fields
     sweep: Table
     increments: Table
