@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::meta::ParseNestedMeta;
-use syn::{Attribute, Error, Expr, ExprLit, Field, Ident, Lit, LitInt, LitStr, Meta, Path, Result, Type};
+use syn::{Attribute, Error, Expr, ExprLit, Field, Ident, Lit, LitInt, LitStr, Meta, Result, Type};
 
 /// The values that a key accepts.
 enum Accepts {
@@ -23,9 +23,10 @@ pub(crate) struct Key<'a> {
     range: Option<Expr>,
     form: Option<LitStr>,
     default: Option<Expr>,
+    written: Option<LitStr>,
     absent: Option<LitStr>,
     example: Option<LitStr>,
-    exists: Option<Path>,
+    exists: Option<Expr>,
     meaning: String,
 }
 
@@ -39,7 +40,7 @@ impl<'a> Key<'a> {
         let attribute = field.attrs.iter().find(|attribute| attribute.path().is_ident("key"));
         let attribute = attribute.ok_or_else(|| Error::new_spanned(field, "a key needs #[key(…)]"))?;
         let (mut accepts, mut range, mut form, mut default) = (None, None, None, None);
-        let (mut absent, mut example, mut exists) = (None, None, None);
+        let (mut written, mut absent, mut example, mut exists) = (None, None, None, None);
         attribute.parse_nested_meta(|meta: ParseNestedMeta<'_>| {
             let word = meta.path.require_ident()?.to_string();
             match word.as_str() {
@@ -51,6 +52,7 @@ impl<'a> Key<'a> {
                 "range" => range = Some(meta.value()?.parse()?),
                 "form" => form = Some(meta.value()?.parse()?),
                 "default" => default = Some(meta.value()?.parse()?),
+                "written" => written = Some(meta.value()?.parse()?),
                 "absent" => absent = Some(meta.value()?.parse()?),
                 "example" => example = Some(meta.value()?.parse()?),
                 "exists" => exists = Some(meta.value()?.parse()?),
@@ -68,6 +70,7 @@ impl<'a> Key<'a> {
             range,
             form,
             default,
+            written,
             absent,
             example,
             exists,
@@ -86,7 +89,10 @@ impl<'a> Key<'a> {
         let fallback = match (&self.absent, &self.default) {
             (Some(text), _) => quote!(Absent(#text)),
             (None, Some(default)) => {
-                let text = written(default)?;
+                let text = match &self.written {
+                    Some(text) => text.value(),
+                    None => written(default)?,
+                };
                 quote!(Value(#text))
             }
             (None, None) if self.is_optional => {
@@ -111,6 +117,15 @@ impl<'a> Key<'a> {
                 exists: #exists,
             }
         })
+    }
+
+    /// The value of the field without its key.
+    pub(crate) fn default(&self) -> Result<TokenStream> {
+        match &self.default {
+            Some(default) => Ok(quote!(#default)),
+            None if self.is_optional => Ok(quote!(None)),
+            None => Err(Error::new_spanned(self.name, "a table with `default` has no required key")),
+        }
     }
 
     /// The statement that reads the field from `source`, for the key of this index.
@@ -209,7 +224,7 @@ fn meaning(attributes: &[Attribute], name: &Ident) -> Result<String> {
 fn written(default: &Expr) -> Result<String> {
     match default {
         Expr::Lit(ExprLit { lit: Lit::Bool(flag), .. }) => Ok(flag.value.to_string()),
-        Expr::Lit(ExprLit { lit: Lit::Int(number), .. }) => Ok(number.to_string()),
+        Expr::Lit(ExprLit { lit: Lit::Int(number), .. }) => Ok(number.base10_digits().to_owned()),
         Expr::Lit(ExprLit { lit: Lit::Float(number), .. }) => Ok(number.to_string()),
         Expr::Path(path) => {
             let variant = path.path.segments.last().expect("a path has segments").ident.to_string();

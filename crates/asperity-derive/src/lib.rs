@@ -38,8 +38,10 @@ use syn::{DeriveInput, parse_macro_input};
 /// | `quantity = kind.drop(), form = "…"` | one whose dimension depends on the fields above, as the documentation describes it |
 ///
 /// `range` is a variant of `Bounds`. A field that is an `Option` is `None` without the key. Any other has a `default`, an
-/// expression as a case file would write it, or the key must be given. `absent` tells in words what holds without the key. Without
-/// `example` the example is that of the dimension. `exists` is a constant of the type `Exists`.
+/// expression as a case file would write it, or the key must be given; `written = "\"5 nm\""` writes it with a unit. `absent` tells in
+/// words what holds without the key. `exists` is an expression of the type `Exists`.
+///
+/// `#[table("output", default)]` also implements `Default`, for a table all of whose keys have a default.
 #[proc_macro_derive(Table, attributes(table, key))]
 pub fn table(input: TokenStream) -> TokenStream {
     let input = parse_macro_input!(input as DeriveInput);

@@ -2,7 +2,7 @@
 
 use proc_macro2::TokenStream;
 use quote::quote;
-use syn::punctuated::Punctuated;
+use syn::parse::ParseStream;
 use syn::{Data, DeriveInput, Error, Fields, LitStr, Result, Token};
 
 use crate::field::Key;
@@ -17,14 +17,29 @@ pub(crate) fn derive(input: &DeriveInput) -> Result<TokenStream> {
     let attribute = input.attrs.iter().find(|attribute| attribute.path().is_ident("table"));
     let attribute =
         attribute.ok_or_else(|| Error::new_spanned(input, "a table needs its name: #[table(\"…\")]"))?;
-    let names = attribute.parse_args_with(Punctuated::<LitStr, Token![,]>::parse_terminated)?;
-    let names = names.iter();
+    let (names, has_default) = attribute.parse_args_with(names)?;
     let keys = fields.named.iter().map(Key::of).collect::<Result<Vec<_>>>()?;
     let declarations = keys.iter().map(Key::declaration).collect::<Result<Vec<_>>>()?;
     let readers = keys.iter().enumerate().map(|(index, key)| key.reader(index));
     let fields = keys.iter().map(|key| key.name);
     let table = &input.ident;
+    let default = match has_default {
+        false => TokenStream::new(),
+        true => {
+            let values = keys.iter().map(Key::default).collect::<Result<Vec<_>>>()?;
+            let fields = fields.clone();
+            quote! {
+                impl Default for #table {
+                    fn default() -> Self {
+                        Self { #(#fields: #values),* }
+                    }
+                }
+            }
+        }
+    };
     Ok(quote! {
+        #default
+
         impl ::asperity_base::table::Table for #table {
             const SECTION: ::asperity_base::table::Section = ::asperity_base::table::Section {
                 tables: &[#(#names),*],
@@ -38,4 +53,22 @@ pub(crate) fn derive(input: &DeriveInput) -> Result<TokenStream> {
             }
         }
     })
+}
+
+/// The names of a table, and whether it has a default.
+fn names(input: ParseStream<'_>) -> Result<(Vec<LitStr>, bool)> {
+    let (mut names, mut has_default) = (Vec::new(), false);
+    while !input.is_empty() {
+        match input.peek(Token![default]) {
+            true => {
+                input.parse::<Token![default]>()?;
+                has_default = true;
+            }
+            false => names.push(input.parse()?),
+        }
+        if !input.is_empty() {
+            input.parse::<Token![,]>()?;
+        }
+    }
+    Ok((names, has_default))
 }

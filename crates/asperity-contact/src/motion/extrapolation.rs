@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use serde::Serialize;
+
 use crate::error::{Result, check, check_in};
 use crate::grid::Field;
 use crate::motion::contact::Contact;
@@ -9,6 +11,8 @@ use crate::motion::law::{Law, Sums};
 use crate::motion::pair::Pair;
 use crate::operator::Boundary;
 use crate::units::{Dimension, MAX_COUNT, Metre};
+use asperity_base::table::Exists;
+use asperity_derive::Table;
 
 /// Limits of the extrapolation over passes that are not computed.
 ///
@@ -16,22 +20,26 @@ use crate::units::{Dimension, MAX_COUNT, Metre};
 /// as since the computed pass before. Their mean over the extrapolation is S + ½ J dS. Wear is then of second order in J
 /// (Adams and Bashforth), and a film grows as under frozen contact. The difference of the heights to those from S alone
 /// estimates the error.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Table, Debug, Clone, Copy, PartialEq, Serialize)]
+#[table("acceleration", default)]
 #[non_exhaustive]
 pub struct Acceleration {
-    /// Largest error estimate of an extrapolation, relative to the depth to which the largest pressure of the pass presses
-    /// a single cell, > 0.
+    /// Largest error estimate of an extrapolation, over the depth to which the largest pressure presses a single cell.
+    #[key(number = "a number", range = AboveZero, default = 0.01, example = "0.01")]
     pub tolerance: f64,
-    /// Largest number of passes per extrapolation, ≥ 1.
+    /// Largest number of passes per extrapolation, the computed pass included; 1 computes all passes.
+    #[key(count = 1, default = 10_000, example = "1000")]
     pub max_jump: usize,
-    /// Largest wear depth in an extrapolation, > 0.
+    /// Largest wear depth in an extrapolation.
+    #[key(
+        quantity = Length,
+        range = AboveZero,
+        default = 5e-9,
+        written = "\"5 nm\"",
+        example = "\"2 nm\"",
+        exists = Exists::Any("a limit of the method, not a property of the bodies")
+    )]
     pub max_wear: Metre,
-}
-
-impl Default for Acceleration {
-    fn default() -> Self {
-        Self { tolerance: 0.01, max_jump: 10_000, max_wear: 5e-9 }
-    }
 }
 
 impl Acceleration {

@@ -36,6 +36,7 @@ use self::document::Document;
 pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
 pub use self::hardness::{Hardness, HardnessInput, HardnessMap};
 pub use self::json_schema::json_schema;
+pub use self::output::Output;
 pub use self::plasticity::{HardeningKey, PlasticitySpec, YieldSpec};
 pub use self::prescribed::Prescribed;
 pub use self::running::{FilmSpec, TemperatureSpec, WearKey, WearSpec};
@@ -88,7 +89,7 @@ pub struct Case {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sliding: Option<SlidingSpec>,
     /// Extrapolation over passes; by default each pass is computed.
-    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "with_jumps")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub acceleration: Option<Acceleration>,
     /// Temperatures of the bodies; unknown if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -334,18 +335,6 @@ impl From<&Strategy> for StrategyKind {
     }
 }
 
-/// Output options.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[non_exhaustive]
-pub struct Output {
-    /// Interval of the positions whose pressure fields are kept; 0 for none.
-    pub pressure_every: usize,
-    /// Fraction of the body length at its free ends that is excluded from its interior, 0 ≤ rim < ½.
-    pub rim: f64,
-    /// Whether all fields are also written for ParaView.
-    pub paraview: bool,
-}
-
 /// Largest accepted case file.
 pub(crate) const MAX_CASE_BYTES: u64 = 4 << 20;
 
@@ -498,24 +487,6 @@ fn with_infinities<S: Serializer>(
     }
     let Material { young, poisson, coating, .. } = *material;
     Keys { young: young.into(), poisson, coating }.serialize(serializer)
-}
-
-fn with_jumps<S: Serializer>(
-    acceleration: &Option<Acceleration>,
-    serializer: S,
-) -> std::result::Result<S::Ok, S::Error> {
-    #[derive(Serialize)]
-    struct Keys {
-        tolerance: f64,
-        max_jump: usize,
-        max_wear: f64,
-    }
-    let keys = acceleration.map(|Acceleration { tolerance, max_jump, max_wear, .. }| Keys {
-        tolerance,
-        max_jump,
-        max_wear,
-    });
-    keys.serialize(serializer)
 }
 
 fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result<S::Ok, S::Error> {

@@ -1,23 +1,27 @@
 //! `[output]`: output options.
 
-use super::Output;
-use super::cursor::Table;
-use super::schema::results::output as keys;
-use super::schema::tables::known_in;
-use asperity_base::error::Result;
+use serde::Serialize;
 
-pub(super) fn output(root: &Table<'_>) -> Result<Output> {
-    let Some(table) = super::schema::root::OUTPUT.of(root)? else {
-        return Ok(Output {
-            pressure_every: keys::PRESSURE_EVERY.default(),
-            rim: keys::RIM.default(),
-            paraview: keys::PARAVIEW.default(),
-        });
-    };
-    known_in(&table)?;
-    Ok(Output {
-        pressure_every: keys::PRESSURE_EVERY.of(&table)?,
-        rim: keys::RIM.of(&table)?,
-        paraview: keys::PARAVIEW.of(&table)?,
-    })
+use asperity_derive::Table;
+
+/// Output options.
+#[derive(Table, Debug, Clone, Copy, PartialEq, Serialize)]
+#[table("output", default)]
+#[non_exhaustive]
+pub struct Output {
+    /// Stores the pressure of every n-th position of a pass, or pressure and gap of every n-th point of a sweep, from the first on; 0:
+    /// none.
+    #[key(count = 0, default = 8, example = "4")]
+    pub pressure_every: usize,
+    /// Part of a body's length, at its free ends, that the columns `…_interior` of the tables leave out.
+    #[key(
+        number = "a part of the length",
+        range = Between { least: 0.0, most: 0.5, open: [false, true] },
+        default = 0.1,
+        example = "0.2"
+    )]
+    pub rim: f64,
+    /// Whether all fields, and the stress below the surface as a volume, are also written as VTK image data (`.vti`).
+    #[key(flag, default = false, example = "true")]
+    pub paraview: bool,
 }

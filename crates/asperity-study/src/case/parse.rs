@@ -9,13 +9,11 @@ use super::cursor::Table;
 use super::document::Document;
 use super::friction::{friction, stages};
 use super::motion::motion;
-use super::output::output;
 use super::plasticity::plasticity;
 use super::rules;
-use super::running::{acceleration, temperature};
+use super::running::temperature;
 use super::schema::root as keys;
 use super::schema::tables::{belongs, known_in};
-use super::sliding::sliding;
 use super::subsurface::subsurface;
 use super::topography::{one_tells_the_other, topography};
 use super::{Case, TopographySpec};
@@ -64,7 +62,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     let contact = contact(&keys::CONTACT.demand(root)?)?;
     let adhesion = keys::ADHESION.of(root)?.map(|table| adhesion(&table)).transpose()?;
     let mut motion = keys::MOTION.of(root)?.map(|table| motion(&table, contact.prescribed)).transpose()?;
-    let sliding = keys::SLIDING.of(root)?.map(|table| sliding(&table)).transpose()?;
+    let sliding = keys::SLIDING.read(root)?;
     let mut friction = keys::FRICTION.of(root)?.map(|table| friction(&table)).transpose()?;
     let plasticity = keys::PLASTICITY
         .of(root)?
@@ -78,7 +76,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     };
     let history =
         keys::HISTORY.entry(root).map(|entry| stages(&entry, friction.as_ref(), steps)).transpose()?;
-    let acceleration = keys::ACCELERATION.of(root)?.map(|table| acceleration(&table)).transpose()?;
+    let acceleration = keys::ACCELERATION.read(root)?;
     let heated = lower.thermal.is_some();
     let temperature = keys::TEMPERATURE.of(root)?.map(|table| temperature(&table, heated)).transpose()?;
     let subsurface = keys::SUBSURFACE.of(root)?.map(|table| subsurface(&table)).transpose()?;
@@ -102,7 +100,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
         plasticity,
         subsurface,
         with,
-        output: output(root)?,
+        output: keys::OUTPUT.read(root)?.unwrap_or_default(),
         document: Document::default(),
     })
 }

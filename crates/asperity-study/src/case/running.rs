@@ -1,12 +1,10 @@
-//! `[lower.wear]`, `[lower.film]`, `[acceleration]` and `[temperature]`: running-in of the bodies.
+//! `[lower.wear]`, `[lower.film]` and `[temperature]`: running-in of the bodies.
 
 use serde::Serialize;
 
 use super::cursor::Table;
 use super::schema::body::both as body;
-use super::schema::running_in::{
-    acceleration, arrhenius, film, mechano_chemical, solid_lubricant, temperature, wear,
-};
+use super::schema::running_in::{arrhenius, film, mechano_chemical, solid_lubricant, temperature, wear};
 use super::schema::tables::{known_in, suits_choice};
 use super::schema::values::running::LawKind;
 use super::{Body, Case, Hardness};
@@ -135,15 +133,6 @@ pub(super) fn film(table: &Table<'_>, body: &Hardness) -> Result<FilmSpec> {
             .unexpected("no more than the hardness of the body", Some(hint)));
     }
     Ok(FilmSpec { law, max_thickness, hardness })
-}
-
-/// `[acceleration]`.
-pub(super) fn acceleration(table: &Table<'_>) -> Result<Acceleration> {
-    known_in(table)?;
-    Ok(Acceleration::default()
-        .with_tolerance(acceleration::TOLERANCE.of(table)?)
-        .with_max_jump(acceleration::MAX_JUMP.of(table)?)
-        .with_max_wear(acceleration::MAX_WEAR.of(table)?))
 }
 
 /// Reads the thermal constants of a body, all of them or none. The conductivity `is_alone` if the others are not needed.

@@ -3,33 +3,26 @@
 use serde::Serialize;
 
 use super::Case;
-use super::cursor::Table;
-use super::schema::moving::sliding as keys;
-use super::schema::tables::known_in;
-use asperity_base::error::Result;
+use super::schema::exists;
 use asperity_base::units::{Metre, MetrePerSecond, SquareMetre};
 use asperity_contact::motion::Slide;
+use asperity_derive::Table;
 
 /// Sliding of a contact that wears in place.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Table, Debug, Clone, Copy, PartialEq, Serialize)]
+#[table("sliding")]
 #[non_exhaustive]
 pub struct SlidingSpec {
-    /// Distance slid, > 0.
+    /// Sliding distance.
+    #[key(quantity = Length, range = AboveZero, example = "\"640 mm\"", exists = exists::LENGTH)]
     pub distance: Metre,
-    /// Speed of the upper body over the lower one, > 0; unknown if absent.
+    /// Speed of the upper body; required for growing films and for temperature.
+    #[key(quantity = Speed, range = AboveZero, absent = "unknown", example = "\"10 mm/s\"", exists = exists::SPEED)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<MetrePerSecond>,
-    /// Number of implicit updates, ≥ 1.
+    /// Number of implicit updates, each a contact with the wear during it; update i of n ends at the distance · (i/n)².
+    #[key(count = 1, default = 40, example = "80")]
     pub updates: usize,
-}
-
-pub(super) fn sliding(table: &Table<'_>) -> Result<SlidingSpec> {
-    known_in(table)?;
-    Ok(SlidingSpec {
-        distance: keys::DISTANCE.of(table)?,
-        speed: keys::SPEED.of(table)?,
-        updates: keys::UPDATES.of(table)?,
-    })
 }
 
 impl Case {

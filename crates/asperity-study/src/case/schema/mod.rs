@@ -5,7 +5,7 @@
 
 pub(crate) mod adhesion;
 pub(crate) mod body;
-mod exists;
+pub(in crate::case) mod exists;
 pub(crate) mod loading;
 pub(crate) mod hardness;
 pub(crate) mod list;
@@ -58,9 +58,9 @@ const OF_EVERY_CASE: &[Section] = &[
     moving::motion::SECTION,
     loading::friction::SECTION,
     results::subsurface::SECTION,
-    results::output::SECTION,
-    running_in::acceleration::SECTION,
-    moving::sliding::SECTION,
+    crate::case::Output::SECTION,
+    asperity_contact::motion::Acceleration::SECTION,
+    crate::case::SlidingSpec::SECTION,
     running_in::temperature::SECTION,
     running_in::wear::SECTION,
     running_in::film::SECTION,
@@ -89,3 +89,40 @@ const OF_EVERY_CASE: &[Section] = &[
     hardness::map::SECTION,
     hardness::given::SECTION,
 ];
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Debug;
+
+    use asperity_base::table::{Fallback, Table};
+    use asperity_contact::each_capability;
+    use asperity_contact::motion::Acceleration;
+
+    use super::super::cursor::Table as Written;
+    use super::super::document::Document;
+    use crate::case::{Output, SlidingSpec};
+
+    #[test]
+    fn a_derived_table_reads_its_defaults_as_it_writes_them() {
+        /// Reads the table with the examples of the required keys, and with the default of the others if they are `told`.
+        fn read<T: Table>(told: bool) -> T {
+            let lines = T::SECTION.keys.iter().filter_map(|key| match key.default {
+                Fallback::Required => Some(format!("{} = {}\n", key.name, key.example)),
+                Fallback::Value(default) => told.then(|| format!("{} = {default}\n", key.name)),
+                Fallback::Absent(_) => None,
+            });
+            let (mut document, text) = (Document::default(), lines.collect::<String>());
+            let entries = document.parse(&text).unwrap();
+            T::read(&Written::root(&document, entries.get_ref())).unwrap()
+        }
+        fn check<T: Table + PartialEq + Debug>() {
+            assert_eq!(read::<T>(true), read::<T>(false));
+        }
+        check::<Output>();
+        check::<Acceleration>();
+        check::<SlidingSpec>();
+        each_capability!(C => check::<C>());
+        assert_eq!(Acceleration::default(), read(true));
+        assert_eq!(Output::default(), read(true));
+    }
+}

@@ -3,8 +3,7 @@
 use super::Bounds::{AboveZero, Any};
 use super::exists;
 use super::typed::{
-    FRACTION, LENGTH, Optional, SEED, Typed, Value, choice, count, defaulted, optional, other, quantity,
-    required, section,
+    FRACTION, Optional, SEED, Typed, Value, choice, count, defaulted, optional, other, quantity, section,
 };
 use asperity_base::units::Dimension;
 
@@ -92,29 +91,6 @@ pub(crate) mod motion {
             "\"fresh\"",
             "upper body in the passes after the first: the same, or a fresh one, generated and prepared in the same way from another \
              seed",
-        );
-    }
-}
-
-/// `[sliding]`.
-pub(crate) mod sliding {
-    use super::*;
-
-    section! { &["sliding"], "";
-        DISTANCE: Typed<f64> = required("distance", LENGTH, "\"640 mm\"", "sliding distance");
-        SPEED: Optional<f64> = optional(
-            "speed",
-            super::SPEED,
-            "unknown",
-            "\"10 mm/s\"",
-            "speed of the upper body; required for growing films and for temperature",
-        );
-        UPDATES: Typed<usize> = defaulted(
-            "updates",
-            count(1),
-            "40",
-            "80",
-            "number of implicit updates, each a contact with the wear during it; update i of n ends at the distance · (i/n)²",
         );
     }
 }

@@ -1,10 +1,8 @@
-//! Keys of stresses below the surface and of stored results.
+//! Keys of stresses below the surface.
 
-use super::Bounds::Between;
 use super::exists;
 use super::typed::{
-    DEPTH, FLAG, LENGTH, Optional, Typed, choice, count, count_to, defaulted, number_named, optional, other,
-    required, section,
+    DEPTH, LENGTH, Optional, Typed, choice, count, count_to, defaulted, optional, other, required, section,
 };
 use asperity_base::units::{Dimension, Metre};
 
@@ -58,37 +56,6 @@ pub(crate) mod subsurface {
             "the position with aligned left edges",
             "3",
             "[motion] only: position of each pass at which the stress is computed",
-        );
-    }
-}
-
-/// `[output]`.
-pub(crate) mod output {
-    use super::*;
-
-    section! { &["output"], "";
-        PRESSURE_EVERY: Typed<usize> = defaulted(
-            "pressure_every",
-            count(0),
-            "8",
-            "4",
-            "stores the pressure of every n-th position of a pass, or pressure and gap of every n-th point of a sweep, from the \
-             first on; 0: none",
-        );
-        RIM: Typed<f64> = defaulted(
-            "rim",
-            number_named("a part of the length", Between { least: 0.0, most: 0.5, open: [false, true] }),
-            "0.1",
-            "0.2",
-            "part of a body's length, at its free ends, that the columns `…_interior` of the tables [leave out](results.md#passescsv)",
-        );
-        PARAVIEW: Typed<bool> = defaulted(
-            "paraview",
-            FLAG,
-            "false",
-            "true",
-            "whether all fields, and the stress below the surface as a volume, are also written as VTK image data (`.vti`); see \
-             [results](results.md#for-paraview)",
         );
     }
 }

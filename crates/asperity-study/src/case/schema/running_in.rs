@@ -1,4 +1,4 @@
-//! Keys of running-in: wear, films, acceleration and temperature.
+//! Keys of running-in: wear, films and temperature.
 
 use super::Bounds::{AboveZero, FromZero, Within};
 use super::exists;
@@ -153,39 +153,6 @@ pub(crate) mod solid_lubricant {
             RATE,
             "\"1e-6 mm3/(N m)\"",
             "film volume lost per load and sliding distance, until the film is worn off; the heights of the surface include the film",
-        );
-    }
-}
-
-/// `[acceleration]`.
-pub(crate) mod acceleration {
-    use super::*;
-
-    section! { &["acceleration"], "";
-        TOLERANCE: Typed<f64> = defaulted(
-            "tolerance",
-            number(AboveZero),
-            "0.01",
-            "0.01",
-            "largest error estimate of an extrapolation, over the depth to which the largest pressure presses a single cell",
-        );
-        MAX_JUMP: Typed<usize> = defaulted(
-            "max_jump",
-            count(1),
-            "10000",
-            "1000",
-            "largest number of passes per extrapolation, the computed pass included; 1 computes all passes",
-        );
-        MAX_WEAR: Typed<f64> = defaulted("max_wear", LENGTH, "\"5 nm\"", "\"2 nm\"", "largest wear depth in an extrapolation");
-    }
-
-    #[cfg(test)]
-    #[test]
-    fn the_defaults_are_those_of_the_library() {
-        let library = asperity_contact::motion::Acceleration::default();
-        assert_eq!(
-            (TOLERANCE.default(), MAX_JUMP.default(), MAX_WEAR.default()),
-            (library.tolerance, library.max_jump, library.max_wear)
         );
     }
 }

@@ -5,10 +5,11 @@ use std::ops::Deref;
 use super::super::cursor::{Entry, Table};
 use super::super::document::Document;
 use super::exists;
+use super::tables::known_in;
 use super::{Bounds, Exists, Fallback, Key, Kind};
 use asperity_base::choice::Choice;
 use asperity_base::error::{Error, Result};
-use asperity_base::table::Source;
+use asperity_base::table::{self, Source};
 use asperity_base::units::Dimension;
 use asperity_surface::Axis;
 
@@ -165,15 +166,6 @@ impl<T> Typed<T> {
         }
     }
 
-    /// Returns the default.
-    ///
-    /// # Panics
-    /// If the key has none.
-    pub(in crate::case) fn default(&self) -> T {
-        let Fallback::Value(default) = self.key.default else { panic!("'{}' has no default", self.key.name) };
-        self.value_of(default)
-    }
-
     /// Returns the value of a `text` in a declaration.
     fn value_of(&self, text: &str) -> T {
         read_text(&self.key, self.read, text).expect("a value in a declaration is one of the key")
@@ -207,6 +199,13 @@ impl Nested {
     /// Returns a required table.
     pub(in crate::case) fn demand<'a>(&self, table: &Table<'a>) -> Result<Table<'a>> {
         table.required_table(self.key.name)
+    }
+
+    /// Reads the table, if it is given, as the struct that declares its keys.
+    pub(in crate::case) fn read<T: table::Table>(&self, root: &Table<'_>) -> Result<Option<T>> {
+        let Some(table) = self.of(root)? else { return Ok(None) };
+        known_in(&table)?;
+        T::read(&table).map(Some)
     }
 }
 
