@@ -14,12 +14,14 @@ from ._units import Quantity
 class Observed:
     """What the capabilities of a case have found in its contacts."""
 
-    _found: dict[str, list[dict[str, Any]]]
+    def _found(self, capability: str) -> list[dict[str, Any]]:
+        """Return the records of a capability."""
+        raise NotImplementedError
 
     @property
     def conductances(self) -> Table:
         """A record for each contact whose conductance was asked for, with the columns of `conductance.csv`, else empty."""
-        return records(self._found.get("conductance", []), [])
+        return records(self._found("conductance"), [])
 
     @property
     def leakages(self) -> dict[str, Table]:
@@ -27,7 +29,7 @@ class Observed:
 
         They have the columns of `flow.csv`. Empty if it was not asked for.
         """
-        return by_direction(self._found.get("flow", []))
+        return by_direction(self._found("flow"))
 
 
 class OfContact(Observed, Solved):

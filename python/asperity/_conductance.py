@@ -19,7 +19,6 @@ from .errors import bad_input
 if TYPE_CHECKING:
     from xarray import DataArray
 
-    from ._viewed import Contact
 
 Kind = Literal["thermal", "electrical"]
 """Whether heat or current passes."""
@@ -121,7 +120,7 @@ class Conductance(Comparable):
 
 
 def conductance(
-    contact: Contact | ArrayLike,
+    contact: Solved | ArrayLike,
     *,
     conductivity: Quantity | Sequence[Quantity],
     kind: Kind = "thermal",

@@ -204,7 +204,7 @@ class Contact(OfContact):
         self.fields = found
         self.increments = records(increments, _core.INCREMENT_COLUMNS)
         self.updates = records(updates, ["update", "distance"])
-        self._found = seen
+        self._seen = seen
         self.sweep = records(sweep, _core.SWEEP_COLUMNS)
         self.warnings = list(warnings)
         self.case = case
@@ -221,6 +221,9 @@ class Contact(OfContact):
     def numbers(self) -> dict[str, Any]:
         """All numbers of the contact by name, SI."""
         return {name: getattr(self, name) for name in self._names}
+
+    def _found(self, capability: str) -> list[dict[str, Any]]:
+        return self._seen.get(capability, [])
 
     @property
     def _table(self) -> Table | None:

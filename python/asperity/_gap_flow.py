@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,9 +12,6 @@ from ._same import Comparable
 from ._solved import Solved
 from ._units import Pair, Quantity, lengths, quantity, written
 from .errors import bad_input
-
-if TYPE_CHECKING:
-    from ._viewed import Contact
 
 Ends = Literal["periodic", "reservoirs"]
 """What lies beyond the ends of the gap along the pressure gradient."""
@@ -125,7 +122,7 @@ class GapFlow(Comparable):
 
 
 def flow(
-    source: Contact | ArrayLike,
+    source: Solved | ArrayLike,
     *,
     pitch: Pair | None = None,
     viscosity: Quantity | None = None,

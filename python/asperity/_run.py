@@ -122,10 +122,9 @@ class Run(Observed, Comparable):
         """A record for each position of each pass, with the columns of `steps.csv`."""
         return records(self._core.steps(), _core.STEP_COLUMNS)
 
-    @property
-    def _found(self) -> dict[str, list[dict[str, Any]]]:
+    def _found(self, capability: str) -> list[dict[str, Any]]:
         found: dict[str, list[dict[str, Any]]] = self._core.found()
-        return found
+        return found.get(capability, [])
 
     @property
     def warnings(self) -> list[str]:

@@ -11,13 +11,18 @@ from ._same import Comparable
 
 
 class Solved(Comparable):
-    """A solved contact: its pressure, gap, pitch and case."""
+    """A solved contact: its pressure, cells in contact, gap, pitch and case."""
 
     case: dict[str, Any]
 
     @property
     def pressure(self) -> NDArray[np.float64]:
         """Pressure on each cell, Pa, ``[ix, iy]``."""
+        raise NotImplementedError
+
+    @property
+    def touching(self) -> NDArray[np.bool_]:
+        """Whether each cell is in contact. With adhesion a cell in contact may be under tension."""
         raise NotImplementedError
 
     @property

@@ -1,4 +1,4 @@
-"""What figures, notebooks and the passage of heat and fluids look at, whoever has it."""
+"""What figures and notebooks look at, whoever has it."""
 
 from __future__ import annotations
 
