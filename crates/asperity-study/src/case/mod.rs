@@ -8,6 +8,7 @@ mod body;
 mod contact;
 pub(crate) mod cursor;
 pub(crate) mod document;
+mod exists;
 mod friction;
 mod hardness;
 mod json_schema;

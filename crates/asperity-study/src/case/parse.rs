@@ -13,7 +13,7 @@ use super::plasticity::plasticity;
 use super::rules;
 use super::running::temperature;
 use super::schema::root as keys;
-use super::schema::tables::{belongs, known_in};
+use super::schema::tables::{self, belongs, known_in};
 use super::subsurface::subsurface;
 use super::topography::{one_tells_the_other, topography};
 use super::{Case, TopographySpec};
@@ -62,7 +62,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     let contact = contact(&keys::CONTACT.demand(root)?)?;
     let adhesion = keys::ADHESION.of(root)?.map(|table| adhesion(&table)).transpose()?;
     let mut motion = keys::MOTION.of(root)?.map(|table| motion(&table, contact.prescribed)).transpose()?;
-    let sliding = keys::SLIDING.read(root)?;
+    let sliding = tables::read(&keys::SLIDING, root)?;
     let mut friction = keys::FRICTION.of(root)?.map(|table| friction(&table)).transpose()?;
     let plasticity = keys::PLASTICITY
         .of(root)?
@@ -76,7 +76,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     };
     let history =
         keys::HISTORY.entry(root).map(|entry| stages(&entry, friction.as_ref(), steps)).transpose()?;
-    let acceleration = keys::ACCELERATION.read(root)?;
+    let acceleration = tables::read(&keys::ACCELERATION, root)?;
     let heated = lower.thermal.is_some();
     let temperature = keys::TEMPERATURE.of(root)?.map(|table| temperature(&table, heated)).transpose()?;
     let subsurface = keys::SUBSURFACE.of(root)?.map(|table| subsurface(&table)).transpose()?;
@@ -100,7 +100,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
         plasticity,
         subsurface,
         with,
-        output: keys::OUTPUT.read(root)?.unwrap_or_default(),
+        output: tables::read(&keys::OUTPUT, root)?.unwrap_or_default(),
         document: Document::default(),
     })
 }

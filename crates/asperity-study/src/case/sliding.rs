@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::Case;
-use super::schema::exists;
+use super::exists;
 use asperity_base::units::{Metre, MetrePerSecond, SquareMetre};
 use asperity_contact::motion::Slide;
 use asperity_derive::Table;

@@ -1,7 +1,7 @@
 //! The keys of `[adhesion]`.
 
+use super::super::exists;
 use super::Bounds::AboveZero;
-use super::exists;
 use super::typed::{Typed, choice, defaulted, other, quantity, required, section};
 use crate::case::schema::values::adhesion::{self as read, AdhesionRange};
 use asperity_base::units::Dimension;

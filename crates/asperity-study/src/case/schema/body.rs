@@ -1,8 +1,8 @@
 //! The keys of a body.
 
+use super::super::exists;
 use super::Bounds::{AboveZero, AboveZeroOrInfinite, Between};
 use super::Fallback::{Absent, Required};
-use super::exists;
 use super::typed::{
     LENGTH, Nested, Optional, PRESSURE, Typed, Value, choice, number, optional, other, quantity, required,
     section, table,

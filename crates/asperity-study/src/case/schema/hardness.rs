@@ -1,6 +1,6 @@
 //! Keys of a hardness map.
 
-use super::exists;
+use super::super::exists;
 use super::typed::{Optional, TEXT, Typed, optional, other, required, section};
 use asperity_base::units::Dimension;
 use asperity_surface::Axis;

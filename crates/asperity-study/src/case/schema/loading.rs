@@ -1,8 +1,8 @@
 //! Keys of a contact, its friction and its history.
 
+use super::super::exists;
 use super::Bounds::{AboveZero, AboveZeroOrInfinite, Any, FromZero, FromZeroOrInfinite};
 use super::Exists;
-use super::exists;
 use super::typed::{
     FRACTION, Optional, PRESSURE, Typed, Value, choice, count, defaulted, number, number_named, optional,
     other, quantity, required, section, vector,

@@ -5,7 +5,6 @@
 
 pub(crate) mod adhesion;
 pub(crate) mod body;
-pub(in crate::case) mod exists;
 pub(crate) mod loading;
 pub(crate) mod hardness;
 pub(crate) mod list;

@@ -1,7 +1,7 @@
 //! Keys of moving bodies.
 
+use super::super::exists;
 use super::Bounds::{AboveZero, Any};
-use super::exists;
 use super::typed::{
     FRACTION, Optional, SEED, Typed, Value, choice, count, defaulted, optional, other, quantity, section,
 };

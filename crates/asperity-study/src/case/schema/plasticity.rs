@@ -1,7 +1,7 @@
 //! Keys of elasto-plastic bodies.
 
+use super::super::exists;
 use super::Bounds::{Between, FromZero};
-use super::exists;
 use super::typed::{
     FLAG, FRACTION, LENGTH, Optional, PRESSURE, Typed, Value, choice, count, count_to, defaulted, number,
     optional, other, quantity, required, section,

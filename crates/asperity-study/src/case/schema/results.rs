@@ -1,6 +1,6 @@
 //! Keys of stresses below the surface.
 
-use super::exists;
+use super::super::exists;
 use super::typed::{
     DEPTH, LENGTH, Optional, Typed, choice, count, count_to, defaulted, optional, other, required, section,
 };

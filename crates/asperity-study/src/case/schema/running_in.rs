@@ -1,7 +1,7 @@
 //! Keys of running-in: wear, films and temperature.
 
+use super::super::exists;
 use super::Bounds::{AboveZero, FromZero, Within};
-use super::exists;
 use super::typed::{
     LENGTH, Optional, PRESSURE, Typed, Value, choice, count, defaulted, number, optional, other, quantity,
     required, section,

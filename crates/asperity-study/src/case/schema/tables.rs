@@ -1,8 +1,10 @@
 //! Keys of each table, and hints for misplaced keys.
 
 use super::super::cursor::Table;
+use super::typed::Nested;
 use super::{Exists, Key, Section, keys, root};
 use asperity_base::error::Result;
+use asperity_base::table;
 use asperity_base::units::Dimension;
 
 /// Keys of a study file that a case file does not have.
@@ -114,4 +116,11 @@ pub(in crate::case) fn suits_choice(table: &Table<'_>, kind: &str) -> Result<()>
         Some(entry) => Err(entry.error(format!("'{}' has no meaning with {kind}", entry.key()), None)),
         None => Ok(()),
     }
+}
+
+/// Reads a table, if it is given, as the struct that declares its keys.
+pub(in crate::case) fn read<T: table::Table>(key: &Nested, root: &Table<'_>) -> Result<Option<T>> {
+    let Some(table) = key.of(root)? else { return Ok(None) };
+    known_in(&table)?;
+    T::read(&table).map(Some)
 }

@@ -1,8 +1,8 @@
 //! Keys of topographies: common keys, and keys of each kind of source.
 
+use super::super::exists;
 use super::Bounds::{AboveZero, AboveZeroOrInfinite, Any, Between};
 use super::Fallback::Absent;
-use super::exists;
 use super::typed::{
     LENGTH, Nested, Optional, SEED, TEXT, Typed, Value, choice, defaulted, number, optional, other, pair,
     quantity, required, section, tables,

@@ -4,12 +4,11 @@ use std::ops::Deref;
 
 use super::super::cursor::{Entry, Table};
 use super::super::document::Document;
-use super::exists;
-use super::tables::known_in;
+use super::super::exists;
 use super::{Bounds, Exists, Fallback, Key, Kind};
 use asperity_base::choice::Choice;
 use asperity_base::error::{Error, Result};
-use asperity_base::table::{self, Source};
+use asperity_base::table::Source;
 use asperity_base::units::Dimension;
 use asperity_surface::Axis;
 
@@ -199,13 +198,6 @@ impl Nested {
     /// Returns a required table.
     pub(in crate::case) fn demand<'a>(&self, table: &Table<'a>) -> Result<Table<'a>> {
         table.required_table(self.key.name)
-    }
-
-    /// Reads the table, if it is given, as the struct that declares its keys.
-    pub(in crate::case) fn read<T: table::Table>(&self, root: &Table<'_>) -> Result<Option<T>> {
-        let Some(table) = self.of(root)? else { return Ok(None) };
-        known_in(&table)?;
-        T::read(&table).map(Some)
     }
 }
 

@@ -38,7 +38,7 @@ pub(super) const ATTRACTION: Exists = within(1e-11, 1e-4, "atoms to capillary br
 /// Bowden & Tabor, The Friction and Lubrication of Solids: above 3 clean metals in vacuum seize, and nothing slides.
 pub(super) const FRICTION: Exists = within(1e-5, 3.0, "graphite without friction to rubber", &[]);
 pub(super) const SHEAR_STRENGTH: Exists = within(1e2, 2e10, "liquid films to hard metals", &["MPa"]);
-pub(in crate::case) const SPEED: Exists =
+pub(super) const SPEED: Exists =
     within(1e-13, 2e4, "creep of geological faults to projectiles", &["mm/s", "um/s"]);
 pub(super) const TEMPERATURE: Exists = within(1.0, 4000.0, "liquid helium to melting tungsten", &["°C"]);
 pub(super) const PITCH: Exists = within(1e-11, 1e-3, "atoms to cells that see no roughness", &["um", "nm"]);
@@ -52,7 +52,7 @@ pub(super) const STRESS: Exists = within(1e3, 1e12, "traffic on rubber to diamon
 pub(super) const REMOVAL: Exists = within(1e-22, 1e-3, "lubricated films to brushes", &[]);
 
 pub(super) const LOAD: Exists = Any("a load has any size; the pressures of the result are judged");
-pub(in crate::case) const LENGTH: Exists =
+pub(super) const LENGTH: Exists =
     Any("a length beside the size of the surface, which is judged by its pitch");
 pub(super) const ANGLE: Exists = Any("an angle may turn several times");
 pub(super) const UNIT: Exists = Any("a unit, not a quantity");
