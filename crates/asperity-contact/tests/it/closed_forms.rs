@@ -95,6 +95,8 @@ cases! {
     grooves_wear_less_under_a_growing_film: "grooves wear in place under a growing film",
     flat_bodies_wear_until_the_pressure_is_even: "flat on flat wears: p̄ everywhere, −p̄ C·1",
     a_ball_wears_to_a_cap: "ball on disc wears: k = 1.33e-13 1/Pa, 640 mm",
+    a_ball_wears_only_where_it_slips: "fretting: Q = ±0.8 μW, a cycle of wear",
+    cycles_that_stand_for_several_leave_the_scar_of_all: "fretting: a scar of 64 cycles, some computed",
 }
 
 fn holds(name: &str) {
