@@ -112,12 +112,13 @@ impl Laws {
         Ok(())
     }
 
-    /// Lets the laws act at the end of a cycle, after those of its stage that are `done`. Returns the number of cycles that it stands for, of
-    /// the `left` ones.
+    /// Lets the laws act at the end of a cycle, after those of its stage that are `done`, over the `gap` between the bodies before the load,
+    /// flattened as far as they are. Returns the number of cycles that it stands for, of the `left` ones.
     pub(super) fn act_for_cycles(
         &mut self,
         bodies: &mut ChangedBodies,
         contact: &FrictionalSolution,
+        gap: &Field,
         [done, left]: [usize; 2],
     ) -> Result<usize> {
         /// Cycles at the beginning of a stage that stand for themselves: the first one still remembers how the loading came there.
@@ -136,8 +137,9 @@ impl Laws {
         let highest = contact.normal.pressure.iter().copied().fold(0.0, f64::max);
         let allowed = self.acceleration.tolerance * self.compliance.single * highest;
         let (implicit, error) = loop {
-            let implicit = self.implicitly(bodies, contact, &sums, cycles)?;
-            let error = self.error(bodies, &contact.normal.pressure, &sums, &implicit, cycles);
+            let of_slip = self.with_slip(bodies, &contact.normal.pressure, &sums, cycles);
+            let implicit = self.implicitly(bodies, contact, gap, of_slip.clone(), cycles)?;
+            let error = self.error(bodies, &sums, [&of_slip, &implicit], cycles);
             if cycles == 1 || error <= allowed {
                 break (implicit, error);
             }
@@ -162,24 +164,23 @@ impl Laws {
         Ok(cycles)
     }
 
-    /// Returns the sums of a cycle over so many `cycles`, in the mean: with the slip that goes on changing as since the computed cycle before,
-    /// and with the mean of the pressures before and after their wear.
+    /// Returns the sums of a cycle over so many `cycles`, in the mean of the pressures before and after their wear, from those with the
+    /// pressures before.
     fn implicitly(
         &mut self,
         bodies: &ChangedBodies,
         contact: &FrictionalSolution,
-        sums: &[Sums],
+        gap: &Field,
+        mut sums: Vec<Sums>,
         cycles: usize,
     ) -> Result<Vec<Sums>> {
         let normal = &contact.normal;
-        let wears: Vec<bool> = self.laws.iter().map(|law| law.per_pressure(1.0) != [0.0; 2]).collect();
-        if !wears.contains(&true) {
-            return Ok(sums.to_vec());
+        if !self.laws.iter().any(|law| wears(law.as_ref())) {
+            return Ok(sums);
         }
-        let mut implicit = self.with_slip(bodies, &normal.pressure, sums, cycles);
-        let one = law::tried(&self.laws, &bodies.pair, &implicit, 1);
+        let one = law::tried(&self.laws, &bodies.pair, &sums, 1);
         let mut depth = Field::zeros(normal.pressure.raw_dim());
-        for ([lower, upper], _) in one.iter().zip(&wears).filter(|(_, wears)| **wears) {
+        for ([lower, upper], _) in one.iter().zip(&self.laws).filter(|(_, law)| wears(law.as_ref())) {
             depth += lower;
             depth += upper;
         }
@@ -192,13 +193,12 @@ impl Laws {
         // The gap under the shear, whose contact without wear is the present one.
         let mut of_pressure = Field::zeros(normal.pressure.raw_dim());
         self.operator.apply(&normal.pressure, &mut of_pressure);
-        let gap = bodies.pair.initial_gap(&bodies.pair.at_rest()) + &normal.displacement - of_pressure
-            + half * depth;
+        let gap = gap + &normal.displacement - of_pressure + half * depth;
         let control = Control::Load(normal.load());
         let mut operator = Compliant::new(self.operator.as_mut(), CellValues::Field(compliance))?;
         let start = Some(&normal.pressure);
         let worn = solve_normal(&mut operator, &gap, &normal.bounds, control, start, &self.params)?;
-        for (sums, _) in implicit.iter_mut().zip(&wears).filter(|(_, wears)| **wears) {
+        for (sums, _) in sums.iter_mut().zip(&self.laws).filter(|(_, law)| wears(law.as_ref())) {
             for of_body in sums.iter_mut() {
                 ndarray::Zip::from(&mut of_body[0]).and(&worn.pressure).and(&normal.pressure).for_each(
                     |sum, worn, before| {
@@ -207,7 +207,7 @@ impl Laws {
                 );
             }
         }
-        Ok(implicit)
+        Ok(sums)
     }
 
     /// Returns the sums of a cycle, in the mean over so many `cycles`, with the slip that goes on changing as since the computed cycle before.
@@ -217,7 +217,7 @@ impl Laws {
         let Some(last) = bodies.last.as_ref().filter(|_| cycles > 1) else { return changing };
         let factor = 0.5 * cycles as f64 / last.extrapolation.passes as f64;
         let laws = self.laws.iter().zip(&mut changing).zip(&last.extrapolation.sums);
-        for ((_, sums), then) in laws.filter(|((law, _), _)| law.per_pressure(1.0) != [0.0; 2]) {
+        for ((_, sums), then) in laws.filter(|((law, _), _)| wears(law.as_ref())) {
             for (sum, then) in sums.iter_mut().zip(then) {
                 ndarray::Zip::from(&mut sum[0]).and(&then[0]).and(&last.pressure).and(pressure).for_each(
                     |sum, then, before, now| {
@@ -231,14 +231,14 @@ impl Laws {
         changing
     }
 
-    /// Estimates the error of the heights by so many `cycles` at once, whose sums are known: the larger one of the differences from those
-    /// of an explicit step, whose sums change as since the computed cycle before, and of the change of the slip.
+    /// Estimates the error of the heights by so many `cycles` at once from the sums of the cycle, from those with the change of the slip, and
+    /// from those with that of the pressures, too. It is the larger one of two differences: between the last ones and an explicit step,
+    /// whose sums change as since the computed cycle before; and between the sums with and without the change of the slip.
     fn error(
         &self,
         bodies: &ChangedBodies,
-        pressure: &Field,
         sums: &[Sums],
-        implicit: &[Sums],
+        [of_slip, implicit]: [&[Sums]; 2],
         cycles: usize,
     ) -> Metre {
         let tried = |sums: &[Sums]| law::tried(&self.laws, &bodies.pair, sums, cycles);
@@ -246,7 +246,7 @@ impl Laws {
             Some(last) => tried(&extrapolation::extrapolated(sums, &last.extrapolation, cycles)),
             None => tried(sums),
         };
-        let of_slip = law::difference(&tried(&self.with_slip(bodies, pressure, sums, cycles)), &tried(sums));
+        let of_slip = law::difference(&tried(of_slip), &tried(sums));
         law::difference(&explicit, &tried(implicit)).max(of_slip)
     }
 
@@ -278,4 +278,9 @@ impl Laws {
             wear_error: bodies.error,
         }
     }
+}
+
+/// Whether the first sum of a law is in proportion to the pressure.
+fn wears(law: &dyn Law) -> bool {
+    law.per_pressure(1.0) != [0.0; 2]
 }

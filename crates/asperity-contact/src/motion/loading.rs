@@ -134,7 +134,7 @@ impl StagedLoading {
         outputs: &mut [&mut dyn Output],
     ) -> Result<LoadedContact> {
         let mut state = under_way;
-        let laws = match std::mem::take(&mut self.laws) {
+        let mut laws = match std::mem::take(&mut self.laws) {
             laws if laws.is_empty() => None,
             _ if matches!(self.solver, Solver::Frictionless(_)) => {
                 return Err(Error::Unsupported(
@@ -147,7 +147,6 @@ impl StagedLoading {
                 Some(Laws::new(&mut self.pair, laws, self.acceleration, self.bulk, with)?)
             }
         };
-        let mut laws = laws;
         if let (Some(laws), Some(changed)) =
             (&mut laws, state.as_mut().and_then(|state| state.changed.as_mut()))
         {
@@ -319,15 +318,14 @@ impl Increments {
         before: Option<LoadingState>,
         watch: &dyn solver::Watch,
     ) -> Result<LoadingState> {
-        let begun = self.laws.as_ref().map(|laws| laws.begin(self.loading.pair.clone()));
-        let mut changed = before.as_ref().map_or(begun, |before| before.changed.clone());
-        let (last, mut flattening, mut increments, slip, error) = match before {
-            Some(LoadingState { contact, flattening, increments, slip, dissipation_error, .. }) => {
-                (Some(contact), flattening, increments, slip, dissipation_error)
-            }
+        let (last, mut flattening, mut increments, slip, error, mut changed) = match before {
+            Some(LoadingState {
+                contact, flattening, increments, slip, dissipation_error, changed, ..
+            }) => (Some(contact), flattening, increments, slip, dissipation_error, changed),
             None => {
                 let deepest = Field::zeros(self.loading.gap.raw_dim());
-                (None, Flattening { kept: None, deepest }, Vec::new(), None, 0.0)
+                let begun = self.laws.as_ref().map(|laws| laws.begin(self.loading.pair.clone()));
+                (None, Flattening { kept: None, deepest }, Vec::new(), None, 0.0, begun)
             }
         };
         let StagedLoading { pair, gap, solver, params, stages, .. } = &mut self.loading;
@@ -376,7 +374,8 @@ impl Increments {
             match stage.cycles {
                 Some(cycles) if next.ends_cycle(stages) => {
                     let left = cycles.count - next.cycles;
-                    represented = laws.act_for_cycles(changed, now, [next.cycles, left])?;
+                    let gap = flattening.open(&gap);
+                    represented = laws.act_for_cycles(changed, now, &gap, [next.cycles, left])?;
                 }
                 Some(_) => {}
                 None => laws.act_once(changed)?,
@@ -413,9 +412,11 @@ impl StagedLoading {
         let now = solution.normal().plastic_interference();
         let plastic = flattening.whole(now);
         let sum = |value: fn(&IncrementRecord) -> f64| increments.iter().map(value).sum::<f64>();
-        // Cycles that were not computed have taken energy, too.
-        let dissipation =
-            changed.as_ref().map_or(sum(|increment| increment.dissipation), |changed| changed.work);
+        // Cycles that were not computed have taken energy, too, with the relative error of those that were.
+        let computed = sum(|increment| increment.dissipation);
+        let dissipation = changed.as_ref().map_or(computed, |changed| changed.work);
+        let dissipation_error =
+            if computed > 0.0 { dissipation_error * (dissipation / computed) } else { dissipation_error };
         let shear = solution.frictional().map(|solution| shear_record(solution, dissipation));
         let fretting = increments.last().and_then(|last| last.fretting);
         let adhesion = increments.last().and_then(|last| last.adhesion);

@@ -166,3 +166,20 @@ fn cycles_without_wear_repeat_the_loop() {
         assert!(difference < 1e-3, "{step}: {difference}");
     }
 }
+
+#[test]
+fn cycles_on_surfaces_that_have_yielded_wear_as_their_ways_one_by_one() {
+    // Under a third of the load that flattened it, the ball bears on the surface that it has left.
+    let ball = ball("force = \"0 N\"", "load = \"3 N\"", "1e-10 mm3/(N m)");
+    let ball = ball.replace("poisson = 0.3", "poisson = 0.3, hardness = \"0.6 GPa\"");
+    let way =
+        |force: &str, cycles: &str| format!("[[history]]\nforce = \"{force}\"\nincrements = 8\n{cycles}");
+    let [there, back] = [way("0.9 N", ""), way("-0.9 N", "")];
+    let cyclic = solved(&format!("{ball}{there}{}", way("-0.9 N", "cycles = 3\n")));
+    let single = solved(&format!("{ball}{there}{}", [back, there.clone()].concat().repeat(3)));
+    assert!(single.increments.iter().any(|increment| increment.plastic_volume > 0.0));
+    let [one, other] = [&cyclic, &single].map(|result| field(result, "wear_lower"));
+    let deepest = other.iter().copied().fold(0.0, f64::max);
+    let difference = (one - other).iter().fold(0.0, |most: f64, d| most.max(d.abs()));
+    assert!(deepest > 0.0 && difference < 1e-6 * deepest, "{}", difference / deepest);
+}
