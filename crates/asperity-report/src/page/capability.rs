@@ -73,7 +73,7 @@ fn planes<C: Capability>(found: &mut PageData, rows: &[C::Row]) -> Vec<Plane> {
         let scale = figures::logarithmic(map.scale, &field);
         Some(Plane {
             file: map.field.to_owned(),
-            title: sentence(map.title),
+            title: curves::sentence(map.title),
             map: match scale {
                 Some(least) => QuantisedField::logarithmic(&field, pitch, least.unwrap_or(LEAST)),
                 None => QuantisedField::positive(&field, pitch),
@@ -88,11 +88,4 @@ fn planes<C: Capability>(found: &mut PageData, rows: &[C::Row]) -> Vec<Plane> {
         })
     };
     C::MAPS.iter().filter_map(plane).collect()
-}
-
-/// A name as a sentence.
-pub(super) fn sentence(name: &str) -> String {
-    let mut characters = name.chars();
-    let first = characters.next().map(|first| first.to_uppercase().collect::<String>()).unwrap_or_default();
-    format!("{first}{}.", characters.as_str())
 }

@@ -6,10 +6,10 @@ use asperity_base::units::{CELSIUS, Dimension, format, format_number};
 use asperity_contact::motion::{PassRecord, StaticRecord, SweepRecord};
 use asperity_study::{Outcome, column};
 
-use super::capability;
 use super::found::PageData;
 use super::html::{escaped, minus};
 use super::verdict::{differ, shaken_down, share_of_overlap};
+use super::{capability, curves};
 use crate::words::numbers::change;
 
 /// Cards on a page, at most.
@@ -38,7 +38,7 @@ impl Card {
 pub(super) fn html(found: &PageData) -> String {
     let answers = capability::answers(found).into_iter();
     let mut cards: Vec<Card> =
-        answers.map(|(about, line)| Card::new(&line.name, line.value, capability::sentence(about))).collect();
+        answers.map(|(about, line)| Card::new(&line.name, line.value, curves::sentence(about))).collect();
     cards.extend(match (&found.passes[..], &found.points[..]) {
         ([first, .., last], _) => of_passes(found, first, last),
         ([only], _) => of_passes(found, only, only),

@@ -34,7 +34,7 @@ pub(super) fn html(curves: Vec<Curves>, data: &mut Vec<Value>) -> String {
 }
 
 /// A title as a caption: it begins with a capital and ends with a full stop.
-fn sentence(title: &str) -> String {
+pub(super) fn sentence(title: &str) -> String {
     let mut letters = title.chars();
     let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
     format!("{first}{}.", letters.as_str())

@@ -4,15 +4,15 @@ use asperity_base::units::{Dimension, format, format_number};
 use asperity_contact::motion::{PassRecord, PlasticRecord, Regime, StaticRecord, SweepRecord};
 use asperity_study::Outcome;
 
-use super::capability;
 use super::found::PageData;
+use super::{capability, curves};
 use crate::words::closed_form;
 use crate::words::numbers::change;
 
 /// The outcome of a run, or what there is of it so far.
 pub(super) fn sentence(found: &PageData) -> String {
     let answers = capability::answers(found).into_iter();
-    let answers = answers.map(|(_, line)| capability::sentence(&format!("{}: {}", line.name, line.value)));
+    let answers = answers.map(|(_, line)| curves::sentence(&format!("{}: {}", line.name, line.value)));
     answers.chain([of_contact(found)]).collect::<Vec<_>>().join(" ")
 }
 

@@ -2,10 +2,9 @@
 
 use serde_json::{Map, Value, json};
 
+use super::schema::tables::GIVEN;
 use super::schema::{Bounds, Fallback, Key, Kind, Section, keys};
 
-/// The kind of topographies and hardness maps in the memory of a program, which no file contains.
-const GIVEN: &str = "given";
 /// The table that a topography may contain, a topography again.
 const LAYERS: &str = "plus";
 

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use asperity_contact::each_capability;
 use asperity_contact::with::Capability;
-use asperity_study::case::schema::{Bounds, Fallback, Key, Kind};
+use asperity_study::case::schema::{Fallback, Key, Kind};
 use asperity_study::keys;
 
 /// Columns of a line of Python.
@@ -167,7 +167,7 @@ fn python_type(class: &str, key: &Key) -> String {
     let of_number = |kind: &Kind| if matches!(kind, Kind::Number(..)) { "float" } else { "Quantity" };
     match key.kind {
         Kind::Quantity(..) | Kind::Other { .. } => "Quantity".to_owned(),
-        Kind::Number(_, Bounds::Within(..)) | Kind::Number(..) => "float".to_owned(),
+        Kind::Number(..) => "float".to_owned(),
         Kind::Count { .. } => "int".to_owned(),
         Kind::Flag => "bool".to_owned(),
         Kind::Text => "str".to_owned(),

@@ -12,7 +12,7 @@ use asperity_base::record::{Column, OptionalNumber, Part, Presence, Record, colu
 
 columns! {
     /// The conductance of a contact, a row of `conductance.csv`; in `summary.json` of the last contact, or the mean over the contacts
-    /// of each pass. The columns of its [`Quantities`] follow.
+    /// of each pass. The columns of its [`Quantities`] come last.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct ConductanceRecord {

@@ -43,6 +43,18 @@ pub(super) const RULES: &[Rule] = &[
         },
     },
     Rule {
+        this: "a film that grows",
+        with: "stages without `cycles`",
+        message: "a film grows with time, which passes only in the cycles of a stage",
+        hint: "give a stage of the [[history]] `cycles` and a `period`",
+        at: "lower.film",
+        example: &[GROWS, RUBS],
+        broken: |tables| {
+            let has_time = tables.case.history.iter().any(|stage| stage.cycles.is_some());
+            tables.film_that_grows().filter(|_| tables.frets() && !has_time)
+        },
+    },
+    Rule {
         this: "a film that grows in cycles",
         with: "no `period`",
         message: "missing key 'period' in [[history]]: films grow with time",

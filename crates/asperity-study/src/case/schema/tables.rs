@@ -10,8 +10,8 @@ use asperity_base::units::Dimension;
 /// Keys of a study file that a case file does not have.
 const OF_A_STUDY: [&str; 4] = ["base", "axes", "table", "exclude"];
 
-/// The kind of topographies and hardness maps in the memory of a program. Hints do not mention it.
-const GIVEN: &str = "given";
+/// The kind of topographies and hardness maps in the memory of a program, which no file contains. Hints and the JSON schema leave it out.
+pub(in crate::case) const GIVEN: &str = "given";
 
 /// Returns the dotted name under which a table is declared. A table of an array has the name of the array, a layer that of its topography.
 fn declared(path: &str) -> String {
