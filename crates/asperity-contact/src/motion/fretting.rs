@@ -113,12 +113,12 @@ impl Laws {
     }
 
     /// Lets the laws act at the end of a cycle, after those of its stage that are `done`, over the `gap` between the bodies before the load,
-    /// flattened as far as they are. Returns the number of cycles that it stands for, of the `left` ones.
+    /// flattened as far as they are, under the same load or at the same approach. Returns the number of cycles that it stands for, of the `left` ones.
     pub(super) fn act_for_cycles(
         &mut self,
         bodies: &mut ChangedBodies,
         contact: &FrictionalSolution,
-        gap: &Field,
+        (gap, control): (&Field, Control),
         [done, left]: [usize; 2],
     ) -> Result<usize> {
         /// Cycles at the beginning of a stage that stand for themselves: the first one still remembers how the loading came there.
@@ -138,7 +138,7 @@ impl Laws {
         let allowed = self.acceleration.tolerance * self.compliance.single * highest;
         let (implicit, error) = loop {
             let of_slip = self.with_slip(bodies, &contact.normal.pressure, &sums, cycles);
-            let implicit = self.implicitly(bodies, contact, gap, of_slip.clone(), cycles)?;
+            let implicit = self.implicitly(bodies, contact, (gap, control), of_slip.clone(), cycles)?;
             let error = self.error(bodies, &sums, [&of_slip, &implicit], cycles);
             if cycles == 1 || error <= allowed {
                 break (implicit, error);
@@ -170,7 +170,7 @@ impl Laws {
         &mut self,
         bodies: &ChangedBodies,
         contact: &FrictionalSolution,
-        gap: &Field,
+        (gap, control): (&Field, Control),
         mut sums: Vec<Sums>,
         cycles: usize,
     ) -> Result<Vec<Sums>> {
@@ -194,7 +194,6 @@ impl Laws {
         let mut of_pressure = Field::zeros(normal.pressure.raw_dim());
         self.operator.apply(&normal.pressure, &mut of_pressure);
         let gap = gap + &normal.displacement - of_pressure + half * depth;
-        let control = Control::Load(normal.load());
         let mut operator = Compliant::new(self.operator.as_mut(), CellValues::Field(compliance))?;
         let start = Some(&normal.pressure);
         let worn = solve_normal(&mut operator, &gap, &normal.bounds, control, start, &self.params)?;

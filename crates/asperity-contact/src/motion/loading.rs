@@ -375,7 +375,12 @@ impl Increments {
                 Some(cycles) if next.ends_cycle(stages) => {
                     let left = cycles.count - next.cycles;
                     let gap = flattening.open(&gap);
-                    represented = laws.act_for_cycles(changed, now, &gap, [next.cycles, left])?;
+                    // The load or the approach is that of the contact itself, as closely as it is solved.
+                    let control = match loading.normal {
+                        Control::Load(_) => Control::Load(now.normal.load()),
+                        Control::Approach(_) => Control::Approach(now.normal.approach),
+                    };
+                    represented = laws.act_for_cycles(changed, now, (&gap, control), [next.cycles, left])?;
                 }
                 Some(_) => {}
                 None => laws.act_once(changed)?,
