@@ -173,6 +173,33 @@ pub trait Source {
     fn missing(&self, key: &Key) -> Error;
 }
 
+/// A combination of entries that is refused, or something that an entry requires.
+#[derive(Debug, Clone, Copy)]
+pub struct Rule<F> {
+    /// The excluded entry, in Markdown.
+    pub this: &'static str,
+    /// The entry that excludes it, in Markdown.
+    pub with: &'static str,
+    /// The message of the error. `{key}` stands for the key that it points to, `{path}` for its dotted name, `{value}` for its value.
+    pub message: &'static str,
+    /// The hint; empty if the message is enough.
+    pub hint: &'static str,
+    /// The dotted key that the error of the example points to.
+    pub at: &'static str,
+    /// Keys that break the rule, as written above the tables of a case file.
+    pub example: &'static [&'static str],
+    /// Finds whether the rule is broken; `()` in a description.
+    pub broken: F,
+}
+
+impl<F> Rule<F> {
+    /// Returns the rule as a description.
+    pub fn described(&self) -> Rule<()> {
+        let Self { this, with, message, hint, at, example, .. } = *self;
+        Rule { this, with, message, hint, at, example, broken: () }
+    }
+}
+
 impl Section {
     /// Whether it declares a key of this name.
     pub fn has(&self, key: &str) -> bool {

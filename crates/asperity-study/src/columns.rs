@@ -1,5 +1,7 @@
 //! The dictionary of columns: every column of a table and every number of a summary, by its name.
 
+use std::sync::LazyLock;
+
 use super::adhesion::AdhesionSummary;
 use super::closed_form::ClosedFormRecord;
 use super::subsurface::SubsurfaceRecord;
@@ -17,33 +19,36 @@ use asperity_contact::with::{Capability, Row as _};
 ///
 /// `Converged` holds the additional columns of `static` in `summary.json`. `Table` holds the columns of the table of a
 /// study other than its axes and the numbers of the records.
-pub fn records() -> Vec<(&'static str, &'static [Column])> {
-    let mut records = vec![
-        ("StaticRecord", StaticRecord::OWN_COLUMNS),
-        ("Converged", &[CONVERGED]),
-        ("ShearRecord", ShearRecord::OWN_COLUMNS),
-        ("AdhesionRecord", AdhesionRecord::OWN_COLUMNS),
-        ("AdhesionPassRecord", AdhesionPassRecord::OWN_COLUMNS),
-        ("AdhesionSummary", AdhesionSummary::OWN_COLUMNS),
-        ("PlasticRecord", PlasticRecord::OWN_COLUMNS),
-        ("ResidualRecord", ResidualRecord::OWN_COLUMNS),
-        ("ClosedFormRecord", ClosedFormRecord::OWN_COLUMNS),
-        ("SubsurfaceRecord", SubsurfaceRecord::OWN_COLUMNS),
-        ("SweepRecord", SweepRecord::OWN_COLUMNS),
-        ("IncrementRecord", IncrementRecord::OWN_COLUMNS),
-        ("PlasticStepRecord", PlasticStepRecord::OWN_COLUMNS),
-        ("FrettingRecord", FrettingRecord::OWN_COLUMNS),
-        ("UpdateRecord", UpdateRecord::OWN_COLUMNS),
-        ("PassRecord", PassRecord::OWN_COLUMNS),
-        ("RunningRecord", RunningRecord::OWN_COLUMNS),
-        ("PassPlasticRecord", PassPlasticRecord::OWN_COLUMNS),
-        ("StepRecord", StepRecord::OWN_COLUMNS),
-        ("HeatRecord", HeatRecord::OWN_COLUMNS),
-        ("RunningIn", RunningIn::OWN_COLUMNS),
-        ("Table", &OF_A_STUDY),
-    ];
-    each_capability!(C => records.extend_from_slice(<C as Capability>::Row::GROUPS));
-    records
+pub fn records() -> &'static [(&'static str, &'static [Column])] {
+    static RECORDS: LazyLock<Vec<(&str, &[Column])>> = LazyLock::new(|| {
+        let mut records: Vec<(&str, &[Column])> = vec![
+            ("StaticRecord", StaticRecord::OWN_COLUMNS),
+            ("Converged", &[CONVERGED]),
+            ("ShearRecord", ShearRecord::OWN_COLUMNS),
+            ("AdhesionRecord", AdhesionRecord::OWN_COLUMNS),
+            ("AdhesionPassRecord", AdhesionPassRecord::OWN_COLUMNS),
+            ("AdhesionSummary", AdhesionSummary::OWN_COLUMNS),
+            ("PlasticRecord", PlasticRecord::OWN_COLUMNS),
+            ("ResidualRecord", ResidualRecord::OWN_COLUMNS),
+            ("ClosedFormRecord", ClosedFormRecord::OWN_COLUMNS),
+            ("SubsurfaceRecord", SubsurfaceRecord::OWN_COLUMNS),
+            ("SweepRecord", SweepRecord::OWN_COLUMNS),
+            ("IncrementRecord", IncrementRecord::OWN_COLUMNS),
+            ("PlasticStepRecord", PlasticStepRecord::OWN_COLUMNS),
+            ("FrettingRecord", FrettingRecord::OWN_COLUMNS),
+            ("UpdateRecord", UpdateRecord::OWN_COLUMNS),
+            ("PassRecord", PassRecord::OWN_COLUMNS),
+            ("RunningRecord", RunningRecord::OWN_COLUMNS),
+            ("PassPlasticRecord", PassPlasticRecord::OWN_COLUMNS),
+            ("StepRecord", StepRecord::OWN_COLUMNS),
+            ("HeatRecord", HeatRecord::OWN_COLUMNS),
+            ("RunningIn", RunningIn::OWN_COLUMNS),
+            ("Table", &OF_A_STUDY),
+        ];
+        each_capability!(C => records.extend_from_slice(<C as Capability>::Row::GROUPS));
+        records
+    });
+    &RECORDS
 }
 
 /// Number of the case.
@@ -75,8 +80,7 @@ const COMPONENTS: [&str; 3] = ["_x", "_y", "_z"];
 /// The volumes removed by any law, such as `wear_volume_lower`, are declared as those of the law `plastic`. In the table of
 /// a study, vector components and prefixed columns are declared without suffix and prefix.
 pub fn column(name: &str) -> Option<Column> {
-    let records = records();
-    find(records.iter().flat_map(|(_, columns)| *columns), name).or_else(|| {
+    find(records().iter().flat_map(|(_, columns)| *columns), name).or_else(|| {
         let of_record = |(prefix, columns): (&str, _)| Some((name.strip_prefix(prefix)?, columns));
         let (name, columns): (_, &[Column]) = prefixes().into_iter().find_map(of_record)?;
         find(columns.iter(), name)
@@ -99,7 +103,7 @@ fn find<'a>(columns: impl Iterator<Item = &'a Column> + Clone, name: &str) -> Op
 /// Returns every column under its declared name, each once.
 pub fn columns() -> Vec<Column> {
     let mut columns: Vec<Column> = Vec::new();
-    for column in records().into_iter().flat_map(|(_, columns)| columns) {
+    for column in records().iter().flat_map(|(_, columns)| *columns) {
         if columns.iter().all(|known| known.name != column.name) {
             columns.push(*column);
         }
@@ -211,7 +215,7 @@ mod tests {
 
     #[test]
     fn a_column_has_one_unit_in_all_records_and_a_meaning() {
-        for column in records().into_iter().flat_map(|(_, columns)| columns) {
+        for column in records().iter().flat_map(|(_, columns)| *columns) {
             assert_eq!(unit_of_column(column.name), Some(column.unit), "{}", column.name);
             assert!(column.text.ends_with('.') && !column.text.contains('|'), "{column:?}");
             // A unit belongs to a dimension, or is one that no case file contains.

@@ -15,7 +15,7 @@ use crate::operator::Boundary;
 use crate::solver::Params;
 use crate::units::{MetrePerSecond, Pascal};
 use asperity_base::record::{Column, Record};
-use asperity_base::table::Table;
+use asperity_base::table::{self, Table};
 
 /// Something that is computed from each solved contact and changes nothing. Its struct is the table of the case.
 pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Sync + 'static {
@@ -192,21 +192,5 @@ pub struct Given<'a> {
     pub params: Params,
 }
 
-/// A combination that excludes a capability `C`, or something that it requires.
-#[derive(Debug)]
-pub struct Rule<C: 'static> {
-    /// The excluded entry, in Markdown.
-    pub this: &'static str,
-    /// The entry that excludes it, in Markdown.
-    pub with: &'static str,
-    /// The message of the error.
-    pub message: &'static str,
-    /// The hint.
-    pub hint: &'static str,
-    /// The dotted key that the error points to, and without which the rule is not broken.
-    pub at: &'static str,
-    /// Keys that break the rule, as written above the tables of a case file.
-    pub example: &'static [&'static str],
-    /// Whether the rule is broken.
-    pub broken: fn(&C, &Surroundings) -> bool,
-}
+/// A combination that excludes a capability `C`, or something that it requires. It is broken only where its key is given.
+pub type Rule<C> = table::Rule<fn(&C, &Surroundings) -> bool>;

@@ -21,14 +21,14 @@ pub use capability::{
 
 use serde::{Deserialize, Serialize};
 
-/// Declares the capabilities.
+/// Declares the capabilities: their tables, each by its module and its struct. `$dollar` is the sign `$` of the macro that walks the list.
 macro_rules! capabilities {
-    ($($(#[doc = $text:literal])+ $name:ident: $table:ty;)+) => {
+    ($dollar:tt; $($(#[doc = $text:literal])+ $name:ident::$table:ident;)+) => {
         /// The capabilities that a case asks for, each by its table.
         #[derive(Debug, Clone, Default, PartialEq, Serialize)]
         #[non_exhaustive]
         pub struct Capabilities {
-            $($(#[doc = $text])+ #[serde(skip_serializing_if = "Option::is_none")] pub $name: Option<$table>,)+
+            $($(#[doc = $text])+ #[serde(skip_serializing_if = "Option::is_none")] pub $name: Option<$name::$table>,)+
         }
 
         /// The rows of the capabilities in a summary; empty for those that a case did not ask for.
@@ -38,11 +38,11 @@ macro_rules! capabilities {
             $(
                 $(#[doc = $text])+
                 #[serde(default, skip_serializing_if = "Vec::is_empty")]
-                pub $name: Vec<<$table as Capability>::Row>,
+                pub $name: Vec<<$name::$table as Capability>::Row>,
             )+
         }
 
-        $(impl Listed for $table {
+        $(impl Listed for $name::$table {
             fn asked(all: &Capabilities) -> Option<&Self> {
                 all.$name.as_ref()
             }
@@ -59,38 +59,34 @@ macro_rules! capabilities {
                 all.$name = rows;
             }
         })+
+
+        /// Repeats statements for each capability of the list, whose table has the given name in them.
+        ///
+        /// ```
+        /// use asperity_contact::each_capability;
+        /// use asperity_contact::with::Capability;
+        ///
+        /// let mut names = Vec::new();
+        /// each_capability!(C => names.push(C::NAME));
+        /// assert_eq!(names, ["conductance", "flow"]);
+        /// ```
+        #[macro_export]
+        macro_rules! each_capability {
+            ($dollar of:ident => $dollar statements:expr) => {{
+                $({
+                    type $dollar of = $dollar crate::with::$name::$table;
+                    $dollar statements;
+                })+
+            }};
+        }
     };
 }
 
-capabilities! {
+capabilities! { $;
     /// Heat or current through each contact.
-    conductance: conductance::Joint;
+    conductance::Joint;
     /// A fluid through the gap of each contact.
-    flow: flow::Leakage;
-}
-
-/// Repeats statements for each capability of the list, whose table has the given name in them.
-///
-/// ```
-/// use asperity_contact::each_capability;
-/// use asperity_contact::with::Capability;
-///
-/// let mut names = Vec::new();
-/// each_capability!(C => names.push(C::NAME));
-/// assert_eq!(names, ["conductance", "flow"]);
-/// ```
-#[macro_export]
-macro_rules! each_capability {
-    ($table:ident => $statements:expr) => {{
-        {
-            type $table = $crate::with::conductance::Joint;
-            $statements;
-        }
-        {
-            type $table = $crate::with::flow::Leakage;
-            $statements;
-        }
-    }};
+    flow::Leakage;
 }
 
 /// Whether a capability whose table is given uses a constant of the bodies without the others of its group.

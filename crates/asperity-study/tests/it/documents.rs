@@ -54,7 +54,7 @@ fn the_tables_of_columns_are_those_of_the_records() {
         assert_eq!(page.matches("| unit | content |").count(), page.matches(MARK[0]).count(), "docs/{name}");
     }
     records.sort_unstable();
-    let mut declared: Vec<_> = all_records().into_iter().map(|(record, _)| record).collect();
+    let mut declared: Vec<_> = all_records().iter().copied().map(|(record, _)| record).collect();
     declared.sort_unstable();
     assert_eq!(records, declared, "each record has one table");
 }
@@ -74,7 +74,7 @@ fn with_tables(page: &str, records: &mut Vec<&'static str>) -> String {
         }
         while lines.next_if(|line| line.starts_with('|')).is_some() {}
         for name in names.split(", ") {
-            let known = all_records().into_iter().find(|(record, _)| *record == name);
+            let known = all_records().iter().copied().find(|(record, _)| *record == name);
             let (record, columns) = known.unwrap_or_else(|| panic!("no record `{name}`"));
             records.push(record);
             for Column { name, unit, text: meaning, .. } in columns {

@@ -17,40 +17,16 @@ mod temperature;
 use super::cursor::{Entry, Table};
 use super::{Body, Case, FrictionSpec, LoadingPath, MotionSpec};
 use asperity_base::error::{Error, Result};
+use asperity_base::table;
 use asperity_contact::each_capability;
 use asperity_contact::motion::Strategy;
 use asperity_contact::with::{Capability, Listed};
 
-/// A rule: two entries of a case file exclude each other, or one requires the other.
-#[derive(Debug, Clone, Copy)]
-#[non_exhaustive]
-pub struct Exclusion {
-    /// The excluded entry, in Markdown.
-    pub this: &'static str,
-    /// The entry that excludes it, in Markdown.
-    pub with: &'static str,
-    /// The message of the error. `{key}` stands for the key that it points to, `{path}` for its dotted name, `{value}` for its
-    /// value.
-    pub message: &'static str,
-    /// The hint; empty if the message is enough.
-    pub hint: &'static str,
-    /// The dotted key that the error of the example points to.
-    pub at: &'static str,
-    /// Keys that break the rule, as written above the tables of a case file.
-    pub example: &'static [&'static str],
-}
+/// The description of a rule: two entries of a case file exclude each other, or one requires the other.
+pub type Exclusion = table::Rule<()>;
 
-/// An [`Exclusion`] that is found in the tables of a case.
-struct Rule {
-    this: &'static str,
-    with: &'static str,
-    message: &'static str,
-    hint: &'static str,
-    at: &'static str,
-    example: &'static [&'static str],
-    /// Returns the entry of the case file that breaks the rule.
-    broken: for<'a> fn(&Tables<'a>) -> Option<Entry<'a>>,
-}
+/// A rule that the tables of a case break: it finds the entry that does.
+type Rule = table::Rule<for<'a> fn(&Tables<'a>) -> Option<Entry<'a>>>;
 
 /// The case, with its tables.
 struct Tables<'a> {
@@ -63,14 +39,14 @@ pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
     let tables = Tables { root, case };
     for rule in tables_of_rules().into_iter().flatten() {
         if let Some(entry) = (rule.broken)(&tables) {
-            return Err(exclusion!(rule).error(&entry));
+            return Err(refused(rule, &entry));
         }
     }
     let surroundings = case.surroundings();
     each_capability!(C => for rule in C::RULES {
         let is_broken = C::asked(&case.with).is_some_and(|asked| (rule.broken)(asked, &surroundings));
         if let Some(entry) = tables.at(rule.at).filter(|_| is_broken) {
-            return Err(exclusion!(rule).error(&entry));
+            return Err(refused(rule, &entry));
         }
     });
     Ok(())
@@ -78,27 +54,10 @@ pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
 
 /// Returns the rules of a case file, in the order in which a case is checked.
 pub fn rules() -> Vec<Exclusion> {
-    let rules = tables_of_rules().into_iter().flatten();
-    let mut exclusions: Vec<_> = rules.map(|rule| exclusion!(rule)).collect();
-    each_capability!(C => exclusions.extend(C::RULES.iter().map(|rule| exclusion!(rule))));
+    let mut exclusions: Vec<_> = tables_of_rules().into_iter().flatten().map(Rule::described).collect();
+    each_capability!(C => exclusions.extend(C::RULES.iter().map(table::Rule::described)));
     exclusions
 }
-
-/// Describes a rule, of a case or of a capability.
-macro_rules! exclusion {
-    ($rule:ident) => {
-        Exclusion {
-            this: $rule.this,
-            with: $rule.with,
-            message: $rule.message,
-            hint: $rule.hint,
-            at: $rule.at,
-            example: $rule.example,
-        }
-    };
-}
-
-use exclusion;
 
 fn tables_of_rules() -> [&'static [Rule]; 9] {
     [
@@ -114,12 +73,11 @@ fn tables_of_rules() -> [&'static [Rule]; 9] {
     ]
 }
 
-impl Exclusion {
-    fn error(&self, entry: &Entry<'_>) -> Error {
-        let message = self.message.replace("{key}", entry.key()).replace("{path}", entry.path());
-        let message = message.replace("{value}", &entry.written());
-        entry.error(message, Some(self.hint.to_owned()).filter(|hint| !hint.is_empty()))
-    }
+/// Returns the error for an entry that breaks a rule.
+fn refused<F>(rule: &table::Rule<F>, entry: &Entry<'_>) -> Error {
+    let message = rule.message.replace("{key}", entry.key()).replace("{path}", entry.path());
+    let message = message.replace("{value}", &entry.written());
+    entry.error(message, Some(rule.hint.to_owned()).filter(|hint| !hint.is_empty()))
 }
 
 impl<'a> Tables<'a> {
