@@ -185,7 +185,7 @@ class Subsurface(_RequiredSubsurface, total=False):
     planes : sequence of float or str
         Depths at which von Mises' stress is stored on the whole plane; list of lengths ≥ 0. Without it: none.
     section : float or str
-        Y of the section along x on which the stress is stored, in the contact; length ≥ 0. Without it: the most
+        Place y of the section along x on which the stress is stored, in the contact; length ≥ 0. Without it: the most
         stressed point.
     columns : sequence of pairs of float or str
         Positions in the contact below which the stress is stored; list of `[x, y]`, lengths ≥ 0. Without it: none.

@@ -3,6 +3,7 @@
 mod case;
 mod detail;
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 pub use case::CaseError;
@@ -15,6 +16,7 @@ pub type Result<T> = std::result::Result<T, Error>;
 
 /// Returns [`Error::OutOfRange`] for a pure number unless `good`.
 pub fn check(quantity: &'static str, value: f64, good: bool, expected: &'static str) -> Result<()> {
+    let expected = expected.into();
     if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, dimension: None, expected }) }
 }
 
@@ -26,7 +28,7 @@ pub fn check_in(
     good: bool,
     expected: &'static str,
 ) -> Result<()> {
-    let dimension = Some(dimension);
+    let (dimension, expected) = (Some(dimension), expected.into());
     if good { Ok(()) } else { Err(Error::OutOfRange { quantity, value, dimension, expected }) }
 }
 
@@ -47,7 +49,7 @@ pub enum Error {
         /// Dimension of the quantity; `None` for a pure number.
         dimension: Option<Dimension>,
         /// The accepted values.
-        expected: &'static str,
+        expected: Cow<'static, str>,
     },
     /// Two grids that must agree do not.
     #[error("{what}: {left} and {right} differ")]
@@ -325,7 +327,7 @@ pub enum Error {
         /// The cause.
         source: Box<Error>,
     },
-    /// An update of a contact that wears in place could not be solved, or its result is no longer a surface or not finite.
+    /// An update of a contact that slides in place could not be solved, or its result is no longer a surface or not finite.
     #[error("update {update}: {source}")]
     AtUpdate {
         /// The update, from 1; 0 before the first.

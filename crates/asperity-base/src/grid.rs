@@ -198,7 +198,7 @@ impl Grid {
                 quantity: "shape",
                 dimension: None,
                 value: 0.0,
-                expected: "at least one cell along x and y",
+                expected: "at least one cell along x and y".into(),
             });
         }
         let cells = shape[0].checked_mul(shape[1]).filter(|cells| *cells <= MAX_CELLS);
@@ -208,11 +208,11 @@ impl Grid {
                 quantity: "shape",
                 dimension: None,
                 value,
-                expected: "at most 2³² cells",
+                expected: "at most 2³² cells".into(),
             });
         }
         if let Some(&value) = pitch.iter().find(|p| !Dimension::Length.range().holds(**p)) {
-            let expected = "a positive length of 1e-15 … 1e6 m";
+            let expected = "a positive length of 1e-15 … 1e6 m".into();
             return Err(Error::OutOfRange {
                 quantity: "pitch",
                 dimension: Some(Dimension::Length),

@@ -24,6 +24,7 @@ pub mod error;
 pub mod grid;
 pub mod record;
 pub mod table;
+pub mod exists;
 #[cfg(feature = "io")]
 pub mod io;
 pub mod ranks;

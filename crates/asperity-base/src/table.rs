@@ -133,44 +133,173 @@ pub enum Exists {
 
 /// A table of keys whose struct is its dictionary.
 pub trait Table: Sized {
-    /// The keys, in the order of the fields.
-    const SECTION: Section;
+    /// The dotted names of the tables.
+    const TABLES: &'static [&'static str];
+    /// The keys of the fields, in their order. Those of a [`Part`] come in addition.
+    const KEYS: &'static [Key];
+
+    /// Returns the section of all keys of the table, then those of the keys that only a choice gives a meaning.
+    fn sections() -> Vec<Section>;
 
     /// Reads the keys of a table.
     ///
     /// # Errors
     /// The error of the source for a missing key or a value that is not accepted, at its place.
     fn read(source: &dyn Source) -> Result<Self>;
+
+    /// Checks each number against the bounds of its key, for values that no file contains.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`].
+    fn check(&self) -> Result<()>;
 }
 
-/// A place from which the keys of a table are read. Each method returns `None` for a key that is not given.
+/// Keys that stand together in a table: some of its keys, one of several keys, or a choice with the keys that it gives a meaning.
+pub trait Part: Sized {
+    /// Returns the keys that have a meaning in any case.
+    fn keys() -> Vec<Key>;
+
+    /// Returns the sections of the keys that only a choice gives a meaning, in these tables.
+    fn sections(tables: &'static [&'static str]) -> Vec<Section> {
+        let _ = tables;
+        Vec::new()
+    }
+
+    /// Reads the keys.
+    ///
+    /// # Errors
+    /// As [`Table::read`].
+    fn read(source: &dyn Source) -> Result<Self>;
+
+    /// As [`Table::check`].
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`].
+    fn check(&self) -> Result<()>;
+
+    /// Whether any of the keys is given.
+    fn is_given(source: &dyn Source) -> bool {
+        Self::keys().iter().any(|key| source.value(key.name).is_some())
+    }
+}
+
+/// A place from which the keys of a table are read.
 pub trait Source {
+    /// Returns the value of a key; `None` if it is not given.
+    fn value(&self, key: &str) -> Option<Box<dyn Value + '_>>;
+
+    /// Returns the error for a missing key.
+    fn missing(&self, key: &Key) -> Error;
+
+    /// Returns the one of `keys` that is given.
+    ///
+    /// # Errors
+    /// None or several are given.
+    fn exactly_one(&self, keys: &[&'static str], hint: &str) -> Result<&'static str>;
+
+    /// Checks that each key has a meaning with a choice, such as `law = "arrhenius"`.
+    ///
+    /// # Errors
+    /// A key has none.
+    fn suits(&self, choice: &str) -> Result<()>;
+}
+
+/// A value at its place. Each method fails for a value of another kind, or one that the key does not accept.
+pub trait Value {
     /// Reads a number, or a quantity in SI, within the bounds of its kind, which a key of [`Kind::Other`] does not have itself.
     ///
     /// # Errors
-    /// The value is of another kind, or outside the bounds.
-    fn real(&self, key: &Key, kind: &Kind) -> Result<Option<f64>>;
+    /// As all methods.
+    fn real(&self, key: &Key, kind: &Kind) -> Result<f64>;
 
-    /// Reads a count.
+    /// Reads a count within the limits of its key.
     ///
     /// # Errors
-    /// As [`Self::real`].
-    fn count(&self, key: &Key) -> Result<Option<usize>>;
+    /// As all methods.
+    fn count(&self, key: &Key) -> Result<usize>;
+
+    /// Reads a whole number of any size, such as a seed.
+    ///
+    /// # Errors
+    /// As all methods.
+    fn whole(&self) -> Result<u64>;
 
     /// Reads true or false.
     ///
     /// # Errors
-    /// As [`Self::real`].
-    fn flag(&self, key: &Key) -> Result<Option<bool>>;
+    /// As all methods.
+    fn flag(&self) -> Result<bool>;
 
-    /// Reads one of the words of a key, as its index.
+    /// Reads one of several words, as its index.
     ///
     /// # Errors
-    /// As [`Self::real`].
-    fn word(&self, key: &Key) -> Result<Option<usize>>;
+    /// As all methods.
+    fn word(&self, words: &[&'static str]) -> Result<usize>;
 
-    /// Returns the error for a missing key.
-    fn missing(&self, key: &Key) -> Error;
+    /// Reads a text.
+    ///
+    /// # Errors
+    /// As all methods.
+    fn text(&self) -> Result<&str>;
+
+    /// Reads the two numbers of a key of [`Kind::Pair`] or [`Kind::Vector`].
+    ///
+    /// # Errors
+    /// As all methods.
+    fn pair(&self, key: &Key) -> Result<[f64; 2]>;
+
+    /// Whether the value is an array.
+    fn is_array(&self) -> bool;
+
+    /// Returns the items of an array; `expected` describes them.
+    ///
+    /// # Errors
+    /// As all methods.
+    fn items(&self, expected: &str) -> Result<Vec<Box<dyn Value + '_>>>;
+
+    /// Returns a hint if `word` is similar to one of `words`.
+    fn similar(&self, word: &str, words: &[&'static str]) -> Option<String>;
+
+    /// Returns the error for a value that is not accepted, with what was `expected`.
+    fn unexpected(&self, expected: &str, hint: Option<&str>) -> Error;
+
+    /// Returns an error at the value.
+    fn error(&self, message: &str, hint: Option<&str>) -> Error;
+}
+
+/// Reads a key, if it is given.
+///
+/// # Errors
+/// Those of `read`.
+pub fn optional<T>(
+    source: &dyn Source,
+    key: &Key,
+    read: impl FnOnce(&dyn Value) -> Result<T>,
+) -> Result<Option<T>> {
+    source.value(key.name).map(|value| read(value.as_ref())).transpose()
+}
+
+/// Checks a number against the bounds of its key.
+///
+/// # Errors
+/// [`Error::OutOfRange`].
+pub fn check(key: &Key, value: f64) -> Result<()> {
+    let (dimension, noun, bounds) = match key.kind {
+        Kind::Quantity(dimension, bounds) => (Some(dimension), dimension.noun(), bounds),
+        Kind::Number(noun, bounds) => (None, noun, bounds),
+        Kind::Pair(kind) | Kind::Vector(kind) => return check(&Key { kind: *kind, ..*key }, value),
+        Kind::Count { least, most } => {
+            let bounds = Bounds::Between { least: least as f64, most: most as f64, open: [false, false] };
+            (None, "a whole number", bounds)
+        }
+        _ => return Ok(()),
+    };
+    let may_be_infinite = matches!(bounds, Bounds::FromZeroOrInfinite(_) | Bounds::AboveZeroOrInfinite(_));
+    if bounds.hold(value) && (value.is_finite() || may_be_infinite) {
+        return Ok(());
+    }
+    let expected = format!("{noun}{bounds}").into();
+    Err(Error::OutOfRange { quantity: key.name, value, dimension, expected })
 }
 
 /// A combination of entries that is refused, or something that an entry requires.

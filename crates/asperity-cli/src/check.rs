@@ -3,17 +3,16 @@
 use std::fmt::Write as _;
 
 use asperity::Choice;
-use asperity::each_capability;
-use asperity::motion::{FilmLaw, LoadControl, OffsetY, Path, PlasticUpdate, Point, Stage};
+use asperity::motion::{LoadControl, OffsetY, Path, PlasticUpdate, Point, Stage};
 use asperity::solver::{Control, Creep, Friction, Rolling, Tangential};
-use asperity::study::case::{
-    AdhesionRange, AdhesionSpec, Body, Boundary, CounterBody, LoadingPath, Mount, Side, StrategyKind, WearKey,
-};
+use asperity::study::case::{Body, Boundary, CounterBody, LoadingPath, Mount, Side, StrategyKind};
 use asperity::study::{
     Bodies, Case, Demand, Estimate, MountedSurface, Plan, SurfaceInput, bodies, estimate, json_schema,
 };
 use asperity::units::{self, Dimension, bytes};
-use asperity::with::{Capability, Listed};
+use asperity::with::adhesion::{AdhesionRange, Attraction};
+use asperity::with::{BodyLaw, Capability, Listed, ListedLaw};
+use asperity::{each_capability, each_law};
 
 use crate::args::Check;
 use crate::machine::OnDevice;
@@ -157,7 +156,7 @@ fn pair(case: &Case, estimate: &Estimate) -> String {
     format!("{modulus}, pressure up to {up_to}; {who} plastically")
 }
 
-fn adhesion(spec: &AdhesionSpec, estimate: &Estimate) -> String {
+fn adhesion(spec: &Attraction, estimate: &Estimate) -> String {
     let work = units::format(spec.work, Dimension::SurfaceEnergy);
     let mut text = format!("work {work}, {}", spec.potential.word());
     let Some(numbers) = &estimate.adhesion else { return text };
@@ -365,7 +364,7 @@ fn time(demand: &Demand) -> String {
     )
 }
 
-/// Describes wear, films, heat and extrapolation, with a row for each in the case.
+/// Describes the laws of the bodies, heat and extrapolation, with a row for each in the case.
 fn laws(case: &Case, demand: &Demand) -> Vec<(&'static str, String)> {
     let bodies = [("lower", &case.lower), ("upper", &case.upper)];
     let of_bodies = |describe: &dyn Fn(&Body) -> Option<String>| {
@@ -381,35 +380,12 @@ fn laws(case: &Case, demand: &Demand) -> Vec<(&'static str, String)> {
             }
         }
     };
-    let wear = of_bodies(&|body| {
-        let spec = body.wear?;
-        let coefficient = |value| units::format(value, Dimension::WearCoefficient);
-        let (bare, driver) = match spec.coefficient {
-            WearKey::Coefficient(value) => (value, "per load and distance"),
-            WearKey::Energy(value) => (value, "per energy of friction"),
-        };
-        let under = spec.under_film.map(|value| format!(", {} under the film", coefficient(value)));
-        Some(format!("{} {driver}{}", coefficient(bare), under.unwrap_or_default()))
-    });
-    let film = of_bodies(&|body| {
-        let spec = body.film?;
-        let law = match spec.law {
-            FilmLaw::Arrhenius { .. } => "Arrhenius growth",
-            FilmLaw::MechanoChemical { .. } => "mechano-chemical growth",
-            FilmLaw::SolidLubricant { .. } => "solid lubricant",
-            _ => "growth",
-        };
-        let most = units::format(spec.max_thickness, Dimension::Length);
-        let hardness = spec.hardness.map(|value| {
-            format!(", pressure up to {} where it is thickest", units::format(value, Dimension::Pressure))
-        });
-        let up_to = if matches!(spec.law, FilmLaw::SolidLubricant { .. }) { "of" } else { "up to" };
-        Some(format!("{law} {up_to} {most}{}", hardness.unwrap_or_default()))
-    });
+    let mut rows = Vec::new();
+    each_law!(L => rows.push((L::NAME, of_bodies(&|body| L::of(&body.laws).map(L::describe)))));
     let heat = case.temperature.map(|spec| {
         let [lower, upper] = spec.bulk.map(|kelvin| units::format(kelvin, Dimension::Temperature));
         let bulk = if lower == upper { lower } else { format!("{lower} (lower) and {upper} (upper)") };
-        let flash = match (spec.every, case.motion.is_some()) {
+        let flash = match (spec.every(), case.motion.is_some()) {
             (0, _) => "no flash temperature".to_owned(),
             (_, false) => "flash temperature of the cells in contact".to_owned(),
             (1, true) => "flash temperature at each position".to_owned(),
@@ -426,10 +402,8 @@ fn laws(case: &Case, demand: &Demand) -> Vec<(&'static str, String)> {
             units::format(acceleration.max_wear, Dimension::Length)
         ))
     });
-    [("wear", wear), ("film", film), ("heat", heat), ("passes", passes)]
-        .into_iter()
-        .filter_map(|(name, text)| Some((name, text?)))
-        .collect()
+    rows.extend([("heat", heat), ("passes", passes)]);
+    rows.into_iter().filter_map(|(name, text)| Some((name, text?))).collect()
 }
 
 fn stress(case: &Case, plan: &Plan) -> String {

@@ -23,7 +23,7 @@
 //! | statistics or a shape | [`surface::Generator`], [`surface::Form`] | [`surface::Topography`] |
 //! | a topography | [`surface::Preparation`], [`surface::Parameters`] | a topography ready for a contact; its roughness parameters (ISO 25178) |
 //! | constants of two bodies | [`material::Material`], [`material::Compliances`] | E*, Dundurs' β |
-//! | two topographies and materials | [`motion::Pair`] | the argument of [`motion::press`], [`motion::load_in_stages`], [`motion::roll`], [`motion::WearInPlace`] and [`motion::Simulation`] |
+//! | two topographies and materials | [`motion::Pair`] | the argument of [`motion::press`], [`motion::load_in_stages`], [`motion::roll`], [`motion::SlidingContact`] and [`motion::Simulation`] |
 //! | a grid and compliances | [`operator::Operators`] | an [`operator::Operator`]: pressure in, displacement out |
 //! | an operator and a gap | [`solver::solve_normal`], [`solver::Params`] | [`solver::Solution`] with its [`solver::Stats`] |
 //! | an attraction between the surfaces | [`adhesion::Adhesion`], [`motion::Pair::with_adhesion`], [`solver::solve_adhesive`] | the contact that the bodies reach on their way |
@@ -95,7 +95,7 @@ pub mod verification;
 
 pub use asperity_base::{choice, error, grid, ndarray, ranks, units};
 pub use asperity_surface as surface;
-pub use with::{conductance, flow};
+pub use with::{conductance, film, flow, wear};
 
 pub use choice::Choice;
 pub use error::{Error, Result};

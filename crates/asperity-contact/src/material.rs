@@ -2,6 +2,9 @@
 
 use crate::error::{Error, Result, check, check_in};
 use crate::units::{Dimension, Metre, Pascal};
+use asperity_base::exists;
+use asperity_base::table::Table as _;
+use asperity_derive::Table;
 
 /// An elastic, or elastic–perfectly plastic, isotropic material.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,18 +21,40 @@ pub struct Material {
 }
 
 /// An elastic, isotropic layer of uniform thickness, bonded to a body.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Table, Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[table("lower.coating", "upper.coating")]
 pub struct Coating {
-    /// Thickness, > 0, finite.
+    /// Thickness of the layer.
+    #[key(quantity = Length, range = AboveZero, example = "\"2 um\"", exists = exists::LAYER)]
     pub thickness: Metre,
-    /// Young's modulus, > 0, finite.
+    /// Its Young's modulus.
+    #[key(quantity = Pressure, range = AboveZero, example = "\"300 GPa\"", exists = exists::YOUNG)]
     pub young: Pascal,
-    /// Poisson's ratio, 0 ≤ ν ≤ 0.5.
+    /// Its Poisson's ratio.
+    #[key(number = "a number", range = Between { least: 0.0, most: 0.5, open: [false, false] }, example = "0.3")]
     pub poisson: f64,
-    /// Thermal conductivity, W/(m K), > 0, if known.
+    /// Its thermal conductivity, for heat that passes a contact.
+    ///
+    /// W/(m K), > 0.
+    #[key(
+        quantity = Conductivity,
+        range = AboveZero,
+        absent = "unknown",
+        example = "\"20 W/(m K)\"",
+        exists = exists::CONDUCTIVITY
+    )]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub conductivity: Option<f64>,
-    /// Electrical resistivity, Ω m, > 0, if known.
+    /// Its electrical resistivity, for a current that passes a contact.
+    ///
+    /// Ω m, > 0.
+    #[key(
+        quantity = Resistivity,
+        range = AboveZero,
+        absent = "unknown",
+        example = "\"1e-6 ohm m\"",
+        exists = exists::RESISTIVITY
+    )]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub resistivity: Option<f64>,
 }
@@ -40,22 +65,8 @@ impl Coating {
     /// # Errors
     /// [`Error::OutOfRange`] if a constant has no physical meaning.
     pub fn new(thickness: Metre, young: Pascal, poisson: f64) -> Result<Self> {
-        check_in(
-            Dimension::Length,
-            "thickness",
-            thickness,
-            thickness > 0.0 && thickness.is_finite(),
-            "a finite thickness above 0",
-        )?;
-        check_in(
-            Dimension::Pressure,
-            "young",
-            young,
-            young > 0.0 && young.is_finite(),
-            "a finite modulus above 0: a rigid coating leaves nothing to deform",
-        )?;
-        check("poisson", poisson, (0.0..=0.5).contains(&poisson), "Poisson's ratio from 0 to 0.5")?;
-        Ok(Self { thickness, young, poisson, conductivity: None, resistivity: None })
+        let this = Self { thickness, young, poisson, conductivity: None, resistivity: None };
+        this.check().map(|()| this)
     }
 }
 
@@ -136,7 +147,7 @@ impl Compliances {
                 quantity: "young of both bodies",
                 dimension: None,
                 value: Pascal::INFINITY,
-                expected: "at least one deformable body",
+                expected: "at least one deformable body".into(),
             })
         }
     }

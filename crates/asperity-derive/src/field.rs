@@ -3,24 +3,42 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::meta::ParseNestedMeta;
-use syn::{Attribute, Error, Expr, ExprLit, Field, Ident, Lit, LitInt, LitStr, Meta, Result, Type};
+use syn::{
+    Attribute, Data, DeriveInput, Error, Expr, ExprLit, Fields, FieldsNamed, Ident, Lit, LitInt, LitStr,
+    Meta, Path, Result, Type,
+};
 
 /// The values that a key accepts.
+#[derive(Clone)]
 enum Accepts {
+    /// A word of a `Choice`.
     Choice,
     Flag,
+    Text,
     Count(LitInt),
+    /// A whole number of any size.
+    Whole,
     Number(LitStr),
     Quantity(Expr),
+    /// Values of a special form, with their reader.
+    Special(Path),
+    /// The keys of another type.
+    Part,
 }
 
 /// A field of a table.
-pub(crate) struct Key<'a> {
-    pub(crate) name: &'a Ident,
+#[derive(Clone)]
+pub(crate) struct Field<'a> {
+    pub(crate) name: Ident,
+    key: Option<LitStr>,
     of: &'a Type,
     is_optional: bool,
     accepts: Accepts,
     range: Option<Expr>,
+    most: Option<LitInt>,
+    /// `pair` or `vector`: two numbers.
+    both: Option<Ident>,
+    dimension: Option<Ident>,
     form: Option<LitStr>,
     default: Option<Expr>,
     written: Option<LitStr>,
@@ -30,61 +48,102 @@ pub(crate) struct Key<'a> {
     meaning: String,
 }
 
-impl<'a> Key<'a> {
-    pub(crate) fn of(field: &'a Field) -> Result<Self> {
+impl<'a> Field<'a> {
+    /// Reads a field of a struct.
+    pub(crate) fn of(field: &'a syn::Field) -> Result<Self> {
         let name = field.ident.as_ref().ok_or_else(|| Error::new_spanned(field, "a key needs a name"))?;
-        let (is_optional, of) = match inner(&field.ty) {
+        Self::new(name.clone(), &field.attrs, &field.ty)
+    }
+
+    /// Reads a variant of an enum of single values, one of which is given.
+    pub(crate) fn named(
+        name: Ident,
+        attributes: &'a [Attribute],
+        of: &'a Type,
+        absent: &LitStr,
+    ) -> Result<Self> {
+        let field = Self::new(name, attributes, of)?;
+        Ok(Self { is_optional: true, absent: Some(absent.clone()), ..field })
+    }
+
+    fn new(name: Ident, attributes: &'a [Attribute], of: &'a Type) -> Result<Self> {
+        let (is_optional, of) = match inner(of) {
             Some(inner) => (true, inner),
-            None => (false, &field.ty),
+            None => (false, of),
         };
-        let attribute = field.attrs.iter().find(|attribute| attribute.path().is_ident("key"));
-        let attribute = attribute.ok_or_else(|| Error::new_spanned(field, "a key needs #[key(…)]"))?;
-        let (mut accepts, mut range, mut form, mut default) = (None, None, None, None);
-        let (mut written, mut absent, mut example, mut exists) = (None, None, None, None);
+        let attribute = attributes.iter().find(|attribute| attribute.path().is_ident("key"));
+        let attribute = attribute.ok_or_else(|| Error::new_spanned(&name, "a key needs #[key(…)]"))?;
+        let mut field = Self {
+            name,
+            key: None,
+            of,
+            is_optional,
+            accepts: Accepts::Part,
+            range: None,
+            most: None,
+            both: None,
+            dimension: None,
+            form: None,
+            default: None,
+            written: None,
+            absent: None,
+            example: None,
+            exists: None,
+            meaning: String::new(),
+        };
+        let mut accepts = None;
         attribute.parse_nested_meta(|meta: ParseNestedMeta<'_>| {
-            let word = meta.path.require_ident()?.to_string();
-            match word.as_str() {
+            let word = meta.path.require_ident()?;
+            match word.to_string().as_str() {
                 "choice" => accepts = Some(Accepts::Choice),
                 "flag" => accepts = Some(Accepts::Flag),
+                "text" => accepts = Some(Accepts::Text),
+                "whole" => accepts = Some(Accepts::Whole),
+                "part" => accepts = Some(Accepts::Part),
                 "count" => accepts = Some(Accepts::Count(meta.value()?.parse()?)),
                 "number" => accepts = Some(Accepts::Number(meta.value()?.parse()?)),
                 "quantity" => accepts = Some(Accepts::Quantity(meta.value()?.parse()?)),
-                "range" => range = Some(meta.value()?.parse()?),
-                "form" => form = Some(meta.value()?.parse()?),
-                "default" => default = Some(meta.value()?.parse()?),
-                "written" => written = Some(meta.value()?.parse()?),
-                "absent" => absent = Some(meta.value()?.parse()?),
-                "example" => example = Some(meta.value()?.parse()?),
-                "exists" => exists = Some(meta.value()?.parse()?),
+                "special" => accepts = Some(Accepts::Special(meta.value()?.parse()?)),
+                "pair" | "vector" => field.both = Some(word.clone()),
+                "name" => field.key = Some(meta.value()?.parse()?),
+                "range" => field.range = Some(meta.value()?.parse()?),
+                "most" => field.most = Some(meta.value()?.parse()?),
+                "dimension" => field.dimension = Some(meta.value()?.parse()?),
+                "form" => field.form = Some(meta.value()?.parse()?),
+                "default" => field.default = Some(meta.value()?.parse()?),
+                "written" => field.written = Some(meta.value()?.parse()?),
+                "absent" => field.absent = Some(meta.value()?.parse()?),
+                "example" => field.example = Some(meta.value()?.parse()?),
+                "exists" => field.exists = Some(meta.value()?.parse()?),
                 _ => return Err(meta.error("no such word in #[key]")),
             }
             Ok(())
         })?;
-        let accepts =
+        field.accepts =
             accepts.ok_or_else(|| Error::new_spanned(attribute, "#[key] says what the key accepts"))?;
-        Ok(Self {
-            name,
-            of,
-            is_optional,
-            accepts,
-            range,
-            form,
-            default,
-            written,
-            absent,
-            example,
-            exists,
-            meaning: meaning(&field.attrs, name)?,
-        })
+        if field.part().is_none() {
+            field.meaning = meaning(attributes, &field.name)?;
+        }
+        Ok(field)
+    }
+
+    /// The field with a value in any case.
+    pub(crate) fn required(&self) -> Self {
+        Self { is_optional: false, ..self.clone() }
+    }
+
+    /// The type whose keys stand in place of the field, if it is a part.
+    pub(crate) fn part(&self) -> Option<&'a Type> {
+        matches!(self.accepts, Accepts::Part).then_some(self.of)
     }
 
     /// The declaration of the key.
     pub(crate) fn declaration(&self) -> Result<TokenStream> {
-        let name = self.name.to_string();
-        let (kind, meaning) = (self.kind(), &self.meaning);
+        let name = self.key.as_ref().map_or_else(|| self.name.to_string(), LitStr::value);
+        let (kind, meaning) = (self.kind()?, &self.meaning);
         let example = match &self.example {
             Some(example) => quote!(#example),
-            None => return Err(Error::new_spanned(self.name, "a key needs an example")),
+            None => return Err(Error::new_spanned(&self.name, "a key needs an example")),
         };
         let fallback = match (&self.absent, &self.default) {
             (Some(text), _) => quote!(Absent(#text)),
@@ -95,9 +154,13 @@ impl<'a> Key<'a> {
                 };
                 quote!(Value(#text))
             }
+            (None, None) if self.written.is_some() => {
+                let text = &self.written;
+                quote!(Value(#text))
+            }
             (None, None) if self.is_optional => {
                 return Err(Error::new_spanned(
-                    self.name,
+                    &self.name,
                     "an optional key tells what holds without it: `absent`",
                 ));
             }
@@ -124,29 +187,25 @@ impl<'a> Key<'a> {
         match &self.default {
             Some(default) => Ok(quote!(#default)),
             None if self.is_optional => Ok(quote!(None)),
-            None => Err(Error::new_spanned(self.name, "a table with `default` has no required key")),
+            None => Err(Error::new_spanned(&self.name, "a table with `default` has no required key")),
         }
     }
 
-    /// The statement that reads the field from `source`, for the key of this index.
-    pub(crate) fn reader(&self, index: usize) -> TokenStream {
-        let (name, of) = (self.name, self.of);
-        let key = quote!(&<Self as ::asperity_base::table::Table>::SECTION.keys[#index]);
-        let given = match &self.accepts {
-            Accepts::Choice => quote! {
-                source.word(#key)?.map(|word| <#of as ::asperity_base::choice::Choice>::WORDS[word].1)
-            },
-            Accepts::Flag => quote!(source.flag(#key)?),
-            Accepts::Count(_) => quote!(source.count(#key)?),
-            Accepts::Number(_) => quote!(source.real(#key, &(#key).kind)?),
-            Accepts::Quantity(dimension) => match &self.form {
-                None => quote!(source.real(#key, &(#key).kind)?),
-                Some(_) => {
-                    let bounds = self.bounds();
-                    quote!(source.real(#key, &::asperity_base::table::Kind::Quantity(#dimension, #bounds))?)
-                }
-            },
-        };
+    /// The statement that reads the field from `source` into a variable of its name, by its declaration `key`.
+    pub(crate) fn reader(&self, key: &TokenStream) -> TokenStream {
+        let (name, of) = (&self.name, self.of);
+        if self.part().is_some() {
+            return match self.is_optional {
+                false => quote!(let #name = <#of as ::asperity_base::table::Part>::read(source)?;),
+                true => quote! {
+                    let #name = match <#of as ::asperity_base::table::Part>::is_given(source) {
+                        true => Some(<#of as ::asperity_base::table::Part>::read(source)?),
+                        false => None,
+                    };
+                },
+            };
+        }
+        let given = self.given(key);
         let read = match &self.default {
             _ if self.is_optional => given,
             Some(default) => quote!((#given).unwrap_or(#default)),
@@ -155,13 +214,62 @@ impl<'a> Key<'a> {
         quote!(let #name = #read;)
     }
 
+    /// The expression of the value of the key, `None` if it is not given.
+    pub(crate) fn given(&self, key: &TokenStream) -> TokenStream {
+        let of = self.of;
+        let read = match &self.accepts {
+            Accepts::Choice => quote! {
+                value.word(<#of as ::asperity_base::choice::Choice>::NAMES)
+                    .map(|word| <#of as ::asperity_base::choice::Choice>::WORDS[word].1)
+            },
+            Accepts::Flag => quote!(value.flag()),
+            Accepts::Text => quote!(value.text().map(|text| <#of>::from(text))),
+            Accepts::Count(_) => quote!(value.count(#key)),
+            Accepts::Whole => quote!(value.whole()),
+            Accepts::Number(_) | Accepts::Quantity(_) if self.both.is_some() => quote!(value.pair(#key)),
+            Accepts::Quantity(dimension) if self.form.is_some() => {
+                let bounds = self.bounds();
+                quote!(value.real(#key, &::asperity_base::table::Kind::Quantity(#dimension, #bounds)))
+            }
+            Accepts::Number(_) | Accepts::Quantity(_) => quote!(value.real(#key, &(#key).kind)),
+            Accepts::Special(read) => quote!(#read(value, #key)),
+            Accepts::Part => unreachable!("a part reads itself"),
+        };
+        quote!(::asperity_base::table::optional(source, #key, |value| #read)?)
+    }
+
+    /// The statements that check a `value`, a reference, against the bounds of its declaration `key`.
+    pub(crate) fn checker(&self, value: &TokenStream, key: &TokenStream) -> TokenStream {
+        let of = self.of;
+        let one = match &self.accepts {
+            Accepts::Part => quote!(<#of as ::asperity_base::table::Part>::check(value)?;),
+            Accepts::Count(_) => quote!(::asperity_base::table::check(#key, *value as f64)?;),
+            Accepts::Number(_) | Accepts::Quantity(_) if self.both.is_some() => {
+                quote!(for value in value { ::asperity_base::table::check(#key, *value)?; })
+            }
+            Accepts::Number(_) | Accepts::Quantity(_) => {
+                quote!(::asperity_base::table::check(#key, *value)?;)
+            }
+            _ => return TokenStream::new(),
+        };
+        match self.is_optional {
+            true => quote!(if let Some(value) = #value { #one }),
+            false => quote!({ let value = #value; #one }),
+        }
+    }
+
     /// The kind of the key.
-    fn kind(&self) -> TokenStream {
+    fn kind(&self) -> Result<TokenStream> {
         let of = self.of;
         let kind = match (&self.accepts, &self.form) {
             (Accepts::Choice, _) => quote!(Choice(<#of as ::asperity_base::choice::Choice>::NAMES)),
             (Accepts::Flag, _) => quote!(Flag),
-            (Accepts::Count(least), _) => quote!(Count { least: #least, most: u64::MAX }),
+            (Accepts::Text, _) => quote!(Text),
+            (Accepts::Whole, _) => quote!(Count { least: 0, most: u64::MAX }),
+            (Accepts::Count(least), _) => {
+                let most = self.most.as_ref().map_or(quote!(u64::MAX), |most| quote!(#most));
+                quote!(Count { least: #least, most: #most })
+            }
             (Accepts::Number(noun), _) => {
                 let bounds = self.bounds();
                 quote!(Number(#noun, #bounds))
@@ -171,8 +279,24 @@ impl<'a> Key<'a> {
                 let bounds = self.bounds();
                 quote!(Quantity(::asperity_base::units::Dimension::#dimension, #bounds))
             }
+            (Accepts::Special(_), form) => {
+                let form = form.as_ref().ok_or_else(|| {
+                    Error::new_spanned(&self.name, "a special value tells its form: `form`")
+                })?;
+                let dimension = match &self.dimension {
+                    Some(dimension) => quote!(Some(::asperity_base::units::Dimension::#dimension)),
+                    None => quote!(None),
+                };
+                quote!(Other { dimension: #dimension, value: #form })
+            }
+            (Accepts::Part, _) => unreachable!("a part declares its own keys"),
         };
-        quote!(::asperity_base::table::Kind::#kind)
+        let kind = quote!(::asperity_base::table::Kind::#kind);
+        Ok(match &self.both {
+            None => kind,
+            Some(both) if both == "pair" => quote!(::asperity_base::table::Kind::Pair(&#kind)),
+            Some(_) => quote!(::asperity_base::table::Kind::Vector(&#kind)),
+        })
     }
 
     fn bounds(&self) -> TokenStream {
@@ -180,6 +304,17 @@ impl<'a> Key<'a> {
             Some(range) => quote!(::asperity_base::table::Bounds::#range),
             None => quote!(::asperity_base::table::Bounds::Any),
         }
+    }
+}
+
+/// The named fields of a struct.
+pub(crate) fn fields(input: &DeriveInput) -> Result<&FieldsNamed> {
+    match &input.data {
+        Data::Struct(data) => match &data.fields {
+            Fields::Named(fields) => Ok(fields),
+            _ => Err(Error::new_spanned(input, "a table is a struct with named fields")),
+        },
+        _ => Err(Error::new_spanned(input, "a table is a struct")),
     }
 }
 
@@ -227,18 +362,32 @@ fn written(default: &Expr) -> Result<String> {
         Expr::Lit(ExprLit { lit: Lit::Int(number), .. }) => Ok(number.base10_digits().to_owned()),
         Expr::Lit(ExprLit { lit: Lit::Float(number), .. }) => Ok(number.to_string()),
         Expr::Path(path) => {
-            let variant = path.path.segments.last().expect("a path has segments").ident.to_string();
-            let mut word = String::new();
-            for (index, letter) in variant.char_indices() {
-                if letter.is_uppercase() && index > 0 {
-                    word.push('-');
-                }
-                word.extend(letter.to_lowercase());
-            }
-            Ok(format!("\"{word}\""))
+            let variant = &path.path.segments.last().expect("a path has segments").ident;
+            Ok(format!("\"{}\"", kebab(variant)))
         }
         _ => {
             Err(Error::new_spanned(default, "a default is a number, true or false, or a variant of a choice"))
         }
     }
+}
+
+/// The name of a variant as the word of a choice: `LowPass` is `low-pass`.
+pub(crate) fn kebab(variant: &Ident) -> String {
+    separated(variant, '-')
+}
+
+/// The name of a variant as a key: `MeanPressure` is `mean_pressure`.
+pub(crate) fn snake(variant: &Ident) -> String {
+    separated(variant, '_')
+}
+
+fn separated(variant: &Ident, separator: char) -> String {
+    let mut word = String::new();
+    for (index, letter) in variant.to_string().char_indices() {
+        if letter.is_uppercase() && index > 0 {
+            word.push(separator);
+        }
+        word.extend(letter.to_lowercase());
+    }
+    word
 }

@@ -1,9 +1,10 @@
 //! Derives of the crates of asperity.
 //!
 //! [`derive@Table`] makes a struct the dictionary of a table of keys: its fields are the keys, their documentation is that of the keys.
-//! The declaration of the table and its reader follow from them.
+//! The declaration of the table and its reader follow from them. [`derive@Part`] does the same for keys that stand together in a table.
 
 mod field;
+mod part;
 mod table;
 
 use proc_macro::TokenStream;
@@ -32,18 +33,59 @@ use syn::{DeriveInput, parse_macro_input};
 /// |---|---|
 /// | `choice` | one of the words of a `Choice` |
 /// | `flag` | true or false |
-/// | `count = 1` | a whole number of at least 1 |
+/// | `text` | a text |
+/// | `count = 1` | a whole number of at least 1, and at most `most` |
+/// | `whole` | a whole number of any size, such as a seed |
 /// | `number = "a share"` | a number, with its name in messages, within a `range` |
 /// | `quantity = Length` | a quantity of this `Dimension`, within a `range` |
+/// | … and `pair` | one of these for both axes, or two |
+/// | … and `vector` | one of these along x, or two along x and y |
 /// | `quantity = kind.drop(), form = "…"` | one whose dimension depends on the fields above, as the documentation describes it |
+/// | `special = reader, form = "…"` | values that a function reads, of a `dimension`, if any |
+/// | `part` | the keys of a type that derives [`derive@Part`] |
 ///
 /// `range` is a variant of `Bounds`. A field that is an `Option` is `None` without the key. Any other has a `default`, an
-/// expression as a case file would write it, or the key must be given; `written = "\"5 nm\""` writes it with a unit. `absent` tells in
-/// words what holds without the key. `exists` is an expression of the type `Exists`.
+/// expression as a case file would write it, or the key must be given; `written = "\"5 nm\""` writes it with a unit; on an `Option` it
+/// tells the value that stands for `None`. `absent` tells in words what holds without the key. `exists` is an expression of the type `Exists`.
 ///
-/// `#[table("output", default)]` also implements `Default`, for a table all of whose keys have a default.
+/// `#[table("output", default)]` also implements `Default`, for a table all of whose keys have a default. `#[table("…", check = function)]`
+/// names a function that gets the struct and the source, and returns an error for values that do not go together. A key has the name of
+/// its field, or its own: `name = "section"`.
 #[proc_macro_derive(Table, attributes(table, key))]
 pub fn table(input: TokenStream) -> TokenStream {
     let input = parse_macro_input!(input as DeriveInput);
     table::derive(&input).unwrap_or_else(|error| error.to_compile_error()).into()
+}
+
+/// Implements `asperity_base::table::Part`: keys that stand together in a table, the fields of a struct or the variants of an enum.
+///
+/// ```text
+/// #[derive(Part)]                                        all of them
+/// struct HeightDistribution {
+///     /// Skewness of the heights.
+///     #[key(number = "a number", default = 0.0, example = "-1")]
+///     ssk: f64,
+///     …
+/// }
+///
+/// #[derive(Part)]                                        exactly one of them, each named as its variant
+/// #[part(absent = "exactly one of the two", hint = "for example `sq = \"1 um\"`")]
+/// enum Amplitude {
+///     /// Rms height.
+///     #[key(quantity = Length, range = AboveZero, example = "\"0.2 um\"")]
+///     Sq(f64),
+///     …
+/// }
+///
+/// #[derive(Part)]                                        a key that names a variant, which gives its fields a meaning
+/// #[part(key = "law", example = "\"arrhenius\"", meaning = "law of the growth")]
+/// enum FilmLaw {
+///     Arrhenius { /// Rate. #[key(…)] rate: f64, … },
+///     …
+/// }
+/// ```
+#[proc_macro_derive(Part, attributes(part, key))]
+pub fn part(input: TokenStream) -> TokenStream {
+    let input = parse_macro_input!(input as DeriveInput);
+    part::derive(&input).unwrap_or_else(|error| error.to_compile_error()).into()
 }

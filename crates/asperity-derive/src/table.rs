@@ -3,31 +3,42 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::parse::ParseStream;
-use syn::{Data, DeriveInput, Error, Fields, LitStr, Result, Token};
+use syn::{DeriveInput, Error, LitStr, Path, Result, Token};
 
-use crate::field::Key;
+use crate::field::{Field, fields};
+use crate::part;
+
+/// Names of a table, and what else its attribute says.
+struct Attribute {
+    names: Vec<LitStr>,
+    has_default: bool,
+    check: Option<Path>,
+}
 
 pub(crate) fn derive(input: &DeriveInput) -> Result<TokenStream> {
-    let Data::Struct(data) = &input.data else {
-        return Err(Error::new_spanned(input, "a table is a struct"));
-    };
-    let Fields::Named(fields) = &data.fields else {
-        return Err(Error::new_spanned(input, "a table is a struct with named fields"));
-    };
+    let fields = fields(input)?;
     let attribute = input.attrs.iter().find(|attribute| attribute.path().is_ident("table"));
     let attribute =
         attribute.ok_or_else(|| Error::new_spanned(input, "a table needs its name: #[table(\"…\")]"))?;
-    let (names, has_default) = attribute.parse_args_with(names)?;
-    let keys = fields.named.iter().map(Key::of).collect::<Result<Vec<_>>>()?;
-    let declarations = keys.iter().map(Key::declaration).collect::<Result<Vec<_>>>()?;
-    let readers = keys.iter().enumerate().map(|(index, key)| key.reader(index));
-    let fields = keys.iter().map(|key| key.name);
+    let Attribute { names, has_default, check } = attribute.parse_args_with(Attribute::parse)?;
+    let fields = fields.named.iter().map(Field::of).collect::<Result<Vec<_>>>()?;
+    let declarations = part::declarations(&fields)?;
+    let keys = part::keys(&fields, &quote!(<Self as ::asperity_base::table::Table>::KEYS));
+    let sections = fields.iter().filter_map(Field::part).map(|part| {
+        quote! {
+            sections.extend(
+                <#part as ::asperity_base::table::Part>::sections(<Self as ::asperity_base::table::Table>::TABLES)
+            );
+        }
+    });
+    let read = part::reader(&fields, &quote!(<Self as ::asperity_base::table::Table>::KEYS), check.as_ref());
+    let check = part::checkers(&fields, &quote!(<Self as ::asperity_base::table::Table>::KEYS));
     let table = &input.ident;
     let default = match has_default {
         false => TokenStream::new(),
         true => {
-            let values = keys.iter().map(Key::default).collect::<Result<Vec<_>>>()?;
-            let fields = fields.clone();
+            let values = fields.iter().map(Field::default).collect::<Result<Vec<_>>>()?;
+            let fields = fields.iter().map(|field| &field.name);
             quote! {
                 impl Default for #table {
                     fn default() -> Self {
@@ -41,34 +52,52 @@ pub(crate) fn derive(input: &DeriveInput) -> Result<TokenStream> {
         #default
 
         impl ::asperity_base::table::Table for #table {
-            const SECTION: ::asperity_base::table::Section = ::asperity_base::table::Section {
-                tables: &[#(#names),*],
-                kind: "",
-                keys: &[#(#declarations),*],
-            };
+            const TABLES: &'static [&'static str] = &[#(#names),*];
+            const KEYS: &'static [::asperity_base::table::Key] = &[#(#declarations),*];
+
+            #[allow(clippy::vec_init_then_push, reason = "one statement for each field")]
+            fn sections() -> Vec<::asperity_base::table::Section> {
+                let mut keys = Vec::new();
+                #keys
+                let own = ::asperity_base::table::Section {
+                    tables: <Self as ::asperity_base::table::Table>::TABLES,
+                    kind: "",
+                    keys: keys.leak(),
+                };
+                #[allow(unused_mut, reason = "a table may have no parts")]
+                let mut sections = vec![own];
+                #(#sections)*
+                sections
+            }
 
             fn read(source: &dyn ::asperity_base::table::Source) -> ::asperity_base::error::Result<Self> {
-                #(#readers)*
-                Ok(Self { #(#fields),* })
+                #read
+            }
+
+            fn check(&self) -> ::asperity_base::error::Result<()> {
+                #check
+                Ok(())
             }
         }
     })
 }
 
-/// The names of a table, and whether it has a default.
-fn names(input: ParseStream<'_>) -> Result<(Vec<LitStr>, bool)> {
-    let (mut names, mut has_default) = (Vec::new(), false);
-    while !input.is_empty() {
-        match input.peek(Token![default]) {
-            true => {
+impl Attribute {
+    fn parse(input: ParseStream<'_>) -> Result<Self> {
+        let mut attribute = Self { names: Vec::new(), has_default: false, check: None };
+        while !input.is_empty() {
+            if input.peek(Token![default]) {
                 input.parse::<Token![default]>()?;
-                has_default = true;
+                attribute.has_default = true;
+            } else if input.peek(LitStr) {
+                attribute.names.push(input.parse()?);
+            } else {
+                attribute.check = Some(part::check(input)?);
             }
-            false => names.push(input.parse()?),
+            if !input.is_empty() {
+                input.parse::<Token![,]>()?;
+            }
         }
-        if !input.is_empty() {
-            input.parse::<Token![,]>()?;
-        }
+        Ok(attribute)
     }
-    Ok((names, has_default))
 }

@@ -21,11 +21,11 @@ use asperity_base::error::{Error, Result};
 use asperity_base::grid::Grid;
 use asperity_base::io::atomic::Token;
 use asperity_base::ranks::{Largest, Ranks};
-use asperity_contact::each_capability;
+use asperity_contact::{each_capability, each_law};
 use asperity_contact::motion::Pair;
 use asperity_contact::operator::{Boundary, Edge};
 use asperity_contact::solver::{Device, Method};
-use asperity_contact::with::{Capability, Listed};
+use asperity_contact::with::{BodyLaw, Capability, Listed, ListedLaw};
 use asperity_study::SurfaceInput;
 use asperity_study::case::Case;
 use asperity_study::io::fields::FieldFile;
@@ -191,12 +191,9 @@ pub fn collect(directory: &Path) -> Result<()> {
 fn check(case: &Case) -> Result<()> {
     let bodies = [("lower", &case.lower), ("upper", &case.upper)];
     let of_bodies = bodies.into_iter().flat_map(|(name, body)| {
-        let tables = [
-            ("plasticity", body.plasticity.is_some()),
-            ("wear", body.wear.is_some()),
-            ("film", body.film.is_some()),
-        ];
-        tables.map(|(table, given)| (format!("{name}.{table}"), given))
+        let mut tables = vec![("plasticity", body.plasticity.is_some())];
+        each_law!(L => tables.push((L::NAME, L::of(&body.laws).is_some())));
+        tables.into_iter().map(move |(table, given)| (format!("{name}.{table}"), given))
     });
     let tables = [
         ("friction", case.friction.is_some()),

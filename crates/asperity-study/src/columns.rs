@@ -2,7 +2,6 @@
 
 use std::sync::LazyLock;
 
-use super::adhesion::AdhesionSummary;
 use super::closed_form::ClosedFormRecord;
 use super::subsurface::SubsurfaceRecord;
 use super::summary::{CONVERGED, RunningIn};
@@ -13,6 +12,7 @@ use asperity_contact::motion::{
     PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Presence, ResidualRecord, RunningRecord,
     ShearRecord, StaticRecord, StepRecord, SweepRecord, UpdateRecord,
 };
+use asperity_contact::with::adhesion::AdhesionSummary;
 use asperity_contact::with::{Capability, Row as _};
 
 /// Returns the records of the results by name, each with its columns.

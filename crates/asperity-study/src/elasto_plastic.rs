@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
-use crate::case::{Case, PlasticitySpec};
+use crate::case::Case;
 use asperity_base::error::Result;
 use asperity_contact::motion::{Pair, PlasticPath, Stage};
 use asperity_contact::plasticity::{PlasticBody, Volume};
+use asperity_contact::with::plasticity::PlasticRegion;
 
 /// Creates the elasto-plastic bodies of `case`, lower one first, under the surfaces of the `pair`.
-pub(super) fn bodies(case: &Case, spec: &PlasticitySpec, pair: &Pair) -> Result<[Option<PlasticBody>; 2]> {
+pub(super) fn bodies(case: &Case, spec: &PlasticRegion, pair: &Pair) -> Result<[Option<PlasticBody>; 2]> {
     let grids = [pair.lower_grid(), pair.upper_grid()];
     let of_body = |index: usize| {
         let body = [&case.lower, &case.upper][index];
@@ -21,7 +22,7 @@ pub(super) fn bodies(case: &Case, spec: &PlasticitySpec, pair: &Pair) -> Result<
 
 /// Creates the loading path of elasto-plastic bodies through these `stages`. Unloading takes as many steps as the first
 /// stage.
-pub(super) fn path(spec: &PlasticitySpec, stages: Vec<Stage>) -> PlasticPath {
+pub(super) fn path(spec: &PlasticRegion, stages: Vec<Stage>) -> PlasticPath {
     let steps = stages.first().map_or(1, |stage| stage.increments);
     let unloading = spec.unload.unwrap_or(true).then_some(steps);
     PlasticPath::new(stages).with_unloading(unloading).with_plastic(spec.params())

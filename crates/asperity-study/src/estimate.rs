@@ -8,7 +8,6 @@ pub(super) use contact::{CELLS_ACROSS, attraction_cut_off};
 pub use contact::{cut_off, spot, too_few_cells};
 pub use demand::{Demand, demand, memory_on_device};
 
-use super::adhesion::AdhesionSummary;
 use super::case::{Body, Case, Hardness, Layer, LoadingPath, Source, TopographySpec};
 use super::closed_form::ClosedForm;
 use super::prepare::{Bodies, MountedSurface};
@@ -24,6 +23,7 @@ use asperity_contact::motion::{
 };
 use asperity_contact::reference::HertzSphere;
 use asperity_contact::solver::{Control, Coupling, Creep, Friction, Rolling, Tangential};
+use asperity_contact::with::adhesion::AdhesionSummary;
 use asperity_surface::{Form, Level};
 
 /// Largest rms slope of the gap for a half-space theory: up to here tan and sin of a slope agree within about 5 %.
@@ -37,7 +37,7 @@ pub struct Estimate {
     pub modulus: Pascal,
     /// Dundurs' β of the pair.
     pub dundurs: f64,
-    /// Loading path of a static contact; `None` for a motion and for wear in place.
+    /// Loading path of a static contact; `None` for a motion and for sliding in place.
     pub loading_path: Option<LoadingPath>,
     /// Cap on the pressure: the smaller hardness, infinite for an elastic pair; the smallest value of hardness maps.
     pub hardness: Pascal,
@@ -149,7 +149,8 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         predicted: Vec::new(),
     };
     estimate.warnings = warnings(case, bodies, &estimate);
-    if let Some(adhesion) = case.attraction(&lower_grid, estimate.modulus)? {
+    if let Some(table) = case.adhesion {
+        let adhesion = table.on(&lower_grid, estimate.modulus)?;
         let heights = [&bodies.lower, &bodies.upper].map(|body| body.topography.heights());
         let largest = positions.iter().max_by_key(|position| position.columns).expect("a position");
         let gap = initial_gap(heights, largest);
@@ -402,7 +403,7 @@ fn deep_enough(case: &Case, grid: &Grid) -> Result<()> {
 
 /// Warns if heat stays in its cell while the bodies slide over one cell.
 fn fast(case: &Case, pitch: Metre) -> Option<String> {
-    if case.temperature.is_none_or(|temperature| temperature.every == 0) {
+    if case.temperature.is_none_or(|temperature| temperature.every() == 0) {
         return None;
     }
     // Only the time and distance of the motion are used, which do not depend on the load.

@@ -3,7 +3,6 @@
 use serde_json::Value;
 use web_time::Instant;
 
-use crate::adhesion::AdhesionSummary;
 use crate::case::Case;
 use crate::closed_form::{ClosedForm, ClosedFormRecord, ElasticContact};
 use crate::prepare::Bodies;
@@ -15,12 +14,13 @@ use asperity_base::units::Metre;
 use asperity_contact::motion::{Pair, PlasticRecord, UpdateRecord};
 use asperity_contact::solver::{Control, Params};
 use asperity_contact::with::Observations;
+use asperity_contact::with::adhesion::AdhesionSummary;
 
 /// Results of a run for its summary.
 pub struct Computed {
     pub(super) outcome: Outcome,
     pub(super) subsurface: Vec<SubsurfaceRecord>,
-    /// The last update of a contact that wears in place.
+    /// The last update of a contact that slides in place.
     pub(super) sliding: Option<UpdateRecord>,
     /// The plastic flow of a motion of elasto-plastic bodies.
     pub(super) plasticity: Option<PlasticRecord>,
@@ -110,7 +110,7 @@ pub(super) fn pair(case: &Case, bodies: Bodies) -> Result<Pair> {
     let materials = [&case.lower.material, &case.upper.material];
     let pair = Pair::new(lower.topography, upper.topography, materials)?
         .with_hardness([lower.hardness, upper.hardness])?;
-    let attraction = case.attraction(&pair.lower_grid(), pair.modulus())?;
+    let attraction = case.adhesion.map(|table| table.on(&pair.lower_grid(), pair.modulus())).transpose()?;
     Ok(pair.with_adhesion(attraction))
 }
 

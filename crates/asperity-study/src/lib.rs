@@ -60,7 +60,7 @@
 //! | resumed | taken from | same bits as an uninterrupted run |
 //! |---|---|---|
 //! | motion | surfaces of the last pass from its fields; from its state `motion::WarmStart`: the guess of the approach, and for each position the loaded cells with the change of their pressure | yes; but a finished motion with extrapolated passes that gets more passes has another last extrapolation |
-//! | loading, wear in place | its state, which holds everything the next step depends on | yes |
+//! | loading, sliding in place | its state, which holds everything the next step depends on | yes |
 //! | sweep | its rows; the points do not depend on each other, so the state is the digest of the rows. The last point is always solved again, for `fields.h5` | yes |
 //!
 //! The state of a static contact is removed once `summary.json` exists.
@@ -74,7 +74,6 @@
 //! `surface::Stop` regularly. A second Ctrl-C ends the process. A full disk, a limit on the size of files
 //! and a full stdout are errors with exit code 1. A closed pipe is not an error.
 
-mod adhesion; // adhesion of a case in numbers
 pub mod case; // the case file, checked key by key
 mod closed_form; // closed forms beside computed contacts
 mod estimate; // cost and warnings of a case in advance
@@ -110,7 +109,6 @@ pub mod parts {
     pub use crate::summary::write as write_summary;
 }
 
-pub use adhesion::AdhesionSummary;
 pub use case::Case;
 pub use case::json_schema;
 pub use case::rules::rules;

@@ -5,7 +5,6 @@ use std::path::Path;
 use serde_json::Value;
 use web_time::Instant;
 
-use crate::adhesion::{self, AdhesionSummary};
 use crate::case::{Case, CounterBody};
 use crate::elasto_plastic;
 use crate::estimate::{Estimate, estimate};
@@ -23,6 +22,7 @@ use asperity_base::error::{Error, Result};
 use asperity_contact::motion::{
     Body, Motion, Output, Pair, PassRecord, PlasticRecord, Simulation, SolvedPass, Watch,
 };
+use asperity_contact::with::adhesion::{self, AdhesionSummary};
 use asperity_surface::{NEVER, Stop};
 
 /// A running motion. [`Passes::solve`] and [`Passes::finish`] alternate until no pass is left, and [`Passes::end`] writes

@@ -1,8 +1,7 @@
 //! A static contact of a case: solved in memory, or written to a results directory increment by increment and point by
 //! point.
 
-use crate::adhesion::{self, AdhesionSummary};
-use crate::case::{Case, LoadingPath, PlasticitySpec};
+use crate::case::{Case, LoadingPath};
 use crate::closed_form::ClosedFormRecord;
 use crate::elasto_plastic;
 use crate::estimate::{Estimate, estimate};
@@ -19,14 +18,16 @@ use crate::tables;
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::{CellValues, Field, check_finite};
 use asperity_contact::motion::{
-    Body, ChangedBodies, ElastoPlasticContact, FILM, IncrementRecord, LoadedContact, Output, Pair,
-    PlasticResult, PlasticVolume, Point, Slide, SlidingState, Stage, StagedLoading, StaticContact,
-    StaticRecord, SweepRecord, UpdateRecord, WEAR, Watch, WearInPlace, WornContact, press,
-    press_elasto_plastic, roll, sweep,
+    Body, ChangedBodies, ElastoPlasticContact, IncrementRecord, LoadedContact, Output, Pair, PlasticResult,
+    PlasticVolume, Point, Slide, SlidingContact, SlidingOutcome, SlidingState, Stage, StagedLoading,
+    StaticContact, StaticRecord, SweepRecord, UpdateRecord, Watch, press, press_elasto_plastic, roll, sweep,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Equilibrium, Friction, Params, Rolling, Solution};
-use asperity_contact::with::Observations;
+use asperity_contact::with::adhesion::{self, AdhesionSummary};
+use asperity_contact::with::plasticity::PlasticRegion;
+use asperity_contact::with::views::Kept;
+use asperity_contact::with::{self, Observations};
 
 /// Result of a static contact.
 #[derive(Debug, Clone)]
@@ -36,7 +37,7 @@ pub struct StaticResult {
     pub outcome: Outcome,
     /// The increments of a loading in stages; empty for other contacts.
     pub increments: Vec<IncrementRecord>,
-    /// The updates of a contact that wears in place, beginning before it slides; empty for other contacts.
+    /// The updates of a contact that slides in place, beginning before it slides; empty for other contacts.
     pub updates: Vec<UpdateRecord>,
     /// The fields of the contact; for a sweep, at its last point.
     pub fields: RestFields,
@@ -231,7 +232,7 @@ impl StaticProblem<'_> {
         StaticResult { warnings, ..StaticResult::of(Outcome::Sweep(points), fields) }.seen_by(case, observers)
     }
 
-    /// Solves wear in place.
+    /// Solves sliding in place.
     fn slide(self, slide: Slide) -> Result<StaticResult> {
         let case = self.case;
         let friction = slide.friction;
@@ -243,7 +244,8 @@ impl StaticProblem<'_> {
         let last = done.last().map(|last| last.update);
         let (mut observers, mut limits) = (self.observers(last)?, self.limits(last)?);
         let from = left.as_ref().map_or(&self.pair, |left| &left.pair).clone();
-        let contact = self.case.wearing(WearInPlace::new(from, self.boundary(), slide, self.params)?)?;
+        let contact =
+            self.case.running_in_place(SlidingContact::new(from, self.boundary(), slide, self.params)?)?;
         let state = left.map(|left| SlidingState::resumed(&contact, left.updates, left.pressure));
         let worn = contact.run(state, self.watch, &mut outputs(&mut observers, &mut limits, &mut kept))?;
         let (record, updates) = (worn.record.clone(), worn.state.updates.clone());
@@ -254,7 +256,7 @@ impl StaticProblem<'_> {
     }
 
     /// Solves the stages of elasto-plastic bodies.
-    fn press_elasto_plastic(self, spec: &PlasticitySpec, stages: Vec<Stage>) -> Result<StaticResult> {
+    fn press_elasto_plastic(self, spec: &PlasticRegion, stages: Vec<Stage>) -> Result<StaticResult> {
         let case = self.case;
         let (bodies, path) =
             (elasto_plastic::bodies(self.case, spec, &self.pair)?, elasto_plastic::path(spec, stages));
@@ -395,27 +397,20 @@ fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field
     RestFields { grid, approach: normal.approach, hardness, fields }
 }
 
-/// Names of the fields of the state of laws on the lower and on the upper body.
-const STATES: [(&str, [&str; 2]); 3] = [
-    (WEAR, ["wear_lower", "wear_upper"]),
-    (FILM, ["film_lower", "film_upper"]),
-    ("film_grown", ["film_grown_lower", "film_grown_upper"]),
-];
-
 /// Returns the state of laws on both bodies, m, by the names of its fields.
 fn states(pair: &Pair) -> Vec<(&'static str, Field)> {
-    let of_bodies = |(state, names): (&str, [&'static str; 2])| {
+    let of_bodies = |kept: Kept| {
         let of_body =
-            |(name, body): (&'static str, &Body)| Some((name, body.state.get(state)?.values.clone()));
-        let bodies = names.into_iter().zip([&pair.lower, &pair.upper]);
+            |(name, body): (&'static str, &Body)| Some((name, body.state.get(kept.state)?.values.clone()));
+        let bodies = kept.names.into_iter().zip([&pair.lower, &pair.upper]);
         bodies.filter_map(of_body).collect::<Vec<_>>()
     };
-    STATES.into_iter().flat_map(of_bodies).collect()
+    with::kept().into_iter().flat_map(of_bodies).collect()
 }
 
-/// Creates the fields of a contact that wore in place, with its worn bodies.
-fn worn_fields(contact: WornContact, friction: Option<Friction>) -> RestFields {
-    let WornContact { state: SlidingState { pair, .. }, solution, temperature, .. } = contact;
+/// Creates the fields of a contact that slid in place, with its worn bodies.
+fn worn_fields(contact: SlidingOutcome, friction: Option<Friction>) -> RestFields {
+    let SlidingOutcome { state: SlidingState { pair, .. }, solution, temperature, .. } = contact;
     // Films have changed the hardness of the bodies.
     let (grid, approach, hardness) = (pair.lower_grid(), solution.approach, pair.min_hardness());
     let (gap, plastic) = (solution.gap(), solution.plastic_interference());

@@ -5,7 +5,6 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize, Serializer};
 
-use super::adhesion::AdhesionSummary;
 use super::closed_form::ClosedFormRecord;
 use super::subsurface::SubsurfaceRecord;
 use crate::io::{atomic, regular};
@@ -15,6 +14,7 @@ use asperity_base::record::columns;
 use asperity_base::units::{CubicMetre, Metre, Second};
 use asperity_contact::motion::{Column, PassRecord, PlasticRecord, StaticRecord, SweepRecord, UpdateRecord};
 use asperity_contact::with::Observations;
+use asperity_contact::with::adhesion::AdhesionSummary;
 
 /// The content of `summary.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,7 +30,7 @@ pub struct Summary {
     /// Totals over the passes of bodies that wear or grow films; `None` for others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub running_in: Option<RunningIn>,
-    /// The last update of a contact that wore in place, with its losses and final state; `None` for others.
+    /// The last update of a contact that slid in place, with its losses and final state; `None` for others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sliding: Option<UpdateRecord>,
     /// Residual plastic state after the passes of elasto-plastic bodies, with its long-term regime; `None` for others. The

@@ -7,45 +7,74 @@ use std::ops::Range;
 
 use asperity_base::choice::choice;
 use asperity_base::error::{Result, check_in};
+use asperity_base::exists;
 use asperity_base::grid::{Field, Grid};
 use asperity_base::math::parallel;
+use asperity_base::table::{Bounds, Key, Kind, Source, Value};
 use asperity_base::units::{Dimension, Metre};
+use asperity_derive::Part;
 
 /// An ideal form, material's side up, with its apex in the centre of the grid at height 0.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Part, Debug, Clone, Copy, PartialEq, Serialize)]
+#[part(key = "form", example = "\"sphere\"", meaning = "the form", check = flat_enough)]
 #[serde(tag = "form", rename_all = "kebab-case")]
 pub enum Form {
-    /// z = 0.
-    Flat,
     /// z = −r²/2R: the paraboloid that approximates a sphere in contact mechanics (Johnson 1985, eq. 4.1).
     Sphere {
-        /// Radius of curvature R, > 0.
+        /// Radius R.
+        #[key(quantity = Length, range = AboveZero, example = "\"1 mm\"", exists = exists::RADIUS)]
         radius: Metre,
     },
     /// z = −x²/2Rx − y²/2Ry: the paraboloid that approximates an ellipsoid, or a crowned roller.
     Ellipsoid {
-        /// Principal radii of curvature Rx and Ry at the apex, > 0: in the planes y = 0 and x = 0. An ellipsoid with
-        /// semi-axes a, b in the plane and c across it has a²/c and b²/c.
+        /// Principal radii of curvature; an ellipsoid with semi-axes a, b and c, c normal to the plane, has a²/c and b²/c.
+        ///
+        /// Rx and Ry at the apex, > 0: in the planes y = 0 and x = 0.
+        #[key(
+            special = radii,
+            form = "`[Rx, Ry]`, two lengths > 0",
+            dimension = Length,
+            example = "[\"1 mm\", \"2 mm\"]",
+            exists = exists::RADIUS
+        )]
         radius: [Metre; 2],
     },
     /// z = −s²/2R, with s the distance from the line of the apex: the parabolic cylinder of line contact.
     Cylinder {
-        /// Radius of curvature R, > 0.
+        /// Radius R.
+        #[key(quantity = Length, range = AboveZero, example = "\"1 mm\"", exists = exists::RADIUS)]
         radius: Metre,
-        /// Direction of the cylinder's axis.
+        /// Direction of the crest.
+        #[key(choice, default = Axis::Y, example = "\"x\"")]
         axis: Axis,
     },
     /// z = −r tan α.
     Cone {
-        /// Slope α of the flank relative to the surface plane, 0 < α < π/2, in radians; an indenter with semi-angle θ has
-        /// α = π/2 − θ.
+        /// Slope angle α from the plane, below 90°; a number without a unit is in radians.
+        ///
+        /// An indenter with semi-angle θ has α = π/2 − θ.
+        #[key(quantity = Angle, range = AboveZero, example = "\"5 deg\"", exists = exists::ANGLE)]
         angle: f64,
     },
+    /// z = 0.
+    Flat,
     /// z = A (cos(2πx/λx) cos(2πy/λy) − 1), with a crest of height 0 in the centre and the mean height −A.
     Sinusoid {
-        /// Amplitude A, > 0, half the height from trough to crest.
+        /// Amplitude A.
+        ///
+        /// Half the height from trough to crest, > 0.
+        #[key(quantity = Length, range = AboveZero, example = "\"0.1 um\"", exists = exists::LENGTH)]
         amplitude: Metre,
-        /// Wavelengths λx and λy, ≥ 2 pitches each; infinite if the height does not vary in that direction.
+        /// Wavelength λ, at least two pitches.
+        ///
+        /// λx and λy; infinite if the height does not vary in that direction.
+        #[key(
+            quantity = Length,
+            range = AboveZeroOrInfinite("no variation in that direction"),
+            pair,
+            example = "\"64 um\"",
+            exists = exists::WAVE
+        )]
         wavelength: [Metre; 2],
     },
     /// z = −d p(u), parallel grooves with ridges of height 0 between them. u is the distance from a ridge over the period,
@@ -54,15 +83,46 @@ pub enum Form {
     /// Turning with a feed f and a tool of nose radius r gives parabolic grooves with period f and depth d = f²/8r. Then
     /// Sa/d is 4/(9√3) = 0.257 and Sq/d is 2/(3√5) = 0.298.
     Grooves {
-        /// Distance between ridges, ≥ 2 pitches.
+        /// Distance from ridge to ridge, at least two pitches.
+        #[key(quantity = Length, range = AboveZero, example = "\"0.1 mm\"", exists = exists::LENGTH)]
         period: Metre,
-        /// Depth d below the ridges, > 0.
+        /// Depth d.
+        ///
+        /// Below the ridges, > 0.
+        #[key(quantity = Length, range = AboveZero, example = "\"1 um\"", exists = exists::LENGTH)]
         depth: Metre,
-        /// Shape of a groove in cross-section.
+        /// Shape of a groove.
+        #[key(choice, default = Groove::Parabolic, example = "\"triangular\"")]
         profile: Groove,
-        /// Angle of the grooves from x towards y, in radians.
+        /// Angle of the grooves, or of the first correlation length, from x towards y.
+        #[key(quantity = Angle, default = 0.0, written = "0", example = "\"90 deg\"", exists = exists::ANGLE)]
         lay: f64,
     },
+}
+
+/// Reads two radii; one would be that of a sphere.
+fn radii(value: &dyn Value, key: &Key) -> Result<[Metre; 2]> {
+    const EXPECTED: &str = "two radii of curvature, along x and along y, such as [\"1 mm\", \"2 mm\"]";
+    if !value.is_array() {
+        return Err(value.unexpected(EXPECTED, Some("a body of one radius is a `form = \"sphere\"`")));
+    }
+    let kind = Kind::Quantity(Dimension::Length, Bounds::AboveZero);
+    let radius = |value: &dyn Value| value.real(key, &kind);
+    match value.items(EXPECTED)?.as_slice() {
+        [x, y] => Ok([radius(x.as_ref())?, radius(y.as_ref())?]),
+        _ => Err(value.unexpected(EXPECTED, None)),
+    }
+}
+
+fn flat_enough(read: &Form, source: &dyn Source) -> Result<()> {
+    let is_steep = matches!(read, Form::Cone { angle } if *angle >= std::f64::consts::FRAC_PI_2);
+    match source.value("angle").filter(|_| is_steep) {
+        Some(value) => {
+            let hint = "a number without a unit is in radians";
+            Err(value.unexpected("an angle below 90 deg such as \"5 deg\"", Some(hint)))
+        }
+        None => Ok(()),
+    }
 }
 
 /// The profile p(u) of a groove, 0 ≤ u ≤ 1 from ridge to ridge.

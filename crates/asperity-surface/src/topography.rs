@@ -29,7 +29,7 @@ impl Topography {
                 quantity: "height",
                 dimension: Some(Dimension::Length),
                 value,
-                expected: "a finite height, or NaN where the sample is undefined",
+                expected: "a finite height, or NaN where the sample is undefined".into(),
             }),
             // Copied to row order if the memory order differs.
             None if heights.is_standard_layout() => Ok(Self { grid, heights }),

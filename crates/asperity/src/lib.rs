@@ -24,7 +24,7 @@
 //! | statistics or a shape | [`surface::Generator`], [`surface::Form`] | [`surface::Topography`] |
 //! | a topography | [`surface::Preparation`], [`surface::Parameters`] | a topography ready for a contact; its roughness parameters (ISO 25178) |
 //! | constants of two bodies | [`material::Material`], [`material::Compliances`] | E*, Dundurs' β |
-//! | two topographies and materials | [`motion::Pair`] | the argument of [`motion::press`], [`motion::load_in_stages`], [`motion::roll`], [`motion::WearInPlace`] and [`motion::Simulation`] |
+//! | two topographies and materials | [`motion::Pair`] | the argument of [`motion::press`], [`motion::load_in_stages`], [`motion::roll`], [`motion::SlidingContact`] and [`motion::Simulation`] |
 //! | a grid and compliances | [`operator::Operators`] | an [`operator::Operator`]: pressure in, displacement out |
 //! | an operator and a gap | [`solver::solve_normal`], [`solver::Params`] | [`solver::Solution`] with its [`solver::Stats`] |
 //! | an attraction between the surfaces | [`adhesion::Adhesion`], [`motion::Pair::with_adhesion`], [`solver::solve_adhesive`] | the contact that the bodies reach on their way |
@@ -96,11 +96,11 @@
 //! Each formula names its own source.
 
 pub use asperity_base::{choice, error, grid, ndarray, ranks, units};
-pub use asperity_contact::each_capability;
 pub use asperity_contact::{
-    adhesion, conductance, flow, kernel, material, motion, operator, plasticity, reference, solver, stress,
-    subsurface, temperature, verification, with,
+    adhesion, conductance, film, flow, kernel, material, motion, operator, plasticity, reference, solver,
+    stress, subsurface, temperature, verification, wear, with,
 };
+pub use asperity_contact::{each_capability, each_law};
 #[cfg(feature = "study")]
 pub use asperity_study as study;
 #[cfg(feature = "study")]

@@ -43,6 +43,7 @@ macro_rules! details {
 }
 
 details! {
+    Cow<'static, str>, text => Self::Text(Cow::Borrowed(text));
     &'static str, text => Self::Text(Cow::Borrowed(text));
     String, text => Self::Text(Cow::Borrowed(text));
     Defect, defect => Self::Text(Cow::Owned(defect.to_string()));

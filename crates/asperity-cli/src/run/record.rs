@@ -1,10 +1,11 @@
 //! Summary of a contact at the end of a run: a line for each number.
 
-use asperity::each_capability;
 use asperity::motion::{PlasticRecord, StaticRecord};
-use asperity::study::{AdhesionSummary, Case, ClosedFormRecord, Outcome, SubsurfaceRecord, Summary};
+use asperity::study::{Case, ClosedFormRecord, Outcome, SubsurfaceRecord, Summary, dimension_of_column};
 use asperity::units::{Dimension, format, format_number};
-use asperity::with::{Capability, Listed, Row};
+use asperity::with::adhesion::AdhesionSummary;
+use asperity::with::{BodyLaw, Capability, Listed, Row};
+use asperity::{each_capability, each_law};
 
 use super::rows::planes;
 use crate::maps::line;
@@ -177,17 +178,12 @@ fn static_table(record: &StaticRecord, planes: &str) -> String {
                 format(upper, dimension)
             )
         };
-        let volumes = [fretting.worn_volume_lower, fretting.worn_volume_upper];
-        let depths = [fretting.max_wear_lower, fretting.max_wear_upper];
-        rows.extend([
-            ("cycles", fretting.cycles.to_string()),
-            ("worn volume", both(volumes, Dimension::Volume)),
-            ("deepest wear", both(depths, Dimension::Length)),
-        ]);
-        let films = [fretting.max_film_lower, fretting.max_film_upper];
-        if films != [0.0; 2] {
-            rows.push(("thickest film", both(films, Dimension::Length)));
-        }
+        rows.push(("cycles", fretting.cycles.to_string()));
+        each_law!(L => rows.extend(L::OF_CYCLES.iter().filter_map(|shown| {
+            let values = (shown.values)(fretting);
+            let dimension = dimension_of_column(shown.column).filter(|_| values != [0.0; 2])?;
+            Some((shown.name, both(values, dimension)))
+        })));
     }
     if let Some(plastic) = &record.plastic {
         let residual = plastic.residual.as_ref();

@@ -1,7 +1,10 @@
 //! Rows of passes and of points.
 
+use asperity::each_law;
 use asperity::motion::{PassRecord, RunningRecord, SweepRecord};
 use asperity::study::case::{Case, Source};
+use asperity::with::views::PassCell;
+use asperity::with::{BodyLaw, ListedLaw};
 
 use super::columns::{Cell, Columns};
 
@@ -16,18 +19,21 @@ pub(super) struct Rows {
     rim: f64,
     slides: bool,
     yields: bool,
-    wears: bool,
-    grows: bool,
     flows: bool,
-    /// Number of finished passes of the motion, and the wear of both bodies in them, m³.
+    /// Number of finished passes of the motion.
     done: usize,
-    wear: f64,
+    /// The columns of the laws that change a body, each with the sum of its values.
+    laws: Vec<(PassCell, f64)>,
 }
 
 impl Rows {
     pub(super) fn new(case: &Case) -> Self {
         let bodies = [&case.lower, &case.upper];
         let motion = case.motion.as_ref();
+        let mut laws = Vec::new();
+        each_law!(L => if bodies.iter().any(|body| L::of(&body.laws).is_some()) {
+            laws.push((L::CELL, 0.0));
+        });
         let has_ends = case.contact.boundary != asperity::operator::Boundary::PERIODIC;
         Self {
             columns: motion.map_or_else(Columns::default, |motion| Columns::counting_to(motion.passes)),
@@ -36,11 +42,9 @@ impl Rows {
             rim: if has_ends && motion.is_some() { case.output.rim } else { 0.0 },
             slides: case.friction.is_some(),
             yields: bodies.iter().any(|body| body.hardness.yields()),
-            wears: bodies.iter().any(|body| body.wear.is_some()),
             flows: bodies.iter().any(|body| body.plasticity.is_some()),
-            grows: bodies.iter().any(|body| body.film.is_some()),
             done: 0,
-            wear: 0.0,
+            laws,
         }
     }
 
@@ -91,16 +95,12 @@ impl Rows {
         above + &self.columns.row("pass", self.done, &cells)
     }
 
-    /// Returns the cells of wear, films and frictional heat in the row of a pass.
+    /// Returns the cells of the laws and of frictional heat in the row of a pass.
     fn running(&mut self, pass: &PassRecord, running: &RunningRecord) -> Vec<(Rank, Cell)> {
         let mut cells = Vec::new();
-        if self.wears {
-            self.wear += pass.lost_inside("wear")[0] + pass.lost_inside("wear")[1];
-            cells.push((Rank::Always, Cell::growing("wear", "wear_volume_lower_interior", 1e-18, self.wear)));
-        }
-        if self.grows {
-            let film = running.mean_film_lower.max(running.mean_film_upper);
-            cells.push((Rank::Always, Cell::growing("film", "mean_film_lower", 1e-9, film)));
+        for (cell, sum) in &mut self.laws {
+            *sum = if cell.adds_up { *sum } else { 0.0 } + (cell.value)(pass);
+            cells.push((Rank::Always, Cell::growing(cell.head, cell.column, cell.least, *sum)));
         }
         if running.max_flash_temperature.is_finite() {
             let temperature = Cell::of("T max", "max_flash_temperature", running.max_flash_temperature);
@@ -115,20 +115,17 @@ impl Rows {
         if self.apart && !left_out.contains(&"apart") {
             above += &format!("; apart: distance of the {}", self.planes);
         }
-        if self.wears {
-            above += "; wear: both bodies, so far";
-        }
-        if self.grows {
-            above += "; film: mean of the thicker";
+        for (cell, _) in &self.laws {
+            above += &format!("; {}", cell.about);
         }
         if self.flows {
             above += "; work: plastic, in the pass";
         }
         above += "\n";
         if self.rim > 0.0 {
-            let of =
-                [("Sq lower", "Sq", true), ("plastic", "plastic", self.yields), ("wear", "wear", self.wears)];
-            let of = of.into_iter().filter(|(head, _, shown)| *shown && !left_out.contains(head));
+            let laws = self.laws.iter().map(|(cell, _)| (cell.head, cell.head, cell.is_inside));
+            let of = [("Sq lower", "Sq", true), ("plastic", "plastic", self.yields)].into_iter().chain(laws);
+            let of = of.filter(|(head, _, shown)| *shown && !left_out.contains(head));
             let of: Vec<&str> = of.map(|(_, name, _)| name).collect();
             above += &format!(
                 "inside: without the rim, {} of the length at free ends; {} too\n",

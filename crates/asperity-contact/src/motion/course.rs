@@ -9,7 +9,7 @@ use crate::motion::worn_away;
 use crate::solver::{Equilibrium, Solution};
 use crate::units::Newton;
 
-/// A computation in steps: increments of a loading, updates of a contact that wears in place, points of a load sweep, or
+/// A computation in steps: increments of a loading, updates of a contact that slides in place, points of a load sweep, or
 /// passes of a motion.
 pub(super) trait Course {
     /// A solved step that is not committed yet.
@@ -48,7 +48,7 @@ pub enum Step<'a> {
         /// Total number of increments, unloading included.
         of: usize,
     },
-    /// An update of a contact that wears in place.
+    /// An update of a contact that slides in place.
     Update {
         /// The contact after it.
         state: &'a SlidingState,
@@ -121,7 +121,7 @@ pub(super) fn finish<C: Course>(
 }
 
 impl<'a> Step<'a> {
-    /// Number of the step, from 1; the initial contact of wear in place is update 0.
+    /// Number of the step, from 1; the initial contact of sliding in place is update 0.
     pub fn number(&self) -> usize {
         match self {
             Self::Increment { state, .. } => state.increments.len(),

@@ -8,12 +8,12 @@
 use crate::error::Result;
 use crate::grid::{CellValues, Field};
 use crate::motion::extrapolation::{self, Acceleration, Bounds, GridCompliance, LastExtrapolation};
-use crate::motion::film::FILM;
 use crate::motion::law::{self, CyclicSlip, Law, Sums};
 use crate::motion::pair::Pair;
+use crate::motion::record::FILM;
+use crate::motion::record::WEAR;
 use crate::motion::record::{FrettingRecord, LostVolume};
 use crate::motion::rim::Interior;
-use crate::motion::wear::WEAR;
 use crate::motion::{Strategy, worn_away};
 use crate::operator::{Boundary, Compliant, Operator, Operators};
 use crate::solver::{Control, FrictionalSolution, Params, solve_normal};

@@ -19,7 +19,7 @@ impl Solver<'_> {
     /// Solves again a pass with too much wear for an explicit step. Each cell of the bodies is lowered by the depth lost at
     /// the end of the pass, which is `compliance`, m/Pa, times the sum of its pressures over all positions. All positions
     /// form one problem, which starts from the pressures of the `outcome`. This is backward Euler, stable for any wear, as
-    /// in wear in place.
+    /// in sliding in place.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if a load holds at each position, the bodies attract each other, or shear displaces them normally;

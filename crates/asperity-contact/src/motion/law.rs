@@ -48,7 +48,7 @@ pub trait Law: Send + Sync {
         [0.0; 2]
     }
 
-    /// [`Law::per_pressure`] for each cell of the lower and of the upper body with these sums, used to solve wear in place.
+    /// [`Law::per_pressure`] for each cell of the lower and of the upper body with these sums, used to solve a contact that slides in place.
     /// An estimate is enough, because [`Law::advance`] determines the depth removed. The closer it is, the longer the
     /// updates may be.
     fn per_pressure_of_cells(&self, pair: &Pair, sums: &[Vec<Field>; 2], friction: f64) -> [CellValues; 2] {

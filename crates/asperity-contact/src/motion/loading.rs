@@ -100,8 +100,14 @@ impl StagedLoading {
 
     /// Adds a `law` by which slip changes the bodies. It needs friction.
     #[must_use]
-    pub fn with_law(mut self, law: impl Law + 'static) -> Self {
-        self.laws.push(Box::new(law));
+    pub fn with_law(self, law: impl Law + 'static) -> Self {
+        self.with_laws(vec![Box::new(law)])
+    }
+
+    /// Adds several laws, as [`Self::with_law`] does.
+    #[must_use]
+    pub fn with_laws(mut self, laws: Vec<Box<dyn Law>>) -> Self {
+        self.laws.extend(laws);
         self
     }
 

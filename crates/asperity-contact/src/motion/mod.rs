@@ -6,7 +6,6 @@ mod batch;
 mod body;
 mod contact;
 mod course;
-mod film;
 mod fretting;
 mod plastic_volume;
 mod elasto_plastic;
@@ -34,7 +33,6 @@ mod together;
 mod volumes;
 mod warm_start;
 mod watch;
-mod wear;
 mod worn_away;
 
 pub use adhesive::AdhesionHistory;
@@ -44,8 +42,6 @@ pub use contact::{Contact, StaticContact, press};
 pub use course::{Output, Step};
 pub use elasto_plastic::{ElastoPlasticContact, PlasticPath, PlasticResult, press_elasto_plastic};
 pub use extrapolation::{Acceleration, LastExtrapolation};
-pub use film::{ACTIVATION_ENERGIES, ACTIVATION_VOLUMES, GROWTH_FACTORS, GROWTH_TEMPERATURES, REMOVAL_RATES};
-pub use film::{FILM, Film, FilmLaw, FilmStress, Films};
 pub use fretting::{ChangedBodies, LastCycle};
 pub use heat::FLASH;
 pub use law::{ContactCells, Law, Sums};
@@ -62,10 +58,11 @@ pub use record::{
     PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Regime, ResidualRecord, RunningRecord,
     ShearRecord, StaticRecord, StepRecord, SweepRecord, UpdateRecord,
 };
+pub use record::{FILM, WEAR};
 pub use report::PassReport;
 pub use rim::Interior;
 pub use simulation::{Simulation, SolvedPass};
-pub use sliding::{Slide, WearInPlace, WornContact};
+pub use sliding::{Slide, SlidingContact, SlidingOutcome};
 pub use spot::largest_spot;
 pub use stage::{Cycles, Origin, Progress as StageProgress, Stage};
 pub use state::{Flattening, LoadedContact, LoadingState, SlidingState};
@@ -74,7 +71,6 @@ pub use together::memory_together;
 pub use truncation::Truncation;
 pub use warm_start::{Guess, LoadedCells, WarmStart};
 pub use watch::{Progress, Watch};
-pub use wear::{WEAR, Wear, WearCoefficient, WearDriver};
 
 use crate::error::{Error, Result};
 use crate::solver::{Control, Friction, Sliding};

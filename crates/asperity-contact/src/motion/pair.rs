@@ -144,7 +144,7 @@ impl Pair {
     pub fn check_no_adhesion(&self) -> Result<()> {
         match self.adhesion {
             Some(_) => Err(Error::Unsupported(
-                "adhesion is not solved together with coupled friction, rolling, wear in place, plastic flow or ranks",
+                "adhesion is not solved together with coupled friction, rolling, sliding in place, plastic flow or ranks",
             )),
             None => Ok(()),
         }

@@ -1,28 +1,28 @@
-//! Wear in place: a static contact slides some distance while the same cells stay in contact.
+//! Sliding in place: a static contact slides some distance while the same cells stay in contact.
 
 use crate::error::{Error, Result, check, check_in};
 use crate::grid::{CellValues, Field};
 use crate::motion::check_limit;
 use crate::motion::contact::{Contact, facing};
 use crate::motion::course::{self, Course, Output, Step};
-use crate::motion::film::FILM;
 use crate::motion::law::{self, Heat, Law, PositionData, Sums};
 use crate::motion::pair::{Pair, opposing_values};
 use crate::motion::path::Position;
+use crate::motion::record::FILM;
+use crate::motion::record::WEAR;
 use crate::motion::record::{LostVolume, StaticRecord, UpdateRecord};
 use crate::motion::rim::Interior;
 use crate::motion::spot::largest_spot;
 use crate::motion::state::SlidingState;
 use crate::motion::truncation::Truncation;
 use crate::motion::watch::{StaticWatch, Watch};
-use crate::motion::wear::WEAR;
 use crate::motion::{Body, Strategy};
 use crate::operator::{Boundary, Compliant, Operator};
 use crate::solver::{Control, Friction, Params, Sliding, Solution, Stats, solve_normal_watched};
 use crate::temperature::{FlashStep, SteadyTemperature, Thermal};
 use crate::units::{Dimension, Kelvin, Metre, MetrePerSecond, Second};
 
-/// Sliding of a contact that wears in place. The upper body slides towards +x, while the cells of the lower body stay under
+/// Sliding in place. The upper body slides towards +x, while the cells of the lower body stay under
 /// the same cells of the upper one. Examples are a pin on a disc, and a body that wears uniformly along its path.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -113,7 +113,7 @@ impl Slide {
         if let Some(friction) = self.friction {
             friction.checked()?;
             if self.sliding().is_some_and(|sliding| sliding.shear_displaces_normally(pair.couples())) {
-                return Err(Error::Unsupported("wear in place needs coupling \"none\" or \"goodman\""));
+                return Err(Error::Unsupported("sliding in place needs coupling \"none\" or \"goodman\""));
             }
         }
         Ok(self)
@@ -122,7 +122,7 @@ impl Slide {
 
 impl SlidingState {
     /// Creates the state of a `contact` with these bodies after these `updates`; the last one ended with this `pressure`.
-    pub fn resumed(contact: &WearInPlace, updates: Vec<UpdateRecord>, pressure: Field) -> Self {
+    pub fn resumed(contact: &SlidingContact, updates: Vec<UpdateRecord>, pressure: Field) -> Self {
         Self { pair: contact.pair.clone(), updates, pressure }
     }
 }
@@ -130,7 +130,7 @@ impl SlidingState {
 /// A contact that has slid the whole distance.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct WornContact {
+pub struct SlidingOutcome {
     /// The state after the last update.
     pub state: SlidingState,
     /// The record of the final contact.
@@ -141,14 +141,14 @@ pub struct WornContact {
     pub temperature: Option<Field>,
 }
 
-/// Two bodies that wear in place.
+/// Two bodies that slide in place.
 ///
 /// An update is implicit (backward Euler): the contact is solved on the bodies at the end of the update, worn by κ p. This
 /// is the contact problem with [`Compliant`] cells, κ = Σ k |Δs| over both bodies, cell by cell. Pressures therefore stay
 /// smooth for any length of an update, and the worn volume is k W |Δs| to round-off. The coefficient of a cell under a film
 /// is evaluated at the mean film thickness of the update, found together with the contact. Film growth and plastic
 /// deformation use the bodies at the beginning of the update.
-pub struct WearInPlace {
+pub struct SlidingContact {
     slide: Slide,
     boundary: Boundary,
     params: Params,
@@ -165,7 +165,7 @@ const COEFFICIENT_ACCURACY: f64 = 1e-4;
 /// Number of solutions of an update after which its coefficients are accepted. They then change by less than the film does.
 const MAX_SOLUTIONS: usize = 12;
 
-impl WearInPlace {
+impl SlidingContact {
     /// Creates a contact of a `pair` at full overlap.
     ///
     /// # Errors
@@ -194,9 +194,16 @@ impl WearInPlace {
     }
 
     /// Adds a `law` by which updates change the bodies, after the existing laws. Plastic deformation is the first.
-    pub fn with_law(mut self, mut law: impl Law + 'static) -> Self {
-        law.prepare(&mut self.pair);
-        self.laws.push(Box::new(law));
+    pub fn with_law(self, law: impl Law + 'static) -> Self {
+        self.with_laws(vec![Box::new(law)])
+    }
+
+    /// Adds several laws, as [`Self::with_law`] does.
+    pub fn with_laws(mut self, laws: Vec<Box<dyn Law>>) -> Self {
+        for mut law in laws {
+            law.prepare(&mut self.pair);
+            self.laws.push(law);
+        }
         self
     }
 
@@ -238,7 +245,7 @@ impl WearInPlace {
         under_way: Option<SlidingState>,
         watch: &dyn Watch,
         outputs: &mut [&mut dyn Output],
-    ) -> Result<WornContact> {
+    ) -> Result<SlidingOutcome> {
         under_way.iter().flat_map(|state| &state.updates).for_each(|update| watch.update(update));
         let mut course = Updates { contact: self, state: under_way };
         course::run(&mut course, watch, outputs)?;
@@ -251,7 +258,7 @@ impl WearInPlace {
     }
 
     /// Solves the contact of the bodies after the last update.
-    fn end(mut self, state: SlidingState, watch: &dyn Watch) -> Result<WornContact> {
+    fn end(mut self, state: SlidingState, watch: &dyn Watch) -> Result<SlidingOutcome> {
         let (solution, contact) =
             self.press(&state.pair, Some(&state.pressure), 0.0.into(), self.slide.ends.len(), watch)?;
         let flash = self.flash(&contact)?;
@@ -260,7 +267,7 @@ impl WearInPlace {
         let temperature = heated.then(|| flash.map_or_else(Vec::new, |flash| flash.temperature));
         let contact = Contact { temperature, ..contact };
         let temperature = contact.temperature_field(solution.pressure.ncols());
-        Ok(WornContact { state, record: StaticRecord::new(&solution), solution, temperature })
+        Ok(SlidingOutcome { state, record: StaticRecord::new(&solution), solution, temperature })
     }
 
     /// Solves the contact before sliding.
@@ -428,9 +435,9 @@ struct Updated {
     solution: Solution,
 }
 
-/// The updates of a contact that wears in place.
+/// The updates of a contact that slides in place.
 struct Updates {
-    contact: WearInPlace,
+    contact: SlidingContact,
     /// State after the last update; `None` before the contact is pressed.
     state: Option<SlidingState>,
 }

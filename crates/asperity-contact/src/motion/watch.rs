@@ -41,7 +41,7 @@ pub trait Watch: Sync {
     /// Called after each point of a sweep in turn, including those before an interruption when a sweep resumes.
     fn point(&self, _: &SweepRecord) {}
 
-    /// Called after each update of a contact that wears in place in turn, including those before an interruption when it
+    /// Called after each update of a contact that slides in place in turn, including those before an interruption when it
     /// resumes.
     fn update(&self, _: &UpdateRecord) {}
 

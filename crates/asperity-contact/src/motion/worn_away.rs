@@ -3,8 +3,8 @@
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::pair::Pair;
+use crate::motion::record::WEAR;
 use crate::motion::record::{LostVolume, PassRecord, UpdateRecord};
-use crate::motion::wear::WEAR;
 use crate::units::Metre;
 
 /// Checks the bodies after a pass.
@@ -16,7 +16,7 @@ pub(super) fn check_pass(pair: &Pair, pass: &PassRecord) -> Result<()> {
     check(pair, |body| lost(pair, body, &pass.lost).max(deepest[body]).max(worn(pair, body)))
 }
 
-/// Checks the bodies after an update of a contact that wears in place.
+/// Checks the bodies after an update of a contact that slides in place.
 ///
 /// # Errors
 /// [`Error::WornAway`].

@@ -19,11 +19,13 @@ mod partition;
 mod present;
 mod source;
 mod steady;
+mod table;
 
 pub use flash::FlashTemperature;
 pub use material::Thermal;
 pub use source::moving_source_temperature;
 pub use steady::SteadyTemperature;
+pub use table::Temperature;
 
 use crate::units::{Kelvin, Watt};
 

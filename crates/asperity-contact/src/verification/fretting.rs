@@ -6,7 +6,6 @@ use crate::grid::{Field, Grid};
 use crate::material::Material;
 use crate::motion::{
     Acceleration, ChangedBodies, Cycles, IncrementRecord, LoadedContact, Pair, Stage, StagedLoading, WEAR,
-    Wear, WearCoefficient,
 };
 use crate::operator::Boundary;
 use crate::reference::cattaneo::tangential_modulus;
@@ -14,6 +13,7 @@ use crate::reference::{CattaneoMindlin, HertzSphere};
 use crate::solver::{Control, Friction, Loading, Tangential};
 use crate::surface::Form;
 use crate::units::{Newton, PerPascal};
+use crate::wear::{Wear, WearCoefficient};
 
 /// A ball under a force that goes to and fro wears in the annulus that slips, by k/μ times the energy of a cycle.
 pub(super) const CYCLE: Case = Case {

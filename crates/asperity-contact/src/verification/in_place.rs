@@ -1,19 +1,18 @@
-//! Static contacts that wear in place.
+//! Static contacts that slide in place.
 
 use std::f64::consts::PI;
 
 use super::{Case, Check, Expected, PARAMS, relative, relative_max, study};
 use crate::error::Result;
+use crate::film::{Film, FilmLaw, FilmStress, Films};
 use crate::grid::{Field, Grid};
 use crate::material::Material;
-use crate::motion::{
-    Film, FilmLaw, FilmStress, Films, Pair, Slide, UpdateRecord, Wear, WearCoefficient, WearInPlace,
-    WornContact,
-};
+use crate::motion::{Pair, Slide, SlidingContact, SlidingOutcome, UpdateRecord};
 use crate::operator::{Boundary, FreeFft, Operator};
 use crate::solver::Control;
 use crate::surface::Form;
 use crate::units::{Metre, PerPascal};
+use crate::wear::{Wear, WearCoefficient};
 
 /// The amplitude of grooves pressed flat decays exponentially.
 pub(super) const GROOVES: Case = Case {
@@ -97,7 +96,7 @@ fn amplitude(updates: usize, under: Option<(WearCoefficient, &Film)>, exact: f64
     let control = Control::Load(1.5 * PI * pair.modulus() * AMPLITUDE / LENGTH * grid.area());
     let ends = (1..=updates).map(|update| DISTANCE * update as f64 / updates as f64).collect();
     let slide = Slide::to(ends, control).with_speed(1.0).with_bulk([373.15; 2]);
-    let mut contact = WearInPlace::new(pair, Boundary::PERIODIC, slide, PARAMS)?;
+    let mut contact = SlidingContact::new(pair, Boundary::PERIODIC, slide, PARAMS)?;
     contact = match under {
         None => {
             let coefficient = Some(WearCoefficient::archard(0.5 * decay()?)?);
@@ -135,7 +134,7 @@ fn flat() -> Result<Vec<Check>> {
         let ends = (1..=8).map(|update| f64::from(update) * 0.1).collect();
         let coefficient = Some(WearCoefficient::archard(stiffest / 0.1)?);
         let slide = Slide::to(ends, Control::Load(mean * grid.area()));
-        let contact = WearInPlace::new(pair, Boundary::FREE, slide, PARAMS)?;
+        let contact = SlidingContact::new(pair, Boundary::FREE, slide, PARAMS)?;
         let contact = contact.with_law(Wear::new([coefficient, None], [None, None])?);
         let worn = contact.run(None, &(), &mut [])?;
         let mut shape = worn.state.pair.lower.heights.clone();
@@ -174,9 +173,9 @@ fn worn_ball(stations: &[usize]) -> Result<Vec<[f64; 3]>> {
     slide.ends.extend(&distances);
     slide.ends.sort_by(f64::total_cmp);
     slide.ends.dedup_by(|one, other| (*one - *other).abs() < 1e-9);
-    let contact = WearInPlace::new(pair, Boundary::FREE, slide, PARAMS)?;
+    let contact = SlidingContact::new(pair, Boundary::FREE, slide, PARAMS)?;
     let contact = contact.with_law(Wear::new([None, coefficient], [None, None])?);
-    let WornContact { state, .. } = contact.run(None, &(), &mut [])?;
+    let SlidingOutcome { state, .. } = contact.run(None, &(), &mut [])?;
     let at = |distance: &Metre| {
         let near = |update: &&UpdateRecord| (update.distance - distance).abs() < 1e-9;
         let update = state.updates.iter().find(near).expect("an update ends at each station");

@@ -4,16 +4,15 @@ use std::f64::consts::PI;
 
 use super::{Case, Check, Expected, study};
 use crate::error::Result;
+use crate::film::{Film, FilmLaw, FilmStress, Films};
 use crate::grid::Grid;
 use crate::material::Material;
-use crate::motion::{
-    Acceleration, FILM, Film, FilmLaw, FilmStress, Films, LoadControl, Motion, Pair, Simulation, Strategy,
-    Wear, WearCoefficient,
-};
+use crate::motion::{Acceleration, FILM, LoadControl, Motion, Pair, Simulation, Strategy};
 use crate::operator::Boundary;
 use crate::solver::{Control, Params};
 use crate::surface::Form;
 use crate::units::Metre;
+use crate::wear::{Wear, WearCoefficient};
 
 /// The amplitude of grooves along the sliding direction that are pressed flat decays exponentially.
 pub(super) const GROOVES: Case = Case {

@@ -9,17 +9,34 @@
 //! |---|---|---|
 //! | [`conductance`] | `[conductance]` | heat or current through a contact |
 //! | [`flow`] | `[flow]` | the leakage of a fluid through its gap |
+//!
+//! A [`BodyLaw`] is a folder, too: what contacts do to a body. [`each_law!`](crate::each_law) walks their list.
+//!
+//! | module | tables of the case | changes |
+//! |---|---|---|
+//! | [`wear`] | `[lower.wear]`, `[upper.wear]` | the heights |
+//! | [`film`] | `[lower.film]`, `[upper.film]` | the thickness of a tribofilm, and with it heights and hardness |
 
 mod capability;
+mod law;
+pub mod adhesion;
 pub mod views;
 pub mod conductance;
+pub mod film;
 pub mod flow;
+pub mod plasticity;
+pub mod wear;
 
 pub use capability::{
     BodyConstants, Capability, Given, Listed, NamedField, Observer, Place, Row, Rule, Surroundings,
 };
+pub use law::{BodyLaw, Circumstances, LawRule, ListedLaw, Slip, Timeless};
 
 use serde::{Deserialize, Serialize};
+
+use crate::error::Result;
+use crate::motion::{Law, Pair, PassRecord, UpdateRecord};
+use views::{Answer, Kept};
 
 /// Declares the capabilities: their tables, each by its module and its struct. `$dollar` is the sign `$` of the macro that walks the list.
 macro_rules! capabilities {
@@ -89,9 +106,96 @@ capabilities! { $;
     flow::Leakage;
 }
 
+/// Declares the laws of bodies: their tables, each by its module and its struct. `$dollar` is as above.
+macro_rules! laws {
+    ($dollar:tt; $($(#[doc = $text:literal])+ $name:ident::$table:ident;)+) => {
+        /// The laws of a body, each by its table.
+        #[derive(Debug, Clone, Default, PartialEq, Serialize)]
+        #[non_exhaustive]
+        pub struct BodyLaws {
+            $($(#[doc = $text])+ #[serde(skip_serializing_if = "Option::is_none")] pub $name: Option<$name::$table>,)+
+        }
+
+        impl BodyLaws {
+            /// Whether the body has none.
+            pub fn is_empty(&self) -> bool {
+                true $(&& self.$name.is_none())+
+            }
+        }
+
+        $(impl ListedLaw for $name::$table {
+            fn of(all: &BodyLaws) -> Option<&Self> {
+                all.$name.as_ref()
+            }
+
+            fn give(self, all: &mut BodyLaws) {
+                all.$name = Some(self);
+            }
+        })+
+
+        /// Repeats statements for each law of the list, whose table has the given name in them.
+        ///
+        /// ```
+        /// use asperity_contact::each_law;
+        /// use asperity_contact::with::BodyLaw;
+        ///
+        /// let mut names = Vec::new();
+        /// each_law!(L => names.push(L::NAME));
+        /// assert_eq!(names, ["wear", "film"]);
+        /// ```
+        #[macro_export]
+        macro_rules! each_law {
+            ($dollar of:ident => $dollar statements:expr) => {{
+                $({
+                    type $dollar of = $dollar crate::with::$name::$table;
+                    $dollar statements;
+                })+
+            }};
+        }
+    };
+}
+
+laws! { $;
+    /// Wear of the body.
+    wear::WearCoefficient;
+    /// Tribofilm on the body.
+    film::Film;
+}
+
 /// Whether a capability whose table is given uses a constant of the bodies without the others of its group.
 pub fn uses(constant: &str, is_given: impl Fn(&str) -> bool) -> bool {
     let mut uses = false;
     each_capability!(C => uses |= is_given(C::NAME) && C::CONSTANTS.contains(&constant));
     uses
+}
+
+/// Creates the laws of the lower and of the upper body of a pair.
+///
+/// # Errors
+/// The reason why one does not apply to a body.
+pub fn laws(bodies: [&BodyLaws; 2], pair: &Pair) -> Result<Vec<Box<dyn Law>>> {
+    let mut laws = Vec::new();
+    each_law!(L => laws.extend(L::law(bodies, pair)?));
+    Ok(laws)
+}
+
+/// Returns the fields that the laws keep of each body.
+pub fn kept() -> Vec<Kept> {
+    let mut kept = Vec::new();
+    each_law!(L => kept.extend(L::KEPT));
+    kept
+}
+
+/// Returns what these passes have done to the bodies, as far as it answers a question of the user.
+pub fn after_passes(passes: &[PassRecord]) -> Vec<Answer> {
+    let mut answers = Vec::new();
+    each_law!(L => answers.extend(L::after_passes(passes)));
+    answers
+}
+
+/// Returns what sliding in place has done to the bodies up to an update.
+pub fn after_sliding(update: &UpdateRecord) -> Vec<Answer> {
+    let mut answers = Vec::new();
+    each_law!(L => answers.extend(L::after_sliding(update)));
+    answers
 }

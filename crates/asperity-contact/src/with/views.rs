@@ -1,7 +1,8 @@
-//! Numbers, curves and maps of a capability, as data that any view can show.
+//! Numbers, curves and maps of capabilities and of laws of bodies, as data that any view can show.
 
 use std::borrow::Cow;
 
+use crate::motion::PassRecord;
 use crate::units::Metre;
 
 /// A number, or a few that belong together, in words.
@@ -83,4 +84,75 @@ pub enum Scale {
     FromZeroOrLogarithmic,
     /// Logarithmic, down to this share of the largest value.
     Logarithmic(f64),
+}
+
+/// A field that a law keeps of each body.
+#[derive(Debug, Clone, Copy)]
+pub struct Kept {
+    /// Name of the state of a body.
+    pub state: &'static str,
+    /// Names of the field of the lower and of the upper body in files.
+    pub names: [&'static str; 2],
+    /// Whether the field raises the heights (1), lowers them (−1), or is not a part of them (0).
+    pub raises: f64,
+    /// Its map; none of a field that only the law needs.
+    pub map: Option<KeptMap>,
+}
+
+/// The map of a field that a law keeps.
+#[derive(Debug, Clone, Copy)]
+pub struct KeptMap {
+    /// Title of the figure: "wear since the beginning".
+    pub title: &'static str,
+    /// Title for an upper body that is fresh in each pass.
+    pub of_fresh: &'static str,
+    /// Title before the name of the body: "Depth of wear of".
+    pub of_body: &'static str,
+    /// The quantity, a length.
+    pub quantity: &'static str,
+}
+
+/// A quantity of both bodies in the rows of a table.
+#[derive(Debug)]
+pub struct OfBodies<R: 'static> {
+    /// The name.
+    pub name: &'static str,
+    /// The column of the lower body.
+    pub column: &'static str,
+    /// The values of the lower and of the upper body.
+    pub values: fn(&R) -> [f64; 2],
+    /// Whether the values of the rows add up.
+    pub adds_up: bool,
+}
+
+/// A column in the table of passes on the terminal.
+#[derive(Debug, Clone, Copy)]
+pub struct PassCell {
+    /// Its head.
+    pub head: &'static str,
+    /// The column of the passes that has its unit.
+    pub column: &'static str,
+    /// The smallest value that may be the first, by which the unit is chosen.
+    pub least: f64,
+    /// The value.
+    pub value: fn(&PassRecord) -> f64,
+    /// Whether the values of the passes add up.
+    pub adds_up: bool,
+    /// Whether the value is that of the interior of the bodies.
+    pub is_inside: bool,
+    /// Its explanation above the table.
+    pub about: &'static str,
+}
+
+/// A number that answers a question of the user.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answer {
+    /// The name.
+    pub name: &'static str,
+    /// The value, with its unit.
+    pub value: String,
+    /// What the value is.
+    pub about: String,
+    /// The answer as a sentence.
+    pub sentence: String,
 }

@@ -3,11 +3,10 @@
 use asperity_base::error::Error::{AtPass, AtPosition, AtUpdate, NotConverged};
 use asperity_base::{Error, Grid};
 use asperity_contact::material::Material;
-use asperity_contact::motion::{
-    Motion, Pair, Simulation, Slide, Strategy, Wear, WearCoefficient, WearInPlace,
-};
+use asperity_contact::motion::{Motion, Pair, Simulation, Slide, SlidingContact, Strategy};
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Method, Params};
+use asperity_contact::wear::{Wear, WearCoefficient};
 use asperity_surface::{Amplitude, Form, SelfAffine};
 
 // ---- errors name their place -----------------------------------------------------------------------------
@@ -40,7 +39,8 @@ fn a_contact_without_equilibrium_names_its_place() {
     assert!(not_converged(source), "{error:?}");
 
     let slide = Slide::graded(1e-3, 3, load);
-    let error = WearInPlace::new(pair(), Boundary::PERIODIC, slide, hasty()).unwrap().run(None, &(), &mut []);
+    let error =
+        SlidingContact::new(pair(), Boundary::PERIODIC, slide, hasty()).unwrap().run(None, &(), &mut []);
     let AtUpdate { update: 0, source } = error.as_ref().unwrap_err() else { panic!("{error:?}") };
     assert!(not_converged(source), "{error:?}");
 

@@ -1,15 +1,17 @@
-//! Contacts that wear in place: implicit updates, and the compliance used to solve them.
+//! Contacts that slide in place: implicit updates, and the compliance used to solve them.
 
 use asperity_base::grid::CellValues;
 use asperity_base::{Error, Field, Grid, Result};
+use asperity_contact::film::{Film, FilmLaw, FilmStress, Films};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    ContactCells, FILM, Film, FilmLaw, FilmStress, Films, Law, Output, Pair, Slide, SlidingState, State,
-    Step, WEAR, Wear, WearCoefficient, WearInPlace, WornContact, press,
+    ContactCells, FILM, Law, Output, Pair, Slide, SlidingContact, SlidingOutcome, SlidingState, State, Step,
+    WEAR, press,
 };
 use asperity_contact::operator::{Boundary, Compliant, DirectSum, FreeFft, Operator, PeriodicFft};
 use asperity_contact::solver::{Bounds, Control, Coupling, Friction, Method, Params, Solution, solve_normal};
 use asperity_contact::temperature::Thermal;
+use asperity_contact::wear::{Wear, WearCoefficient};
 use asperity_surface::{Amplitude, Form, SelfAffine};
 
 const PITCH: f64 = 1e-6;
@@ -241,8 +243,8 @@ fn an_update_wears_by_the_pressure_that_it_leaves() {
         let slide = Slide::to(vec![0.2], Control::Load(load)).with_speed(0.1).with_bulk([300.0; 2]);
         let coefficient = |k: f64| Some(WearCoefficient::archard(k).unwrap().with_film(0.1 * k).unwrap());
         let wear = Wear::new(ks.map(coefficient), [Some(frozen()), Some(frozen())]).unwrap();
-        let contact = WearInPlace::new(pair, boundary, slide, EXACT).unwrap().with_law(wear);
-        let WornContact { state, solution, .. } = contact.run(None, &(), &mut []).unwrap();
+        let contact = SlidingContact::new(pair, boundary, slide, EXACT).unwrap().with_law(wear);
+        let SlidingOutcome { state, solution, .. } = contact.run(None, &(), &mut []).unwrap();
         // On the bodies after the update the pressure is that of the update.
         assert!(difference(&state.pressure, &solution.pressure) < 1e-6, "case {case}");
         let after =
@@ -280,7 +282,7 @@ fn growing() -> Film {
 }
 
 /// A contact with yielding, wear proportional to the frictional energy, film growth and heating.
-fn everything(pair: Pair, updates: usize) -> WearInPlace {
+fn everything(pair: Pair, updates: usize) -> SlidingContact {
     let thermal = Thermal::new(46.0, 460.0, 7850.0).unwrap();
     let slide = Slide::graded(2.0, updates, Control::Load(0.08))
         .with_friction(coulomb())
@@ -289,7 +291,7 @@ fn everything(pair: Pair, updates: usize) -> WearInPlace {
     let films = [Some(growing()), Some(growing())];
     let coefficient = |k: f64| Some(WearCoefficient::energy(k).unwrap().with_film(0.1 * k).unwrap());
     let law = Films::new(films.clone(), &pair).unwrap();
-    let contact = WearInPlace::new(pair, Boundary::FREE, slide, Params::default()).unwrap();
+    let contact = SlidingContact::new(pair, Boundary::FREE, slide, Params::default()).unwrap();
     let contact = contact.with_law(Wear::new([4e-16, 2e-16].map(|k| coefficient(10.0 * k)), films).unwrap());
     contact.with_law(law).with_heat([thermal; 2]).unwrap()
 }
@@ -297,7 +299,7 @@ fn everything(pair: Pair, updates: usize) -> WearInPlace {
 #[test]
 fn the_ledger_balances_and_friction_works() {
     let before = rough(2e9, [24, 20], 1);
-    let WornContact { state, temperature, solution, .. } =
+    let SlidingOutcome { state, temperature, solution, .. } =
         everything(before.clone(), 12).run(None, &(), &mut []).unwrap();
     let last = state.updates.last().unwrap();
     assert_eq!((state.updates.len(), last.update, last.distance, last.time), (13, 12, 2.0, 4.0));
@@ -335,8 +337,9 @@ fn the_volume_is_archards_whatever_the_updates() {
         let slide = Slide::graded(0.3, updates, Control::Load(0.05));
         let wear =
             Wear::new([4e-15, 1e-15].map(|k| Some(WearCoefficient::archard(k).unwrap())), [None, None]);
-        let contact =
-            WearInPlace::new(pair, Boundary::FREE, slide, Params::default()).unwrap().with_law(wear.unwrap());
+        let contact = SlidingContact::new(pair, Boundary::FREE, slide, Params::default())
+            .unwrap()
+            .with_law(wear.unwrap());
         let state = contact.run(None, &(), &mut []).unwrap().state;
         let last = state.updates.last().unwrap();
         for (body, k) in [4e-15, 1e-15].into_iter().enumerate() {
@@ -390,7 +393,7 @@ fn at_an_approach_wear_takes_the_load_away() {
     let pressed = press(&pair, Boundary::FREE, Control::Load(0.05), &Params::default(), &()).unwrap();
     let slide = Slide::graded(50.0, 20, Control::Approach(pressed.record.approach));
     let wear = Wear::new([Some(WearCoefficient::archard(1e-14).unwrap()), None], [None, None]).unwrap();
-    let contact = WearInPlace::new(pair, Boundary::FREE, slide, Params::default()).unwrap().with_law(wear);
+    let contact = SlidingContact::new(pair, Boundary::FREE, slide, Params::default()).unwrap().with_law(wear);
     let updates = contact.run(None, &(), &mut []).unwrap().state.updates;
     assert!((updates[0].load / 0.05 - 1.0).abs() < 1e-6);
     assert!(updates.windows(2).all(|pair| pair[1].load < pair[0].load));
@@ -425,7 +428,7 @@ fn a_law_that_does_not_tell_its_coefficient_is_explicit_and_the_implicit_one_sta
         let pair = Pair::new(flat(), flat(), [&steel(f64::INFINITY), &steel(f64::INFINITY)]).unwrap();
         let ends = (1..=updates).map(|update| 0.2 * update as f64 / updates as f64).collect();
         let slide = Slide::to(ends, Control::Load(0.016));
-        let contact = WearInPlace::new(pair, Boundary::FREE, slide, Params::default()).unwrap();
+        let contact = SlidingContact::new(pair, Boundary::FREE, slide, Params::default()).unwrap();
         let coefficient = Some(WearCoefficient::archard(k).unwrap());
         let contact = match implicit {
             true => contact.with_law(Wear::new([coefficient, None], [None, None]).unwrap()),
@@ -453,7 +456,7 @@ fn a_law_that_does_not_tell_its_coefficient_is_explicit_and_the_implicit_one_sta
 fn what_has_no_meaning_is_refused() {
     let pair = || rough(2e9, [8, 8], 1);
     let refused = |slide: Slide| {
-        WearInPlace::new(pair(), Boundary::FREE, slide, Params::default()).err().unwrap().to_string()
+        SlidingContact::new(pair(), Boundary::FREE, slide, Params::default()).err().unwrap().to_string()
     };
     let load = Control::Load(0.01);
     assert!(refused(Slide::to(vec![], load)).contains("updates"));
@@ -463,14 +466,14 @@ fn what_has_no_meaning_is_refused() {
     assert!(refused(Slide::graded(1.0, 3, Control::Load(1.0))).contains("load"));
     let thermal = Thermal::new(46.0, 460.0, 7850.0).unwrap();
     let cold =
-        WearInPlace::new(pair(), Boundary::FREE, Slide::graded(1.0, 3, load), Params::default()).unwrap();
+        SlidingContact::new(pair(), Boundary::FREE, Slide::graded(1.0, 3, load), Params::default()).unwrap();
     assert!(matches!(cold.with_heat([thermal; 2]), Err(Error::Unsupported(_))));
     let copper = Material::new(120e9, 0.2, 1e9).unwrap();
     let grid = Grid::new([8, 8], [PITCH; 2]).unwrap();
     let flat = || Form::Flat.on(&grid).unwrap();
     let unlike = Pair::new(flat(), flat(), [&steel(2e9), &copper]).unwrap();
     let slide = Slide::graded(1.0, 3, load).with_friction(Friction::coulomb(0.1).unwrap());
-    let error = WearInPlace::new(unlike, Boundary::FREE, slide, Params::default()).err().unwrap();
+    let error = SlidingContact::new(unlike, Boundary::FREE, slide, Params::default()).err().unwrap();
     assert!(error.to_string().contains("coupling"), "{error}");
 }
 
@@ -490,7 +493,7 @@ fn a_solid_lubricant_is_worn_off_and_the_body_after_it() {
         let wear = Wear::new([Some(coefficient), None], [Some(film.clone()), None]).unwrap();
         let films = Films::new([Some(film), None], &pair()).unwrap();
         let slide = Slide::graded(distance, updates, Control::Load(pressure * grid.area()));
-        let contact = WearInPlace::new(pair(), Boundary::PERIODIC, slide, Params::default()).unwrap();
+        let contact = SlidingContact::new(pair(), Boundary::PERIODIC, slide, Params::default()).unwrap();
         let state = contact.with_law(wear).with_law(films).run(None, &(), &mut []).unwrap().state;
         let left = thickness * (1.0 - share).max(0.0);
         // ∫ f ds over the distance, for a film that is used up after its share.

@@ -4,11 +4,12 @@ use asperity_base::{Error, Field, Grid, Result};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
     Acceleration, Contact, Law, LoadControl, Motion, OffsetY, Output, Pair, PassRecord, Path, PlasticUpdate,
-    Simulation, Step, StepRecord, Strategy, Stroke, Wear, WearCoefficient,
+    Simulation, Step, StepRecord, Strategy, Stroke,
 };
 use asperity_contact::operator::{Boundary, Edge, Operators};
 use asperity_contact::solver::{Bounds, Control, Friction, Method, Params, solve_normal};
 use asperity_contact::temperature::Thermal;
+use asperity_contact::wear::{Wear, WearCoefficient};
 use asperity_surface::{Amplitude, SelfAffine, Topography};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

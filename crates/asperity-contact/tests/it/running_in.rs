@@ -3,13 +3,15 @@
 use std::f64::consts::PI;
 
 use asperity_base::{Field, Grid, Result};
+use asperity_contact::film::{Film, FilmLaw, FilmStress, Films};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    Acceleration, ContactCells, FILM, Film, FilmLaw, FilmStress, Films, Law, LoadControl, Motion, Output,
-    Pair, PassRecord, Simulation, Step, Strategy, Wear, WearCoefficient,
+    Acceleration, ContactCells, FILM, Law, LoadControl, Motion, Output, Pair, PassRecord, Simulation, Step,
+    Strategy,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Params};
+use asperity_contact::wear::{Wear, WearCoefficient};
 use asperity_surface::{Amplitude, Form, SelfAffine, Topography};
 
 const PITCH: f64 = 1e-6;

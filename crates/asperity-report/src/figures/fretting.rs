@@ -1,6 +1,8 @@
-//! The figure of bodies that wear where they slip, over the cycles of a loading.
+//! The figure of bodies that change where they slip, over the cycles of a loading.
 
+use asperity_contact::each_law;
 use asperity_contact::motion::{FrettingRecord, IncrementRecord};
+use asperity_contact::with::BodyLaw;
 
 use super::{Curves, of_bodies};
 use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
@@ -49,26 +51,22 @@ pub(crate) fn curves(increments: &[IncrementRecord]) -> Option<Curves> {
         cycles.iter().map(|cycle| [cycle.bodies.cycles as f64, value(cycle)]).collect()
     };
     let alone = |value: &dyn Fn(&Cycle<'_>) -> f64| vec![Series::new("", over(value), Mark::LineAndPoints)];
-    let bodies = |lower: &dyn Fn(&FrettingRecord) -> f64, upper: &dyn Fn(&FrettingRecord) -> f64| {
-        of_bodies([over(&|cycle| lower(&cycle.bodies)), over(&|cycle| upper(&cycle.bodies))])
-    };
     let loss = |cycle: &Cycle<'_>| cycle.increments.iter().map(|increment| increment.dissipation).sum();
-    let charts = [
-        (
-            Axis::of("worn volume", "worn_volume_lower"),
-            bodies(&|b| b.worn_volume_lower, &|b| b.worn_volume_upper),
-        ),
-        (Axis::of("deepest wear", "max_wear_lower"), bodies(&|b| b.max_wear_lower, &|b| b.max_wear_upper)),
-        (Axis::of("thickest film", "max_film_lower"), bodies(&|b| b.max_film_lower, &|b| b.max_film_upper)),
+    let mut charts = Vec::new();
+    each_law!(L => charts.extend(L::OF_CYCLES.iter().map(|shown| {
+        let of_body = |body: usize| over(&|cycle| (shown.values)(&cycle.bodies)[body]);
+        (Axis::of(shown.name, shown.column), of_bodies([of_body(0), of_body(1)]))
+    })));
+    charts.extend([
         (Axis::of("energy of a cycle", "dissipation"), alone(&loss)),
         (Axis::of("largest pressure", "max_pressure"), alone(&|cycle| cycle.end.max_pressure)),
         (Axis::of("contact area", "contact_area"), alone(&|cycle| cycle.end.contact_area)),
-    ];
+    ]);
     let is_there = |(_, series): &(Axis, Vec<Series>)| {
         series.iter().flat_map(|series| &series.points).any(|[_, y]| *y != 0.0)
     };
     let x = Axis::linear("cycles", Unit::Count);
     let charts = charts.into_iter().filter(is_there);
     let charts = charts.map(|(y, series)| Chart::new("", x.clone(), y, series)).collect();
-    Some(Curves::new("fretting", "wear over the cycles", Charts { charts, columns: 2, aspect: 0.7 }))
+    Some(Curves::new("fretting", "fretting over the cycles", Charts { charts, columns: 2, aspect: 0.7 }))
 }

@@ -4,6 +4,7 @@ use asperity_base::{Field, Grid};
 use asperity_contact::kernel::response;
 use asperity_contact::motion::{PassRecord, PlasticUpdate, StepRecord};
 use asperity_contact::operator::Operators;
+use asperity_contact::with;
 use asperity_study::io::fields::Fields;
 use asperity_study::{Results, cap_name, pressure_name, temperature_name};
 use asperity_surface::{FunctionalParameters, HeightParameters, Topography};
@@ -80,13 +81,13 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
         let maps = Maps::new(maps.map(|(mean, title)| mean.pressure_within(title, range)).into());
         Ok(remark.into_iter().fold(maps, Maps::remark))
     })?;
-    let [worn, film] = ["wear", "film"].map(|state| of_bodies(&last, state, &before));
-    let (worn, film) = (worn?, film?);
-    let wear_since = match is_fresh {
-        true => "wear of the lower body since the beginning, of the upper body in its pass",
-        false => "wear since the beginning",
-    };
-    if worn.is_some() || film.is_some() {
+    let mut kept = Vec::new();
+    for of_law in with::kept().into_iter().filter(|kept| kept.map.is_some()) {
+        if let Some(fields) = of_bodies(&last, of_law.state, &before)? {
+            kept.push((of_law, fields));
+        }
+    }
+    if !kept.is_empty() {
         // Material upwards on both sides.
         let mut changes = vec![
             before[0].with(&after[0].field - &before[0].field),
@@ -100,8 +101,7 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
         // What other laws have not taken, but for the rounding of the heights.
         let flown = |body: usize, lost: Field| {
             let rounding = ROUNDING * lost.iter().fold(0.0, |most: f64, depth| most.max(depth.abs()));
-            let worn = worn.as_ref().map_or(lost.clone(), |worn| lost - &worn[body].field);
-            let flown = film.as_ref().map_or(worn.clone(), |film| worn + &film[body].field);
+            let flown = kept.iter().fold(lost, |lost, (of, fields)| lost + of.raises * &fields[body].field);
             before[body].with(flown.mapv_into(|depth| if depth.abs() < rounding { 0.0 } else { -depth }))
         };
         let mut changes =
@@ -111,13 +111,11 @@ pub(super) fn draw(results: &Results, passes: &[PassRecord], sheet: &mut Sheet) 
             Ok(changes_of(&changes))
         })?;
     }
-    for (name, title, quantity, fields) in
-        [("wear", wear_since, "depth", &worn), ("film", "tribofilm", "thickness", &film)]
-    {
-        if let Some(fields) = fields {
-            let of = if name == "wear" { &throughout } else { &after_pass };
-            sheet.add(name, title, of, || Ok(on_bodies(fields, quantity)))?;
-        }
+    for (of_law, fields) in &kept {
+        let Some(map) = of_law.map else { continue };
+        let title = if is_fresh { map.of_fresh } else { map.title };
+        let of = if of_law.raises < 0.0 { &throughout } else { &after_pass };
+        sheet.add(of_law.state, title, of, || Ok(on_bodies(fields, map.quantity)))?;
     }
     pressures(results, &last, &steps, [pass, all], before[0].grid, &cap, &of, sheet)?;
     if let Some(curves) = rolling::curves(passes) {

@@ -1,7 +1,10 @@
 //! The figure of bodies that run in: what becomes of them over the distance that they slide.
 
 use asperity_base::units::CELSIUS;
+use asperity_contact::each_law;
 use asperity_contact::motion::PassRecord;
+use asperity_contact::with::BodyLaw;
+use asperity_contact::with::views::OfBodies;
 
 use super::{Curve, Curves, of_bodies};
 use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
@@ -9,7 +12,7 @@ use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
 /// From such a ratio of the largest to the least distance on it is drawn by its logarithm.
 const DECADES: f64 = 100.0;
 
-/// Roughness, contact area, wear, film and temperature, each where there is any; none of bodies that do not run in.
+/// Roughness, contact area, what laws have done, and temperature, each where there is any; none of bodies that do not run in.
 pub(super) fn curves(passes: &[PassRecord], sq: [f64; 2]) -> Option<Curves> {
     let distances: Vec<f64> = passes.iter().filter_map(|p| Some(p.running?.distance)).collect();
     let (least, most) = (distances.first()?, distances.last()?);
@@ -26,20 +29,18 @@ fn charts(passes: &[PassRecord], sq: [f64; 2], log: bool) -> Charts {
         passes.iter().filter_map(|p| Some([p.running?.distance, value(p)])).collect()
     };
     let from = |first: f64, curve: Curve| -> Curve { std::iter::once([0.0, first]).chain(curve).collect() };
-    let worn = |body: usize| {
+    let of_law = |shown: &OfBodies<PassRecord>, body: usize| -> Curve {
         let mut sum = 0.0;
         let each = passes.iter().filter_map(|p| {
-            sum += p.lost("wear")[body];
+            let value = (shown.values)(p)[body];
+            sum = if shown.adds_up { sum + value } else { value };
             Some([p.running?.distance, sum])
         });
         each.collect()
     };
-    let film =
-        |body: usize| over(&|p| p.running.map_or(0.0, |r| [r.mean_film_lower, r.mean_film_upper][body]));
     let alone = |name: &str, curve| vec![Series::new(name, curve, Mark::Line)];
-    let wear = Axis { log, ..Axis::of("wear volume", "wear_volume_lower") };
     let temperature = over(&|p| p.running.map_or(f64::NAN, |r| r.max_flash_temperature - CELSIUS));
-    let shown: Vec<(Axis, Vec<Series>)> = vec![
+    let mut shown: Vec<(Axis, Vec<Series>)> = vec![
         (
             Axis::of("Sq", "sq_lower"),
             of_bodies([from(sq[0], over(&|p| p.sq_lower)), from(sq[1], over(&|p| p.sq_upper))]),
@@ -48,10 +49,12 @@ fn charts(passes: &[PassRecord], sq: [f64; 2], log: bool) -> Charts {
             Axis::of("real contact area", "mean_contact_area"),
             alone("both bodies", over(&|p| p.mean_contact_area)),
         ),
-        (wear, of_bodies([worn(0), worn(1)])),
-        (Axis::of("mean film", "mean_film_lower"), of_bodies([film(0), film(1)])),
-        (Axis::linear("largest temperature", Unit::Of("°C")), alone("both bodies", temperature)),
     ];
+    each_law!(L => shown.extend(L::OF_PASSES.iter().map(|shown| {
+        let axis = Axis { log: log && shown.adds_up, ..Axis::of(shown.name, shown.column) };
+        (axis, of_bodies([of_law(shown, 0), of_law(shown, 1)]))
+    })));
+    shown.push((Axis::linear("largest temperature", Unit::Of("°C")), alone("both bodies", temperature)));
     let is_there = |(_, series): &(Axis, Vec<Series>)| {
         series.iter().flat_map(|series| &series.points).any(|[_, y]| y.is_finite() && *y != 0.0)
     };

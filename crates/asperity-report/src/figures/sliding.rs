@@ -1,7 +1,10 @@
 //! Figures of a contact that slides in place: its course, and what it leaves on the bodies.
 
 use asperity_base::units::CELSIUS;
+use asperity_contact::each_law;
 use asperity_contact::motion::UpdateRecord;
+use asperity_contact::with::views::KeptMap;
+use asperity_contact::with::{self, BodyLaw};
 use asperity_study::io::fields::Fields;
 
 use super::sheet::Sheet;
@@ -17,22 +20,20 @@ pub(super) fn draw(updates: &[UpdateRecord], fields: &Fields, of: &str, sheet: &
     bodies(fields, of, sheet)
 }
 
-/// Draws what wear, films and heat leave on the bodies.
+/// Draws what laws and heat leave on the bodies.
 pub(super) fn bodies(fields: &Fields, of: &str, sheet: &mut Sheet) -> Result {
     let names = fields.names()?;
     let given = |name: &str| names.iter().any(|given| given == name);
-    for (state, title, quantity) in
-        [("wear", "wear since the beginning", "depth"), ("film", "tribofilm", "thickness")]
-    {
+    for kept in with::kept() {
+        let Some(KeptMap { title, quantity, .. }) = kept.map else { continue };
         let mut maps = Vec::new();
-        for body in ["lower", "upper"] {
-            let name = format!("{state}_{body}");
-            if given(&name) {
-                maps.push((StoredArray::read(fields, &name)?, format!("{body} body")));
+        for (name, body) in kept.names.into_iter().zip(["lower", "upper"]) {
+            if given(name) {
+                maps.push((StoredArray::read(fields, name)?, format!("{body} body")));
             }
         }
         if !maps.is_empty() {
-            sheet.add(state, title, of, || {
+            sheet.add(kept.state, title, of, || {
                 let each = maps.iter();
                 let each = each.map(|(map, of)| map.map(of, quantity, Unit::Length, Colours::Pressure));
                 Ok(Maps::new(each.collect()))
@@ -53,23 +54,25 @@ pub(super) fn bodies(fields: &Fields, of: &str, sheet: &mut Sheet) -> Result {
 
 /// The curves of its course.
 pub(crate) fn curves(updates: &[UpdateRecord]) -> Vec<Curves> {
-    vec![Curves::new("sliding", "wear in place over the sliding distance", charts(updates))]
+    vec![Curves::new("sliding", "sliding in place over the distance", charts(updates))]
 }
 
 fn charts(updates: &[UpdateRecord]) -> Charts {
     let over = |value: Number| updates.iter().map(|update| [update.distance, value(update)]).collect();
-    let bodies = |values: [Number; 2]| of_bodies(values.map(over));
     let alone = |value: Number| vec![Series::new("", over(value), Mark::Line)];
-    let shown = [
+    let mut shown = vec![
         (Axis::of("contact area", "contact_area"), alone(|u| u.contact_area)),
         (Axis::of("largest pressure", "max_pressure"), alone(|u| u.max_pressure)),
-        (Axis::of("deepest wear", "max_wear_lower"), bodies([|u| u.max_wear_lower, |u| u.max_wear_upper])),
-        (
-            Axis::of("mean film in contact", "mean_film_lower"),
-            bodies([|u| u.mean_film_lower, |u| u.mean_film_upper]),
-        ),
-        (Axis::linear("largest temperature", Unit::Of("°C")), alone(|u| u.max_temperature - CELSIUS)),
     ];
+    each_law!(L => shown.extend(L::OF_UPDATES.iter().map(|shown| {
+        let at = |body: usize, update: &UpdateRecord| [update.distance, (shown.values)(update)[body]];
+        let of_body = |body: usize| updates.iter().map(|update| at(body, update)).collect();
+        (Axis::of(shown.name, shown.column), of_bodies([0, 1].map(of_body)))
+    })));
+    shown.push((
+        Axis::linear("largest temperature", Unit::Of("°C")),
+        alone(|update| update.max_temperature - CELSIUS),
+    ));
     let is_there = |(_, series): &(Axis, Vec<Series>)| {
         series.iter().flat_map(|series| &series.points).any(|[_, y]| y.is_finite() && *y != 0.0)
     };

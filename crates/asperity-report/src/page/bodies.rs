@@ -1,6 +1,7 @@
 //! The bodies: topographies before and after, their difference, profiles, parameters, material ratio, spectra.
 
 use asperity_base::units::{Dimension, format};
+use asperity_contact::with;
 use asperity_study::Results;
 use asperity_study::case::{Source, TopographySpec};
 use asperity_surface::{Parameter, Parameters, Topography};
@@ -171,7 +172,7 @@ fn as_it_is(found: &PageData, body: &str) -> Option<String> {
     }
 }
 
-/// What laws keep of a body at the end: the depth of its wear where the surface before is not there to compare with, its film.
+/// What laws keep of a body at the end; what they took only where the surface before is not there to compare with.
 fn kept(found: &mut PageData, body: &str) -> Vec<Value> {
     let last = found.passes.len();
     let fields = match (found.moves(), last) {
@@ -182,19 +183,18 @@ fn kept(found: &mut PageData, body: &str) -> Vec<Value> {
     let Some(fields) = found.kept(fields) else { return Vec::new() };
     let Some(names) = found.kept(fields.names()) else { return Vec::new() };
     let mut maps = Vec::new();
-    for (state, title, quantity) in
-        [("wear", "Depth of wear of", "depth"), ("film", "Thickness of the film on", "thickness")]
-    {
-        let name = format!("{state}_{body}");
-        if !names.contains(&name) || (state == "wear" && found.moves()) {
+    for kept in with::kept() {
+        let name = kept.names[usize::from(body == "upper")];
+        let Some(of) = kept.map.filter(|_| names.iter().any(|known| known == name)) else { continue };
+        if kept.raises < 0.0 && found.moves() {
             continue;
         }
-        if let Some(stored) = found.kept(StoredArray::read(&fields, &name)) {
+        if let Some(stored) = found.kept(StoredArray::read(&fields, name)) {
             let map = QuantisedField::positive(&stored.field, stored.grid.pitch);
             let unit = curves::unit(Unit::Length, map.high);
-            let title = format!("{title} the {body} body.");
+            let title = format!("{} the {body} body.", of.of_body);
             maps.push(
-                json!({ "name": state, "title": title, "quantity": quantity, "map": map, "unit": unit }),
+                json!({ "name": kept.state, "title": title, "quantity": of.quantity, "map": map, "unit": unit }),
             );
         }
     }

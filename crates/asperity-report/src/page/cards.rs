@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use asperity_base::units::{CELSIUS, Dimension, format, format_number};
 use asperity_contact::motion::{PassRecord, StaticRecord, SweepRecord};
+use asperity_contact::with;
 use asperity_study::{Outcome, column};
 
 use super::found::PageData;
@@ -110,14 +111,8 @@ fn of_passes(found: &PageData, first: &PassRecord, last: &PassRecord) -> Vec<Car
         ]);
         return cards;
     }
-    let worn: f64 = found.passes.iter().flat_map(|pass| pass.lost("wear")).sum();
-    if worn > 0.0 {
-        cards.push(Card::new(
-            "wear",
-            format(worn, Dimension::Volume),
-            "Volume that both bodies have lost so far.",
-        ));
-    }
+    let answers = with::after_passes(&found.passes).into_iter();
+    cards.extend(answers.map(|answer| Card::new(answer.name, answer.value, answer.about)));
     let before = found.results.surfaces_after(0).map(|bodies| bodies.map(|body| body.sq())).ok();
     let after =
         [("lower", last.sq_lower, last.sq_lower_interior), ("upper", last.sq_upper, last.sq_upper_interior)];
@@ -273,13 +268,8 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> Vec<Card> {
         cards.splice(0..0, of_adhesion);
     }
     if let Some(last) = found.updates.last() {
-        let deepest = last.max_wear_lower.max(last.max_wear_upper);
-        let distance = format(last.distance, Dimension::Length);
-        cards.push(Card::new(
-            "deepest wear",
-            format(deepest, Dimension::Length),
-            format!("After {distance} of sliding."),
-        ));
+        let answers = with::after_sliding(last).into_iter();
+        cards.extend(answers.map(|answer| Card::new(answer.name, answer.value, answer.about)));
     }
     if let Some(plastic) = record.plastic.as_ref().filter(|plastic| plastic.max_plastic_strain > 0.0) {
         let strain = format!("{} %", format_number(100.0 * plastic.max_plastic_strain));

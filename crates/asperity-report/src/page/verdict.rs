@@ -2,6 +2,7 @@
 
 use asperity_base::units::{Dimension, format, format_number};
 use asperity_contact::motion::{PassRecord, PlasticRecord, Regime, StaticRecord, SweepRecord};
+use asperity_contact::with;
 use asperity_study::Outcome;
 
 use super::found::PageData;
@@ -51,9 +52,8 @@ fn of_passes(found: &PageData, last: &PassRecord) -> String {
     }
     text += &format!(" and the largest pressure {}", format(last.max_pressure, Dimension::Pressure));
     text += ". ";
-    let worn: f64 = found.passes.iter().flat_map(|pass| pass.lost("wear")).sum();
-    if worn > 0.0 {
-        text += &format!("Wear has taken {} from the bodies. ", format(worn, Dimension::Volume));
+    for answer in with::after_passes(&found.passes) {
+        text += &format!("{} ", answer.sentence);
     }
     text + &of_roughness(found, last)
 }
@@ -184,9 +184,9 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> String {
         };
     }
     if let Some(last) = found.updates.last() {
-        let deepest = format(last.max_wear_lower.max(last.max_wear_upper), Dimension::Length);
-        let distance = format(last.distance, Dimension::Length);
-        text += &format!(" After {distance} of sliding the wear is up to {deepest} deep.");
+        for answer in with::after_sliding(last) {
+            text += &format!(" {}", answer.sentence);
+        }
     }
     text
 }

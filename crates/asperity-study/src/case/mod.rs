@@ -3,12 +3,10 @@
 //! Everything that the file alone determines is checked, and each mistake is reported at its place. A [`Case`] is in SI and
 //! serialises under the keys of the file, so that a summary contains the computed case.
 
-mod adhesion;
 mod body;
 mod contact;
 pub(crate) mod cursor;
 pub(crate) mod document;
-mod exists;
 mod friction;
 mod hardness;
 mod json_schema;
@@ -32,21 +30,15 @@ use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
 
-pub use self::adhesion::AdhesionSpec;
 use self::document::Document;
 pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
 pub use self::hardness::{Hardness, HardnessInput, HardnessMap};
 pub use self::json_schema::json_schema;
 pub use self::output::Output;
-pub use self::plasticity::{HardeningKey, PlasticitySpec, YieldSpec};
 pub use self::prescribed::Prescribed;
-pub use self::running::{FilmSpec, TemperatureSpec, WearKey, WearSpec};
-pub use self::schema::values::adhesion::AdhesionRange;
-pub use self::schema::values::plasticity::Keep;
-pub use self::schema::values::subsurface::Side;
 pub use self::sliding::SlidingSpec;
 pub use self::source::{Layer, Source, TopographySpec};
-pub use self::subsurface::SubsurfaceSpec;
+pub use self::subsurface::{Side, SubsurfaceSpec};
 use crate::io::regular;
 use asperity_base::choice::choice;
 use asperity_base::error::{Error, Result};
@@ -58,8 +50,10 @@ use asperity_contact::motion::{
 pub use asperity_contact::operator::{Boundary, Edge};
 use asperity_contact::solver::{Control, Sliding};
 pub use asperity_contact::solver::{Device, Method};
-use asperity_contact::temperature::Thermal;
-use asperity_contact::with::{BodyConstants, Capabilities, Surroundings};
+use asperity_contact::temperature::{Temperature, Thermal};
+use asperity_contact::with::adhesion::Attraction;
+use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
+use asperity_contact::with::{BodyConstants, BodyLaws, Capabilities, Surroundings};
 
 /// A case, resolved to SI.
 #[derive(Debug, Clone, Serialize)]
@@ -76,7 +70,7 @@ pub struct Case {
     pub contact: Contact,
     /// Attraction between the bodies; `None` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub adhesion: Option<AdhesionSpec>,
+    pub adhesion: Option<Attraction>,
     /// Friction of the bodies; `None` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<FrictionSpec>,
@@ -86,7 +80,7 @@ pub struct Case {
     /// Motion of the bodies; `None` for a static contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionSpec>,
-    /// Wear in place of a static contact; `None` if absent.
+    /// Sliding in place of a static contact; `None` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sliding: Option<SlidingSpec>,
     /// Extrapolation over passes; by default each pass is computed.
@@ -94,10 +88,10 @@ pub struct Case {
     pub acceleration: Option<Acceleration>,
     /// Temperatures of the bodies; unknown if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub temperature: Option<TemperatureSpec>,
+    pub temperature: Option<Temperature>,
     /// The volumes of elasto-plastic bodies; `None` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub plasticity: Option<PlasticitySpec>,
+    pub plasticity: Option<PlasticRegion>,
     /// Requested output of the stress under the surface; `None` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub subsurface: Option<SubsurfaceSpec>,
@@ -121,7 +115,7 @@ pub struct Body {
     pub hardness: Hardness,
     /// Plastic flow below the surface; elastic if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub plasticity: Option<YieldSpec>,
+    pub plasticity: Option<Yielding>,
     /// Thermal constants of the body; unknown if absent.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub thermal: Option<Thermal>,
@@ -131,12 +125,9 @@ pub struct Body {
     /// Electrical resistivity, Ω m, > 0; unknown if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub resistivity: Option<f64>,
-    /// Wear of the body; none if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub wear: Option<WearSpec>,
-    /// Tribofilm on the body; none if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub film: Option<FilmSpec>,
+    /// Laws by which contacts change the body, each with its table.
+    #[serde(flatten)]
+    pub laws: BodyLaws,
     /// The body's surface.
     pub topography: TopographySpec,
     /// How the heights are mounted: always [`Mount::AsIs`] for the lower body. `None` leaves the decision to the file: as

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use super::adhesion::adhesion;
 use super::body::body;
 use super::contact::contact;
 use super::cursor::Table;
@@ -11,10 +10,9 @@ use super::friction::{friction, stages};
 use super::motion::motion;
 use super::plasticity::plasticity;
 use super::rules;
-use super::running::temperature;
+use super::running::heated;
 use super::schema::root as keys;
 use super::schema::tables::{self, belongs, known_in};
-use super::subsurface::subsurface;
 use super::topography::{one_tells_the_other, topography};
 use super::{Case, TopographySpec};
 use asperity_base::error::Result;
@@ -60,7 +58,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     let upper = body(&upper_table, folder, is_alone)?;
     one_tells_the_other(&lower.topography, &upper.topography, &upper_table)?;
     let contact = contact(&keys::CONTACT.demand(root)?)?;
-    let adhesion = keys::ADHESION.of(root)?.map(|table| adhesion(&table)).transpose()?;
+    let adhesion = tables::read(&keys::ADHESION, root)?;
     let mut motion = keys::MOTION.of(root)?.map(|table| motion(&table, contact.prescribed)).transpose()?;
     let sliding = tables::read(&keys::SLIDING, root)?;
     let mut friction = keys::FRICTION.of(root)?.map(|table| friction(&table)).transpose()?;
@@ -77,9 +75,8 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     let history =
         keys::HISTORY.entry(root).map(|entry| stages(&entry, friction.as_ref(), steps)).transpose()?;
     let acceleration = tables::read(&keys::ACCELERATION, root)?;
-    let heated = lower.thermal.is_some();
-    let temperature = keys::TEMPERATURE.of(root)?.map(|table| temperature(&table, heated)).transpose()?;
-    let subsurface = keys::SUBSURFACE.of(root)?.map(|table| subsurface(&table)).transpose()?;
+    let temperature = tables::read(&keys::TEMPERATURE, root)?
+        .map(|temperature| heated(temperature, lower.thermal.is_some()));
     let mut with = Capabilities::default();
     each_capability!(C => if let Some(table) = root.table(C::NAME)? {
         known_in(&table)?;
@@ -98,7 +95,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
         acceleration,
         temperature,
         plasticity,
-        subsurface,
+        subsurface: tables::read(&keys::SUBSURFACE, root)?,
         with,
         output: tables::read(&keys::OUTPUT, root)?.unwrap_or_default(),
         document: Document::default(),

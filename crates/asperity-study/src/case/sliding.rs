@@ -1,14 +1,14 @@
-//! `[sliding]`: a static contact that slides some distance, with wear in place.
+//! `[sliding]`: a static contact that slides some distance in place.
 
 use serde::Serialize;
 
 use super::Case;
-use super::exists;
+use asperity_base::exists;
 use asperity_base::units::{Metre, MetrePerSecond, SquareMetre};
 use asperity_contact::motion::Slide;
 use asperity_derive::Table;
 
-/// Sliding of a contact that wears in place.
+/// Sliding in place.
 #[derive(Table, Debug, Clone, Copy, PartialEq, Serialize)]
 #[table("sliding")]
 #[non_exhaustive]
@@ -26,7 +26,7 @@ pub struct SlidingSpec {
 }
 
 impl Case {
-    /// Returns the sliding of a contact that wears in place, on this apparent area; `None` for others.
+    /// Returns the sliding in place, on this apparent area; `None` for others.
     pub fn slide(&self, apparent_area: SquareMetre) -> Option<Slide> {
         let SlidingSpec { distance, speed, updates } = self.sliding?;
         let control = self.contact.prescribed.control(apparent_area);

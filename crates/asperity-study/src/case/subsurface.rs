@@ -2,47 +2,103 @@
 
 use serde::Serialize;
 
-use super::cursor::Table;
-use super::schema::results::subsurface as keys;
-use super::schema::tables::known_in;
-use super::schema::values::subsurface::Side;
+use asperity_base::choice::choice;
 use asperity_base::error::Result;
-use asperity_base::units::Metre;
+use asperity_base::exists;
+use asperity_base::table::{Bounds, Key, Kind, Value};
+use asperity_base::units::{Dimension, Metre};
+use asperity_derive::Table;
 
 /// Requested output of the stress under the surface. Positions x and y are relative to the corner of the body, depths to
 /// its surface.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Table, Debug, Clone, PartialEq, Serialize)]
+#[table("subsurface")]
 #[non_exhaustive]
 pub struct SubsurfaceSpec {
-    /// The requested body.
-    pub body: Side,
-    /// The deepest plane, > 0.
+    /// Deepest plane; the largest stress of a contact spot lies at about a quarter of its width.
+    #[key(quantity = Length, range = AboveZero, example = "\"20 um\"", exists = exists::LENGTH)]
     pub to: Metre,
-    /// Number of planes below the surface, evenly spaced down to `to`, ≥ 1. The surface is one more.
+    /// Steps from the surface to `to`.
+    ///
+    /// The surface is one more plane.
+    #[key(count = 1, most = 10_000, default = 40, example = "20")]
     pub layers: usize,
-    /// Depths ≥ 0 of planes that are stored in full.
+    /// Body, with its own Poisson's ratio.
+    #[key(choice, default = Side::Lower, example = "\"upper\"")]
+    pub body: Side,
+    /// Depths at which von Mises' stress is stored on the whole plane.
+    #[key(
+        special = depths,
+        form = "list of lengths ≥ 0",
+        dimension = Length,
+        default = Vec::new(),
+        absent = "none",
+        example = "[\"1 um\", \"5 um\"]",
+        exists = exists::LENGTH
+    )]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub planes: Vec<Metre>,
-    /// The y ≥ 0 of the section along x; by default through the most stressed point.
+    /// Place y of the section along x on which the stress is stored, in the contact.
+    #[key(
+        quantity = Length,
+        range = FromZero,
+        absent = "the most stressed point",
+        example = "\"20 um\"",
+        exists = exists::LENGTH
+    )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub section: Option<Metre>,
-    /// Positions `[x, y]`, each ≥ 0, below which the stress is stored.
+    /// Positions in the contact below which the stress is stored.
+    ///
+    /// `[x, y]`, each ≥ 0.
+    #[key(
+        special = positions,
+        form = "list of `[x, y]`, lengths ≥ 0",
+        dimension = Length,
+        default = Vec::new(),
+        absent = "none",
+        example = "[[\"5 um\", \"10 um\"]]",
+        exists = exists::LENGTH
+    )]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub columns: Vec<[Metre; 2]>,
-    /// The requested position of a pass, from 1; by default the one at which the left edges are flush.
+    /// [motion] only: position of each pass at which the stress is computed.
+    ///
+    /// From 1.
+    #[key(count = 1, absent = "the position with aligned left edges", example = "3")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<usize>,
 }
 
-pub(super) fn subsurface(table: &Table<'_>) -> Result<SubsurfaceSpec> {
-    known_in(table)?;
-    Ok(SubsurfaceSpec {
-        body: keys::BODY.of(table)?,
-        to: keys::TO.of(table)?,
-        layers: keys::LAYERS.of(table)?,
-        planes: keys::PLANES.of(table)?.unwrap_or_default(),
-        section: keys::SECTION_Y.of(table)?,
-        columns: keys::COLUMNS.of(table)?.unwrap_or_default(),
-        step: keys::STEP.of(table)?,
-    })
+/// One of the two bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// The body underneath.
+    Lower,
+    /// The body above.
+    Upper,
+}
+
+choice!(Side: "lower" => Lower, "upper" => Upper);
+
+/// Depths below the surface.
+fn depths(value: &dyn Value, key: &Key) -> Result<Vec<Metre>> {
+    let items = value.items("a list of depths such as [\"1 um\", \"5 um\"]")?;
+    items.iter().map(|item| length(item.as_ref(), key)).collect()
+}
+
+/// Positions on the surface.
+fn positions(value: &dyn Value, key: &Key) -> Result<Vec<[Metre; 2]>> {
+    const EXPECTED: &str = "a position [x, y] of two lengths";
+    let position = |item: &dyn Value| match item.items(EXPECTED)?.as_slice() {
+        [x, y] => Ok([length(x.as_ref(), key)?, length(y.as_ref(), key)?]),
+        _ => Err(item.unexpected(EXPECTED, None)),
+    };
+    let items = value.items("a list of positions such as [[\"5 um\", \"10 um\"]]")?;
+    items.iter().map(|item| position(item.as_ref())).collect()
+}
+
+/// A length of at least 0.
+fn length(value: &dyn Value, key: &Key) -> Result<Metre> {
+    value.real(key, &Kind::Quantity(Dimension::Length, Bounds::FromZero))
 }

@@ -4,18 +4,11 @@ use std::path::Path;
 
 use super::cursor::{Entry, Table};
 use super::schema::tables::{known_in, suits};
-use super::schema::topography::{
-    autocorrelation, cone, cylinder, ellipsoid, every, file, form, generate, given, grooves, low_pass,
-    self_affine, sinusoid, sphere,
-};
-use super::schema::values::topography::{Method, Shape};
+use super::schema::topography::{every, file, form, generate, given};
 use super::{Layer, Source, TopographySpec};
-use asperity_base::choice::Choice;
 use asperity_base::error::Result;
-use asperity_surface::{
-    Amplitude, Autocorrelation, Form, Generator, HeightDistribution, LowPass, Preparation, Resample,
-    SelfAffine,
-};
+use asperity_base::table::Part;
+use asperity_surface::{Form, Generator, Preparation, Resample};
 
 pub(super) fn topography(table: &Table<'_>, folder: &Path) -> Result<TopographySpec> {
     known_in(table)?;
@@ -35,11 +28,11 @@ pub(super) fn topography(table: &Table<'_>, folder: &Path) -> Result<TopographyS
             Source::Given { name: given::GIVEN.of(table)? }
         }
         "generate" => Source::Generate {
-            generate: generator(table)?,
+            generate: Generator::read(table)?,
             seed: generate::SEED.of(table)?,
             shape: generate::SHAPE.of(table)?,
         },
-        _ => Source::Form { form: ideal_form(table)?, shape: form::SHAPE.of(table)? },
+        _ => Source::Form { form: Form::read(table)?, shape: form::SHAPE.of(table)? },
     };
     let pitch = every::PITCH.of(table)?;
     let plus = every::PLUS.entry(table).map(|entry| layers(&entry)).transpose()?.unwrap_or_default();
@@ -110,88 +103,10 @@ fn layers(entry: &Entry<'_>) -> Result<Vec<Layer>> {
         let hint = "for example `generate = \"low-pass\"` or `form = \"sphere\"`";
         match table.exactly_one(&["generate", "form"], hint)? {
             "generate" => {
-                Ok(Layer::Generate { generate: generator(table)?, seed: generate::SEED.of(table)? })
+                Ok(Layer::Generate { generate: Generator::read(table)?, seed: generate::SEED.of(table)? })
             }
-            _ => Ok(Layer::Form { form: ideal_form(table)? }),
+            _ => Ok(Layer::Form { form: Form::read(table)? }),
         }
     };
     entry.tables()?.iter().map(layer).collect()
 }
-
-fn generator(table: &Table<'_>) -> Result<Generator> {
-    let method = generate::GENERATE.of(table)?;
-    suits(table, &format!("generate = \"{}\"", method.word()))?;
-    Ok(match method {
-        Method::LowPass => Generator::LowPass(LowPass {
-            sq: low_pass::SQ.of(table)?,
-            cutoff: low_pass::CUTOFF.of(table)?,
-            band: low_pass::BAND.of(table)?,
-            heights: heights(table)?,
-        }),
-        Method::Autocorrelation => Generator::Autocorrelation(Autocorrelation {
-            sq: autocorrelation::SQ.of(table)?,
-            correlation_length: autocorrelation::CORRELATION_LENGTH.of(table)?,
-            decay: autocorrelation::DECAY.of(table)?,
-            lay: autocorrelation::LAY.of(table)?,
-            heights: heights(table)?,
-        }),
-        Method::SelfAffine => {
-            let hint = "'sq' is the rms height, a length; 'sdq' the rms slope, a number";
-            let amplitude = match table.exactly_one(&["sq", "sdq"], hint)? {
-                "sq" => Amplitude::Sq(self_affine::SQ.required(table)?),
-                _ => Amplitude::Sdq(self_affine::SDQ.required(table)?),
-            };
-            let hurst = self_affine::HURST.of(table)?;
-            let (rolloff, shortest) = (self_affine::ROLLOFF.of(table)?, self_affine::SHORTEST.of(table)?);
-            if let (Some(longest), Some(shortest), Some(entry)) =
-                (rolloff, shortest, self_affine::SHORTEST.entry(table))
-                && shortest >= longest
-            {
-                return Err(entry.unexpected("a wavelength below that of 'rolloff'", None));
-            }
-            Generator::SelfAffine(SelfAffine { hurst, rolloff, shortest, amplitude })
-        }
-    })
-}
-
-/// Reads skewness and kurtosis. A skewness needs a kurtosis, which bounds its range.
-fn heights(table: &Table<'_>) -> Result<HeightDistribution> {
-    if low_pass::SSK.entry(table).is_some() {
-        low_pass::SKU.demand(table)?;
-    }
-    Ok(HeightDistribution { ssk: low_pass::SSK.of(table)?, sku: low_pass::SKU.of(table)? })
-}
-
-fn ideal_form(table: &Table<'_>) -> Result<Form> {
-    let shape = form::FORM.of(table)?;
-    suits(table, &format!("form = \"{}\"", shape.word()))?;
-    Ok(match shape {
-        Shape::Sphere => Form::Sphere { radius: sphere::RADIUS.of(table)? },
-        Shape::Ellipsoid => Form::Ellipsoid { radius: ellipsoid::RADIUS.of(table)? },
-        Shape::Cylinder => {
-            Form::Cylinder { radius: cylinder::RADIUS.of(table)?, axis: cylinder::AXIS.of(table)? }
-        }
-        Shape::Cone => {
-            let angle = cone::ANGLE.of(table)?;
-            if angle >= std::f64::consts::FRAC_PI_2 {
-                let hint = "a number without a unit is in radians".to_owned();
-                let expected = "an angle below 90 deg such as \"5 deg\"";
-                return Err(cone::ANGLE.demand(table)?.unexpected(expected, Some(hint)));
-            }
-            Form::Cone { angle }
-        }
-        Shape::Flat => Form::Flat,
-        Shape::Sinusoid => Form::Sinusoid {
-            amplitude: sinusoid::AMPLITUDE.of(table)?,
-            wavelength: sinusoid::WAVELENGTH.of(table)?,
-        },
-        Shape::Grooves => Form::Grooves {
-            period: grooves::PERIOD.of(table)?,
-            depth: grooves::DEPTH.of(table)?,
-            profile: grooves::PROFILE.of(table)?,
-            lay: grooves::LAY.of(table)?,
-        },
-    })
-}
-
-// Values of the forms.

@@ -315,8 +315,7 @@ impl Sizes<'_> {
         let area = nx * ny * self.lower.cell_area();
         let Some(motion) = case.motion(area) else { return passes };
         let friction = case.friction.as_ref().map_or(0.0, |friction| friction.law.coefficient);
-        let worn: f64 =
-            [&case.lower, &case.upper].into_iter().map(|body| body.wear_per_pressure(friction)).sum();
+        let worn = case.loss_per_pressure(friction);
         let slid = self.overlaps.len() as f64 * motion.sliding_distance(self.lower.pitch[0]);
         let mean = match motion.control {
             Control::Load(load) => load / area,
@@ -482,15 +481,15 @@ impl Sizes<'_> {
         NUMBER * looked_at as f64 * nx * ny + largest
     }
 
-    /// Work of films and flash temperatures in a computed pass.
+    /// Work of the laws of the bodies and of flash temperatures in a computed pass.
     fn running(&self, passes: usize) -> f64 {
-        let films = [&self.case.lower, &self.case.upper].iter().filter(|body| body.film.is_some()).count();
-        let heated = match self.case.temperature {
-            Some(spec) if spec.every > 0 => 1.0 / spec.every.min(passes.max(1)) as f64,
+        let effort = self.case.lower.effort_of_laws() + self.case.upper.effort_of_laws();
+        let heated = match self.case.temperature.map(|temperature| temperature.every()) {
+            Some(every) if every > 0 => 1.0 / every.min(passes.max(1)) as f64,
             _ => 0.0,
         };
         let cells = self.solved().iter().sum::<usize>() as f64 * self.facing()[1];
-        cells * (FILM * films as f64 + HEAT * heated)
+        cells * (effort + HEAT * heated)
     }
 
     /// Number of cells of both bodies together.
@@ -513,7 +512,7 @@ impl Sizes<'_> {
     fn writing(&self) -> f64 {
         let case = self.case;
         let bodies = [&case.lower, &case.upper];
-        let of_body = |body: &&Body| if body.film.is_some() { 3.0 } else { 2.0 };
+        let of_body = |body: &&Body| (2 + body.kept_by_laws()) as f64;
         let [fields, cells] = match case.motion {
             Some(motion) => {
                 let shear = if case.friction.is_some() { 2.0 } else { 1.0 };
@@ -534,15 +533,13 @@ impl Sizes<'_> {
     /// Work of figures and page.
     fn drawing(&self, threads: usize) -> f64 {
         let case = self.case;
-        let bodies = [&case.lower, &case.upper];
-        let any = |has: fn(&Body) -> bool| f64::from(bodies.into_iter().any(has));
-        let [wears, film] = [any(|body| body.wear.is_some()), any(|body| body.film.is_some())];
+        let maps = case.lower.kept_by_laws().max(case.upper.kept_by_laws()) as f64;
         let given = |there: bool| f64::from(there);
         let mut figures = match case.motion {
             Some(_) => 19.0 + given(case.friction.is_some()) + given(case.temperature.is_some()),
             None => 9.0 + if case.friction.is_some() { 4.0 } else { 0.0 },
         };
-        figures += wears + film + 2.0 * wears.max(film) + given(case.subsurface.is_some());
+        figures += maps + 2.0 * maps.min(1.0) + given(case.subsurface.is_some());
         figures += 2.0 * given(case.plasticity.is_some()) + given(case.is_swept());
         let [frames, kept, cells] = match case.motion {
             Some(motion) => {
@@ -595,8 +592,6 @@ const STIFFNESS: f64 = 12.0;
 const STRESS: f64 = 120.0;
 /// Work of a surface: read or generated, prepared, with its figures for the estimate, in the same unit.
 const MAKING: f64 = 6.0;
-/// Work of the growth of a film on a cell of a body at a position, in the unit of effort.
-const FILM: f64 = 380.0;
 /// Work of the flash temperature of a cell at a position.
 const HEAT: f64 = 90.0;
 /// Work of writing a field, and of each of its cells.

@@ -222,7 +222,7 @@ fn is_damage(error: &io::Error) -> bool {
 }
 
 /// Returns the numbers of a summary: the record of a static contact, or the last point of a sweep, or the last pass of a
-/// motion. Then those of wear in place, of running-in, of the residual plastic flow, of adhesion, of the last most stressed point, and
+/// motion. Then those of sliding in place, of running-in, of the residual plastic flow, of adhesion, of the last most stressed point, and
 /// of the capabilities.
 fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     let mut numbers = Vec::new();

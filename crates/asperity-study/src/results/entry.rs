@@ -8,7 +8,6 @@ use std::time::Duration;
 
 use super::state::{ALTERED, ROWS};
 use super::{Results, has_every_position, is_nth};
-use crate::case::Keep;
 use crate::identity;
 use crate::io::atomic;
 use crate::io::fields::{Attribute, Fields};
@@ -19,6 +18,7 @@ use asperity_base::error::{Error, Result};
 use asperity_contact::each_capability;
 use asperity_contact::motion::{StepRecord, SweepRecord};
 use asperity_contact::with::Capability;
+use asperity_contact::with::plasticity::Keep;
 use serde_json::Value;
 
 /// Treatment of existing results.

@@ -10,7 +10,7 @@
 //!     fields/plasticity-0001.h5    plastic state of elasto-plastic bodies; after the last pass, or after each
 //!     fields.h5            a static contact
 //!     increments.csv       with friction or a history, a row per increment of its loading
-//!     updates.csv          a contact that wears in place: a row per update
+//!     updates.csv          a contact that slides in place: a row per update
 //!     CAPABILITY.csv       rows of a capability for each contact that it looks at, if requested: `flow.csv`
 //!     fields/CAPABILITY-0001.h5    its fields at the positions or points kept
 //!     limits.csv           a row per limit of the model that a step exceeds, if any
@@ -188,7 +188,7 @@ impl Results {
         Ok(increments)
     }
 
-    /// Reads the updates of a contact that wears in place, beginning before it slides; empty for other contacts.
+    /// Reads the updates of a contact that slides in place, beginning before it slides; empty for other contacts.
     ///
     /// # Errors
     /// [`Error::File`], also if their number differs from that in the summary.
@@ -456,7 +456,7 @@ impl Results {
         if state.next.stage >= stages { of_another(path) } else { Ok(Some(state)) }
     }
 
-    /// Reads the interrupted contact of the `pair` that wears in place, if there is one.
+    /// Reads the interrupted contact of the `pair` that slides in place, if there is one.
     ///
     /// # Errors
     /// [`Error::File`] for unreadable files, [`Error::NotResumable`] if they do not fit together.

@@ -10,7 +10,6 @@ use super::bodies::{add_bodies, add_volumes, set_caps};
 use super::state::{ROWS, increment, pass, update};
 use super::write::Writer;
 use super::{Results, cap_name, is_nth, pressure_name, temperature_name, traction_name};
-use crate::case::Keep;
 use crate::io::fields::FieldFile;
 use crate::subsurface::{Plan, SubsurfaceRecord};
 use crate::tables::{self, GrowingTable};
@@ -21,6 +20,7 @@ use asperity_contact::motion::{
     IncrementRecord, LoadedContact, Output, PassReport, Step, StepRecord, SweepRecord, UpdateRecord,
 };
 use asperity_contact::subsurface::Tractions;
+use asperity_contact::with::plasticity::Keep;
 
 /// Writes each step of a course to files.
 pub struct StepWriter {
@@ -83,7 +83,7 @@ impl Writer {
         self.steps(self.results.increments_path(), done.len(), tables::digest("", done))
     }
 
-    /// Creates the output for the updates of a contact that wears in place, after those that are `done`.
+    /// Creates the output for the updates of a contact that slides in place, after those that are `done`.
     ///
     /// # Errors
     /// [`asperity_base::Error::File`].

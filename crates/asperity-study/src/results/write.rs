@@ -7,7 +7,6 @@ use serde_json::Value;
 use super::Results;
 use super::bodies::{add_bodies, add_volumes, set_caps};
 use super::entry::{self, Existing, ExistingResults, NO_LOCKS};
-use crate::case::Keep;
 use crate::fields::{NamedField, RestFields};
 use crate::io::fields::FieldFile;
 use crate::io::lock::Lock;
@@ -21,6 +20,7 @@ use asperity_base::grid::Placement;
 use asperity_contact::motion::{Pair, PlasticResult, PlasticVolume};
 use asperity_contact::solver::Friction;
 use asperity_contact::subsurface::Tractions;
+use asperity_contact::with::plasticity::Keep;
 
 /// A results directory owned by one run. Other runs are refused until this is dropped, or until its process ends.
 #[derive(Debug)]

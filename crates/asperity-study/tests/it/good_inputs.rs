@@ -7,10 +7,11 @@ use asperity_contact::adhesion::Potential;
 use asperity_contact::material::Coating;
 use asperity_contact::motion::{LoadControl, PlasticUpdate, Point, Stage, Strategy};
 use asperity_contact::solver::{self, Coupling, Creep, Friction, Loading, Rolling, Tangential};
+use asperity_contact::with::adhesion::AdhesionRange;
 use asperity_study::bodies;
 use asperity_study::case::{
-    AdhesionRange, Boundary, Case, ControlKind, Edge, Hardness, InPlane, Layer, LoadingPath, Method, Mount,
-    Prescribed, Side, Source,
+    Boundary, Case, ControlKind, Edge, Hardness, InPlane, Layer, LoadingPath, Method, Mount, Prescribed,
+    Side, Source,
 };
 use asperity_study::demand;
 use asperity_surface::{

@@ -1,4 +1,4 @@
-//! Contacts that wear in place: implicit updates, and the compliance used to solve them.
+//! Contacts that slide in place: implicit updates, and the compliance used to solve them.
 
 use std::path::Path;
 

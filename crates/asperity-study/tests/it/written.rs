@@ -8,7 +8,7 @@ use asperity_base::error::Error::{AtPass, AtUpdate, NotFinite};
 use asperity_base::grid::{Field, Grid};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    ContactCells, Law, LoadControl, Motion, Pair, Simulation, Slide, State, Strategy, WearInPlace,
+    ContactCells, Law, LoadControl, Motion, Pair, Simulation, Slide, SlidingContact, State, Strategy,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Params};
@@ -90,7 +90,7 @@ fn no_pass_and_no_update_that_is_no_number_is_handed_on() {
         assert!(error.hint().unwrap().contains("unit"));
 
         let slide = Slide::to(vec![1e-3, 2e-3, 3e-3], Control::Load(1e-3));
-        let contact = WearInPlace::new(ball(), Boundary::FREE, slide, Params::default()).unwrap();
+        let contact = SlidingContact::new(ball(), Boundary::FREE, slide, Params::default()).unwrap();
         let error = contact.with_law(law(3)).run(None, &(), &mut []).unwrap_err();
         let AtUpdate { update: 3, source } = &error else { panic!("{error:?}") };
         assert!(matches!(&**source, NotFinite { field: found, .. } if found == field), "{error:?}");
@@ -113,7 +113,7 @@ fn a_film_that_grows_without_bound_stays_at_its_thickest() {
     assert!(pressure.iter().any(|p| *p > 0.0));
 }
 
-/// A ball that wears in place; wear, film and constants of the lower body follow, then the ball.
+/// A ball that slides in place; wear, film and constants of the lower body follow, then the ball.
 const SLIDING: &str = "[lower]\nyoung = \"210 GPa\"\npoisson = 0.3\n\
     topography = { form = \"flat\", shape = [16, 16], pitch = \"1 um\" }\n";
 const BALL: &str = "[upper]\nyoung = \"210 GPa\"\npoisson = 0.3\ntopography = { form = \"sphere\", radius = \"1 mm\" }\n\

@@ -7,9 +7,11 @@ use super::{HeightDistribution, check_sq};
 use crate::Topography;
 use asperity_base::choice::choice;
 use asperity_base::error::{Result, check_in};
+use asperity_base::exists;
 use asperity_base::grid::{Field, Grid};
 use asperity_base::math::fft::symmetric_transform;
 use asperity_base::units::{Dimension, Metre};
+use asperity_derive::Part;
 
 /// Heights with a prescribed autocorrelation, Sq² R(s), which decreases to 10 % at the correlation lengths:
 ///
@@ -25,21 +27,28 @@ use asperity_base::units::{Dimension, Metre};
 /// The noise field is three correlation lengths longer than the surface cut out of it. The surface is therefore not
 /// periodic, and its opposite edges are correlated by less than 10⁻³. Sq is exact for every surface. R is exact as the mean
 /// over seeds, apart from the effect of setting the mean height and Sq of each surface, of the order of βxβy/area.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Part, Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Autocorrelation {
-    /// Rms height, > 0.
+    /// Rms height, exact.
+    #[key(quantity = Length, range = AboveZero, example = "\"0.2 um\"", exists = exists::ROUGHNESS)]
     pub sq: Metre,
-    /// Lengths at which the autocorrelation has decreased to 10 %, along and across the lay (x and y without one); read
-    /// from one or two values. The ellipse with these semi-axes extends beyond the neighbouring samples, but not beyond the
-    /// length of the surface.
+    /// Length over which the autocorrelation decays to 10 %, one value or two (along and across the lay), from one pitch to the length of
+    /// the surface.
+    ///
+    /// Without a lay along x and y. The ellipse with these semi-axes extends beyond the neighbouring samples, but not beyond the length of
+    /// the surface.
+    #[key(quantity = Length, range = AboveZero, pair, example = "\"8 um\"", exists = exists::WAVE)]
     pub correlation_length: [Metre; 2],
-    /// Shape of the decrease.
+    /// Decay of the autocorrelation: `"exponential"`, rough down to the smallest scale, or `"gaussian"`, smooth.
+    #[key(choice, default = Decay::Exponential, example = "\"gaussian\"")]
     #[serde(skip_serializing_if = "Decay::is_exponential")]
     pub decay: Decay,
-    /// Angle of the first length's direction from x towards y, in radians.
+    /// Angle of the grooves, or of the first correlation length, from x towards y.
+    #[key(quantity = Angle, default = 0.0, written = "0", example = "\"90 deg\"", exists = exists::ANGLE)]
     #[serde(skip_serializing_if = "is_along_x")]
     pub lay: f64,
     /// Skewness and kurtosis of the heights.
+    #[key(part)]
     #[serde(flatten)]
     pub heights: HeightDistribution,
 }

@@ -6,6 +6,8 @@ use super::johnson::Johnson;
 use asperity_base::error::Result;
 use asperity_base::grid::Field;
 use asperity_base::math::fft::symmetric_transform;
+use asperity_base::table::{Part as _, Source};
+use asperity_derive::Part;
 
 /// Skewness and kurtosis of the heights; those of the Gaussian distribution by default.
 ///
@@ -19,14 +21,29 @@ use asperity_base::math::fft::symmetric_transform;
 /// such a process exists. Spectra with a sharp edge are only approximated, see [`crate::LowPass`]. The moments are
 /// those of the mean over seeds. A single surface deviates by its statistical error, about √(6/n) and √(24/n) for n
 /// independent spots, more for heavy tails.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Part, Debug, Clone, Copy, PartialEq, Serialize)]
+#[part(check = skewed)]
 pub struct HeightDistribution {
-    /// Skewness Ssk, −6 to 6.
+    /// Skewness of the heights, −6 to 6; together with `sku`, see below.
+    ///
+    /// Ssk.
+    #[key(number = "a number", default = 0.0, written = "0", example = "-1")]
     #[serde(skip_serializing_if = "is_symmetric")]
     pub ssk: f64,
-    /// Kurtosis Sku, 1.1 (Ssk² + 1) to 50. Every distribution has at least Ssk² + 1.
+    /// Kurtosis of the heights, 1.1 (Ssk² + 1) to 50, see below.
+    ///
+    /// Sku. Every distribution has at least Ssk² + 1.
+    #[key(number = "a number", default = 3.0, written = "3", example = "4.5")]
     #[serde(skip_serializing_if = "is_mesokurtic")]
     pub sku: f64,
+}
+
+/// A skewness needs a kurtosis, which bounds its range.
+fn skewed(_: &HeightDistribution, source: &dyn Source) -> Result<()> {
+    match (source.value("ssk"), source.value("sku")) {
+        (Some(_), None) => Err(source.missing(&HeightDistribution::keys()[1])),
+        _ => Ok(()),
+    }
 }
 
 impl HeightDistribution {

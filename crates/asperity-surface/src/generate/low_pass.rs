@@ -9,9 +9,11 @@ use super::{HeightDistribution, check_sq};
 use crate::Topography;
 use asperity_base::choice::choice;
 use asperity_base::error::{Result, check_in};
+use asperity_base::exists;
 use asperity_base::grid::{Field, Grid};
 use asperity_base::math::fft::angular_frequency;
 use asperity_base::units::{Dimension, Metre};
+use asperity_derive::Part;
 
 /// White noise without the waves shorter than a cut-off: a constant spectrum inside the band, zero outside.
 ///
@@ -27,16 +29,22 @@ use asperity_base::units::{Dimension, Metre};
 /// Non-Gaussian heights also contain waves shorter than the cut-off, because no curve preserves a sharp edge of the
 /// spectrum. The measured fraction of the variance beyond the edge, and the increase of the slopes, are 0.6 % and 1 % for
 /// Ssk = −0.5, Sku = 3.5. They are 2 %, 3 % for −1, 4.5, and 9 %, 14 % for −2, 8, and 0.7 %, 1.5 % for 0, 2.2.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Part, Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LowPass {
-    /// Rms height, > 0, exact for every surface.
+    /// Rms height, exact.
+    #[key(quantity = Length, range = AboveZero, example = "\"0.2 um\"", exists = exists::ROUGHNESS)]
     pub sq: Metre,
-    /// Cut-off wavelengths λx and λy, from two pitches to the length of the surface; read from one or two values.
+    /// Shortest wavelength, from two pitches to the length of the surface.
+    ///
+    /// λx and λy.
+    #[key(quantity = Length, range = AboveZero, pair, example = "\"8 um\"", exists = exists::WAVE)]
     pub cutoff: [Metre; 2],
-    /// Shape of the pass band.
+    /// Shape of the pass band; `"elliptic"` is circular for one cut-off.
+    #[key(choice, default = Band::Elliptic, example = "\"rectangular\"")]
     #[serde(skip_serializing_if = "Band::is_elliptic")]
     pub band: Band,
     /// Skewness and kurtosis of the heights.
+    #[key(part)]
     #[serde(flatten)]
     pub heights: HeightDistribution,
 }

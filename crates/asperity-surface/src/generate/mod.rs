@@ -21,9 +21,11 @@ use crate::Topography;
 use asperity_base::error::{Result, check_in};
 use asperity_base::grid::Grid;
 use asperity_base::units::{Dimension, Metre};
+use asperity_derive::Part;
 
 /// A method with its parameters; a case file selects it by `generate = "low-pass"` and so on.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Part, Debug, Clone, Copy, PartialEq, Serialize)]
+#[part(key = "generate", example = "\"low-pass\"", meaning = "method")]
 #[serde(tag = "generate", rename_all = "kebab-case")]
 pub enum Generator {
     /// White noise without short waves; not periodic.

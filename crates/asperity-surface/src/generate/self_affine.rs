@@ -12,11 +12,14 @@ use serde::Serialize;
 use super::check_sq;
 use crate::Topography;
 use asperity_base::error::{Error, Result, check, check_in};
+use asperity_base::exists;
 use asperity_base::grid::Grid;
 use asperity_base::math::RealFft2;
 use asperity_base::math::fft::angular_frequency;
 use asperity_base::math::parallel;
+use asperity_base::table::Source;
 use asperity_base::units::{Dimension, Metre};
+use asperity_derive::Part;
 
 /// Periodic heights with the spectrum |ẑ(q)|² ∝ q^(−2−2H) from the roll-off to the shortest wave, constant for longer waves
 /// and zero for shorter ones. The phases are random, the magnitudes are not.
@@ -26,31 +29,71 @@ use asperity_base::units::{Dimension, Metre};
 ///
 /// A wave has the same phase on every grid of the same extent. With `shortest` given, a finer grid shows the same surface
 /// in more detail, as convergence studies require.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Part, Debug, Clone, Copy, PartialEq, Serialize)]
+#[part(check = shorter)]
 pub struct SelfAffine {
-    /// Hurst exponent H, 0 ≤ H ≤ 1; the fractal dimension is 3 − H.
-    pub hurst: f64,
-    /// Wavelength above which the spectrum is constant, ≥ `shortest`; `None` to extend the law to the longest wave.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub rolloff: Option<Metre>,
-    /// Shortest wavelength, ≥ 2 pitches; `None` for two of the larger pitch. Waves of exactly two pitches have no phase on
-    /// the grid and are omitted.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub shortest: Option<Metre>,
     /// Rms height or rms slope.
+    #[key(part)]
     #[serde(flatten)]
     pub amplitude: Amplitude,
+    /// The Hurst exponent H.
+    ///
+    /// The fractal dimension is 3 − H.
+    #[key(
+        number = "a number",
+        range = Between { least: 0.0, most: 1.0, open: [true, false] },
+        example = "0.8"
+    )]
+    pub hurst: f64,
+    /// Wavelength above which the spectrum is flat, above `shortest`.
+    #[key(
+        quantity = Length,
+        range = AboveZero,
+        absent = "none: the law holds up to the longest wave",
+        example = "\"32 um\"",
+        exists = exists::LENGTH
+    )]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rolloff: Option<Metre>,
+    /// Shortest wavelength, at least twice the larger pitch.
+    ///
+    /// Waves of exactly two pitches have no phase on the grid and are omitted.
+    #[key(
+        quantity = Length,
+        range = AboveZero,
+        absent = "twice the larger pitch",
+        example = "\"8 um\"",
+        exists = exists::LENGTH
+    )]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shortest: Option<Metre>,
 }
 
 /// Quantity that determines the amplitude of a self-affine surface. Both are exact for every surface.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Part, Debug, Clone, Copy, PartialEq, Serialize)]
+#[part(
+    absent = "exactly one of `sq` and `sdq`",
+    hint = "'sq' is the rms height, a length; 'sdq' the rms slope, a number"
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Amplitude {
-    /// Rms height, > 0.
+    /// Rms height, exact.
+    #[key(quantity = Length, range = AboveZero, example = "\"0.2 um\"", exists = exists::ROUGHNESS)]
     Sq(Metre),
-    /// Rms slope √⟨|∇z|²⟩, > 0, of the sum of waves: √(Σ q² |ẑ|²). The finite differences of
-    /// [`crate::HybridParameters::sdq`] give less if there are waves shorter than about four pitches.
+    /// Rms slope, exact (as the sum of waves).
+    ///
+    /// √⟨|∇z|²⟩ = √(Σ q² |ẑ|²). The finite differences of [`crate::HybridParameters::sdq`] give less if there are waves shorter than about
+    /// four pitches.
+    #[key(number = "a number", range = AboveZero, example = "0.1", exists = exists::SLOPE)]
     Sdq(f64),
+}
+
+fn shorter(read: &SelfAffine, source: &dyn Source) -> Result<()> {
+    let is_longer = read.rolloff.zip(read.shortest).is_some_and(|(longest, shortest)| shortest >= longest);
+    match source.value("shortest").filter(|_| is_longer) {
+        Some(value) => Err(value.unexpected("a wavelength below that of 'rolloff'", None)),
+        None => Ok(()),
+    }
 }
 
 impl SelfAffine {
@@ -121,7 +164,7 @@ impl SelfAffine {
                 quantity: "shortest",
                 dimension: Some(Dimension::Length),
                 value: self.check(grid)?,
-                expected: "a wavelength that fits into the surface",
+                expected: "a wavelength that fits into the surface".into(),
             });
         }
         // Parseval: ⟨z²⟩ = Σ |ẑ|²/n² for n cells.

@@ -71,7 +71,7 @@ impl Topography {
 /// Returns the grid with the extent of `old` and `shape` cells.
 pub(super) fn grid_of_shape(old: &Grid, shape: [usize; 2]) -> Result<Grid> {
     if shape.contains(&0) {
-        let expected = "at least one cell along x and y";
+        let expected = "at least one cell along x and y".into();
         return Err(Error::OutOfRange { quantity: "resample", dimension: None, value: 0.0, expected });
     }
     let extent = old.extent();
@@ -90,7 +90,7 @@ pub(super) fn grid_of_pitch(old: &Grid, pitch: [Metre; 2]) -> Result<Grid> {
                 quantity: "pitch",
                 dimension: Some(Dimension::Length),
                 value: pitch[axis],
-                expected: "a positive length, at most that of the topography",
+                expected: "a positive length, at most that of the topography".into(),
             });
         }
     }

@@ -34,7 +34,7 @@ impl Profile {
                 quantity: "height",
                 dimension: Some(Dimension::Length),
                 value,
-                expected: "a finite height, or NaN where the sample is undefined",
+                expected: "a finite height, or NaN where the sample is undefined".into(),
             }),
             None => Ok(Self { pitch, heights, section: None }),
         }

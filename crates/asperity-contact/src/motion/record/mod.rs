@@ -22,7 +22,7 @@ pub use lost_volumes::LostVolume;
 pub use pass::PassRecord;
 pub use plastic::{PassPlasticRecord, PlasticRecord, PlasticStepRecord, Regime, ResidualRecord};
 pub use rest::{ShearRecord, StaticRecord};
-pub use running::{HeatRecord, RunningRecord};
+pub use running::{FILM, HeatRecord, RunningRecord, WEAR};
 pub use step::StepRecord;
 pub use sweep::SweepRecord;
 pub use update::UpdateRecord;

@@ -6,6 +6,11 @@ use crate::units::{Joule, Kelvin, Metre, Second, Watt};
 use asperity_base::record::columns;
 use asperity_base::record::number_or_none;
 
+/// Name of the law of wear, and of the body state that stores the depth worn since the beginning, m.
+pub const WEAR: &str = "wear";
+/// Name of the law of films, and of the body state that stores the thickness of the film, m.
+pub const FILM: &str = "film";
+
 columns! {
     /// Frictional heat at a position: further columns of `steps.csv`.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

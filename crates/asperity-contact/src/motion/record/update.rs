@@ -1,4 +1,4 @@
-//! An update of a contact that wears in place.
+//! An update of a contact that slides in place.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,7 @@ use asperity_base::record::columns;
 use asperity_base::record::number_or_none;
 
 columns! {
-    /// One update of a contact that wears in place: a row of `updates.csv`. The first row is the contact before sliding.
+    /// One update of a contact that slides in place: a row of `updates.csv`. The first row is the contact before sliding.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     pub struct UpdateRecord {
         /// Update, from 1; 0 is the contact before sliding.

@@ -7,14 +7,14 @@ use crate::motion::body::Body;
 use crate::motion::extrapolation::{
     self, Acceleration, Bounds, Extrapolation, GridCompliance, LastExtrapolation,
 };
-use crate::motion::film::FILM;
 use crate::motion::heat::PassHeat;
 use crate::motion::law::{self, FrictionHeat, Heat, Law, Sums};
 use crate::motion::pass::Pass;
+use crate::motion::record::FILM;
+use crate::motion::record::WEAR;
 use crate::motion::record::{RunningRecord, StepRecord};
 use crate::motion::truncation::Truncation;
 use crate::motion::watch::Watch;
-use crate::motion::wear::WEAR;
 use crate::motion::worn_away;
 use crate::units::CubicMetre;
 

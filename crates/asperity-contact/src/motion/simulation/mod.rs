@@ -193,9 +193,16 @@ impl Simulation {
     /// Adds a `law` that changes the bodies after each pass. It acts after the existing laws, of which plastic deformation
     /// is the first, but a law that does not repeat acts before those that do. The contacts of a pass are solved on the
     /// bodies before the pass or, under [`crate::motion::PlasticUpdate::Step`], before the position.
-    pub fn with_law(mut self, mut law: impl Law + 'static) -> Self {
-        law.prepare(&mut self.pair);
-        self.changes.add(Box::new(law), || GridCompliance::of(&self.pair, self.boundary));
+    pub fn with_law(self, law: impl Law + 'static) -> Self {
+        self.with_laws(vec![Box::new(law)])
+    }
+
+    /// Adds several laws, as [`Self::with_law`] does.
+    pub fn with_laws(mut self, laws: Vec<Box<dyn Law>>) -> Self {
+        for mut law in laws {
+            law.prepare(&mut self.pair);
+            self.changes.add(law, || GridCompliance::of(&self.pair, self.boundary));
+        }
         self
     }
 

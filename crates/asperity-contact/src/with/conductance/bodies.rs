@@ -97,7 +97,7 @@ pub fn composite_conductivity(lower: f64, upper: f64) -> Result<f64> {
         quantity: "conductivity of both bodies",
         dimension: None,
         value: composite,
-        expected: "at least one finite conductivity",
+        expected: "at least one finite conductivity".into(),
     })
 }
 

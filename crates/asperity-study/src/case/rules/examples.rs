@@ -3,10 +3,6 @@
 /// A body wears.
 pub(super) const WEARS: &str = r#"lower.wear = { coefficient = "1e-7 mm3/(N m)" }"#;
 
-/// A body grows a film.
-pub(super) const GROWS: &str =
-    r#"lower.film = { law = "mechano-chemical", max_thickness = "150 nm", x = 1e-16, c3 = 0, c4 = 0 }"#;
-
 /// A body deforms plastically.
 pub(super) const FLOWS: &str = r#"lower.plasticity = { yield_stress = "1.5 GPa" }"#;
 

@@ -18,9 +18,9 @@ use super::cursor::{Entry, Table};
 use super::{Body, Case, FrictionSpec, LoadingPath, MotionSpec};
 use asperity_base::error::{Error, Result};
 use asperity_base::table;
-use asperity_contact::each_capability;
 use asperity_contact::motion::Strategy;
-use asperity_contact::with::{Capability, Listed};
+use asperity_contact::with::{BodyLaw, Capability, Circumstances, Listed, ListedLaw, Slip, Timeless};
+use asperity_contact::{each_capability, each_law};
 
 /// The description of a rule: two entries of a case file exclude each other, or one requires the other.
 pub type Exclusion = table::Rule<()>;
@@ -49,6 +49,16 @@ pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
             return Err(refused(rule, &entry));
         }
     });
+    for (name, body) in [("lower", &case.lower), ("upper", &case.upper)] {
+        let circumstances = tables.circumstances(body);
+        each_law!(L => for rule in L::RULES {
+            let is_broken = L::of(&body.laws).is_some_and(|law| (rule.broken)(law, &circumstances));
+            let at = rule.at.strip_prefix("lower").map_or(rule.at.to_owned(), |key| format!("{name}{key}"));
+            if let Some(entry) = tables.at(&at).filter(|_| is_broken) {
+                return Err(refused(rule, &entry));
+            }
+        });
+    }
     Ok(())
 }
 
@@ -56,6 +66,7 @@ pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
 pub fn rules() -> Vec<Exclusion> {
     let mut exclusions: Vec<_> = tables_of_rules().into_iter().flatten().map(Rule::described).collect();
     each_capability!(C => exclusions.extend(C::RULES.iter().map(table::Rule::described)));
+    each_law!(L => exclusions.extend(L::RULES.iter().map(table::Rule::described)));
     exclusions
 }
 
@@ -104,11 +115,6 @@ impl<'a> Tables<'a> {
             .into_iter()
             .filter(|(_, body)| is(body))
             .find_map(|(name, _)| self.at(&format!("{name}.{key}")))
-    }
-
-    /// Returns a film that changes with time.
-    fn film_that_grows(&self) -> Option<Entry<'a>> {
-        self.of_body("film", |body| body.film.is_some_and(|film| film.law.takes_time()))
     }
 
     /// Returns the key of a sweep in [contact].
@@ -167,6 +173,51 @@ impl<'a> Tables<'a> {
         in_stages && self.case.friction.is_some()
     }
 
+    /// Returns what the laws of a body need to know.
+    fn circumstances(&self, body: &'a Body) -> Circumstances<'a> {
+        Circumstances {
+            laws: &body.laws,
+            yields: body.hardness.yields(),
+            has_friction: self.friction().is_some(),
+            has_temperature: self.case.temperature.is_some(),
+            slip: self.slip(),
+            timeless: self.timeless(),
+        }
+    }
+
+    fn slip(&self) -> Slip {
+        match self.motion() {
+            Some(motion) if motion.strategy.direction() == 0.0 => Slip::Rolling,
+            Some(_) => Slip::InPasses,
+            None if self.case.sliding.is_some() => Slip::InPlace,
+            None if self.frets() => Slip::InStages,
+            None => Slip::None,
+        }
+    }
+
+    /// Returns what is missing to know the time of the steps.
+    fn timeless(&self) -> Option<Timeless> {
+        if let Some(sliding) = self.case.sliding {
+            return sliding.speed.is_none().then_some(Timeless::InPlace);
+        }
+        if let Some(motion) = self.motion() {
+            let is_given = match motion.strategy {
+                Strategy::Overlap => motion.speed.is_some(),
+                Strategy::Shift { .. } => self.first("motion", &["speed_upper", "speed_lower"]).is_some(),
+            };
+            let missing = match motion.strategy {
+                Strategy::Overlap => Timeless::Overlap,
+                Strategy::Shift { .. } => Timeless::Shift,
+            };
+            return Some(missing).filter(|_| !is_given);
+        }
+        let mut cycles = self.case.history.iter().filter(|stage| stage.cycles.is_some()).peekable();
+        match cycles.peek() {
+            None => Some(Timeless::Cycles),
+            Some(_) => cycles.any(|stage| stage.period.is_none()).then_some(Timeless::Period),
+        }
+    }
+
     fn rolls(&self) -> bool {
         self.friction().is_some_and(FrictionSpec::rolls)
     }
@@ -187,13 +238,13 @@ impl<'a> Tables<'a> {
 
     /// Returns the entry that requests a flash temperature.
     fn flash(&self) -> Option<Entry<'a>> {
-        let wanted = self.case.temperature.is_some_and(|temperature| temperature.every > 0);
+        let wanted = self.case.temperature.is_some_and(|temperature| temperature.every() > 0);
         self.at("temperature.every").or(self.at("temperature")).filter(|_| wanted)
     }
 
     /// Returns the key `every` if other passes use the flash temperature of a computed pass.
     fn seldom(&self) -> Option<Entry<'a>> {
-        let every = self.case.temperature.map_or(0, |temperature| temperature.every);
+        let every = self.case.temperature.map_or(0, |temperature| temperature.every());
         self.at("temperature.every").filter(|_| every > 1)
     }
 }

@@ -1,4 +1,4 @@
-//! Rules of motions, and of wear in place.
+//! Rules of motions, and of sliding in place.
 
 use super::super::{ControlKind, CounterBody, OffsetY, Prescribed, Source};
 use super::Rule;

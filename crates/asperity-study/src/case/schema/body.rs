@@ -1,12 +1,11 @@
 //! The keys of a body.
 
-use super::super::exists;
 use super::Bounds::{AboveZero, AboveZeroOrInfinite, Between};
 use super::Fallback::{Absent, Required};
 use super::typed::{
-    LENGTH, Nested, Optional, PRESSURE, Typed, Value, choice, number, optional, other, quantity, required,
-    section, table,
+    Nested, Optional, Typed, Value, choice, number, optional, other, quantity, required, section, table,
 };
+use asperity_base::exists;
 use asperity_base::units::Dimension;
 
 /// Poisson's ratio.
@@ -45,8 +44,6 @@ pub(crate) mod both {
         COATING: Nested =
             table("coating", Absent("none"), "elastic surface layer, see [below](#lowercoating-and-uppercoating)");
         TOPOGRAPHY: Nested = table("topography", Required, "its surface");
-        WEAR: Nested = table("wear", Absent("none"), "wear law, see [below](#running-in)");
-        FILM: Nested = table("film", Absent("none"), "growing tribofilm, see [below](#running-in)");
         PLASTICITY: Nested =
             table("plasticity", Absent("elastic"), "plastic deformation below the surface, see [below](#plasticity)");
         CONDUCTIVITY: Optional<f64> = optional(
@@ -93,31 +90,6 @@ pub(crate) mod upper {
             "`\"turned-over\"`; `\"as-is\"` for an underside",
             "\"as-is\"",
             "`[upper]` only: orientation of its heights",
-        );
-    }
-}
-
-/// `[lower.coating]` and `[upper.coating]`.
-pub(crate) mod coating {
-    use super::*;
-
-    section! { &["lower.coating", "upper.coating"], "";
-        THICKNESS: Typed<f64> = required("thickness", LENGTH.exists(exists::LAYER), "\"2 um\"", "thickness of the layer");
-        YOUNG: Typed<f64> = required("young", PRESSURE.exists(exists::YOUNG), "\"300 GPa\"", "its Young's modulus");
-        POISSON: Typed<f64> = required("poisson", RATIO, "0.3", "its Poisson's ratio");
-        CONDUCTIVITY: Optional<f64> = optional(
-            "conductivity",
-            quantity(Dimension::Conductivity, AboveZero).exists(exists::CONDUCTIVITY),
-            "unknown",
-            "\"20 W/(m K)\"",
-            "its thermal conductivity, for heat that passes a contact",
-        );
-        RESISTIVITY: Optional<f64> = optional(
-            "resistivity",
-            RESISTANCE,
-            "unknown",
-            "\"1e-6 ohm m\"",
-            "its electrical resistivity, for a current that passes a contact",
         );
     }
 }

@@ -1,7 +1,7 @@
 //! Keys of a hardness map.
 
-use super::super::exists;
 use super::typed::{Optional, TEXT, Typed, optional, other, required, section};
+use asperity_base::exists;
 use asperity_base::units::Dimension;
 use asperity_surface::Axis;
 

@@ -1,6 +1,5 @@
 //! Keys of a contact, its friction and its history.
 
-use super::super::exists;
 use super::Bounds::{AboveZero, AboveZeroOrInfinite, Any, FromZero, FromZeroOrInfinite};
 use super::Exists;
 use super::typed::{
@@ -9,6 +8,7 @@ use super::typed::{
 };
 use super::values::contact as read;
 use super::values::sweep as list;
+use asperity_base::exists;
 use asperity_base::units::Dimension;
 
 const FORCE: Value<f64> = quantity(Dimension::Force, AboveZero).exists(exists::LOAD);

@@ -3,27 +3,29 @@
 //! A declaration holds the name, the accepted values, the default, an example and the meaning. The reader of case files,
 //! its messages, the units of study axes and the tables of `docs/input` are derived from it.
 
-pub(crate) mod adhesion;
 pub(crate) mod body;
 pub(crate) mod loading;
 pub(crate) mod hardness;
 pub(crate) mod list;
 pub(crate) mod moving;
-pub(crate) mod results;
-pub(crate) mod plasticity;
 pub(crate) mod root;
+mod source;
 pub(crate) mod tables;
 pub(crate) mod topography;
 pub(crate) mod typed;
 pub(crate) mod values;
-pub(crate) mod running_in;
 
 use std::sync::LazyLock;
 
+use super::SubsurfaceSpec;
 use asperity_base::table::Table as _;
 pub use asperity_base::table::{Bounds, Exists, Fallback, Key, Kind, Section};
-use asperity_contact::each_capability;
-use asperity_contact::with::Capability;
+use asperity_contact::material::Coating;
+use asperity_contact::temperature::Temperature;
+use asperity_contact::with::adhesion::Attraction;
+use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
+use asperity_contact::with::{BodyLaw, Capability};
+use asperity_contact::{each_capability, each_law};
 
 /// Returns all keys of a case file, section by section, in the order in which a misplaced key is searched.
 ///
@@ -39,89 +41,149 @@ pub fn keys() -> &'static [Section] {
         let (mut root, mut of_capabilities) = (root::SECTION.keys.to_vec(), Vec::new());
         each_capability!(C => {
             root.push(typed::table(C::NAME, Fallback::Absent("none"), C::MEANING).key);
-            of_capabilities.push(C::SECTION);
+            of_capabilities.extend(C::sections());
         });
         let root = Section { keys: root.leak(), ..root::SECTION };
-        [&[root], OF_EVERY_CASE, &of_capabilities].concat()
+        [vec![root], of_every_case(), of_capabilities].concat()
     });
     &KEYS
 }
 
-/// The sections other than those above all tables, and other than those of the capabilities.
-const OF_EVERY_CASE: &[Section] = &[
-    body::both::SECTION,
-    body::upper::SECTION,
-    body::coating::SECTION,
-    loading::contact::SECTION,
-    adhesion::SECTION,
-    moving::motion::SECTION,
-    loading::friction::SECTION,
-    results::subsurface::SECTION,
-    crate::case::Output::SECTION,
-    asperity_contact::motion::Acceleration::SECTION,
-    crate::case::SlidingSpec::SECTION,
-    running_in::temperature::SECTION,
-    running_in::wear::SECTION,
-    running_in::film::SECTION,
-    running_in::arrhenius::SECTION,
-    running_in::mechano_chemical::SECTION,
-    running_in::solid_lubricant::SECTION,
-    plasticity::body::SECTION,
-    plasticity::volume::SECTION,
-    topography::every::SECTION,
-    topography::file::SECTION,
-    topography::given::SECTION,
-    topography::generate::SECTION,
-    topography::low_pass::SECTION,
-    topography::autocorrelation::SECTION,
-    topography::self_affine::SECTION,
-    topography::form::SECTION,
-    topography::sphere::SECTION,
-    topography::ellipsoid::SECTION,
-    topography::cylinder::SECTION,
-    topography::cone::SECTION,
-    topography::flat::SECTION,
-    topography::sinusoid::SECTION,
-    topography::grooves::SECTION,
-    loading::history::SECTION,
-    list::SECTION,
-    hardness::map::SECTION,
-    hardness::given::SECTION,
-];
+/// Returns the sections other than those above all tables, and other than those of the capabilities.
+fn of_every_case() -> Vec<Section> {
+    let declared = |section: Section| vec![section];
+    let (mut both, mut of_laws) = (body::both::SECTION.keys.to_vec(), Vec::new());
+    each_law!(L => {
+        both.push(typed::table(L::NAME, Fallback::Absent("none"), L::MEANING).key);
+        of_laws.extend(L::sections());
+    });
+    [
+        declared(Section { keys: both.leak(), ..body::both::SECTION }),
+        declared(body::upper::SECTION),
+        Coating::sections(),
+        declared(loading::contact::SECTION),
+        Attraction::sections(),
+        declared(moving::motion::SECTION),
+        declared(loading::friction::SECTION),
+        SubsurfaceSpec::sections(),
+        crate::case::Output::sections(),
+        asperity_contact::motion::Acceleration::sections(),
+        crate::case::SlidingSpec::sections(),
+        Temperature::sections(),
+        of_laws,
+        Yielding::sections(),
+        PlasticRegion::sections(),
+        declared(topography::every::SECTION),
+        declared(topography::file::SECTION),
+        declared(topography::given::SECTION),
+        topography::sections_of_kinds(),
+        declared(loading::history::SECTION),
+        declared(list::SECTION),
+        declared(hardness::map::SECTION),
+        declared(hardness::given::SECTION),
+    ]
+    .concat()
+}
 
 #[cfg(test)]
 mod tests {
     use std::fmt::Debug;
 
-    use asperity_base::table::{Fallback, Table};
-    use asperity_contact::each_capability;
+    use asperity_base::error::Result;
+    use asperity_base::table::{Fallback, Key, Part, Section, Source, Table};
+    use asperity_contact::material::Coating;
     use asperity_contact::motion::Acceleration;
+    use asperity_contact::temperature::Temperature;
+    use asperity_contact::with::adhesion::Attraction;
+    use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
+    use asperity_contact::{each_capability, film, wear};
+    use asperity_surface::{Form, Generator};
 
     use super::super::cursor::Table as Written;
     use super::super::document::Document;
-    use crate::case::{Output, SlidingSpec};
+    use crate::case::{Output, SlidingSpec, SubsurfaceSpec};
+
+    /// Reads a table of this dotted name and of these sections, once for each choice, with the examples of the required keys, and with the default of the others
+    /// if they are `told`. `one` is a key of which one of several is required.
+    fn read<T>(
+        path: &str,
+        sections: &[Section],
+        one: &str,
+        told: bool,
+        read: impl Fn(&dyn Source) -> Result<T>,
+    ) -> Vec<T> {
+        let line = |key: &Key| match key.default {
+            Fallback::Required => Some(format!("{} = {}\n", key.name, key.example)),
+            Fallback::Value(default) => told.then(|| format!("{} = {default}\n", key.name)),
+            Fallback::Absent(_) => None,
+        };
+        let lines = |section: &Section, but: &str| -> String {
+            section.keys.iter().filter(|key| key.name != but).filter_map(line).collect()
+        };
+        let (own, choices): (Vec<&Section>, Vec<_>) =
+            sections.iter().partition(|section| section.kind.is_empty());
+        let texts = match choices.as_slice() {
+            [] => vec![own.iter().map(|section| lines(section, "")).collect::<String>()],
+            choices => {
+                let of_choice = |choice: &&Section| {
+                    let key = choice.kind.split(' ').next().unwrap_or_default();
+                    let own: String = own.iter().map(|section| lines(section, key)).collect();
+                    format!("{}\n{own}{}", choice.kind, lines(choice, key))
+                };
+                choices.iter().map(of_choice).collect()
+            }
+        };
+        let read = |text: String| {
+            let (mut document, text) = (Document::default(), format!("[{path}]\n{one}\n{text}"));
+            let entries = document.parse(&text).unwrap();
+            let root = Written::root(&document, entries.get_ref());
+            let table = path.split('.').fold(root, |table, name| table.table(name).unwrap().unwrap());
+            read(&table).unwrap_or_else(|error| panic!("{text}{error}"))
+        };
+        texts.into_iter().map(read).collect()
+    }
+
+    fn check<T: Table + PartialEq + Debug>(one: &str) {
+        let read = |told| read(T::TABLES[0], &T::sections(), one, told, T::read);
+        assert_eq!(read(true), read(false));
+    }
+
+    fn check_part<P: Part + PartialEq + Debug>() {
+        const PATH: &str = "lower.topography";
+        let sections = P::sections(&[PATH]);
+        assert!(sections.len() > 1);
+        for section in sections {
+            let one = if section.keys.iter().any(|key| key.name == "sdq") { "sdq = 0.1" } else { "" };
+            let read = |told| read(PATH, &[section], one, told, P::read);
+            assert_eq!(read(true), read(false));
+        }
+    }
 
     #[test]
     fn a_derived_table_reads_its_defaults_as_it_writes_them() {
-        /// Reads the table with the examples of the required keys, and with the default of the others if they are `told`.
-        fn read<T: Table>(told: bool) -> T {
-            let lines = T::SECTION.keys.iter().filter_map(|key| match key.default {
-                Fallback::Required => Some(format!("{} = {}\n", key.name, key.example)),
-                Fallback::Value(default) => told.then(|| format!("{} = {default}\n", key.name)),
-                Fallback::Absent(_) => None,
-            });
-            let (mut document, text) = (Document::default(), lines.collect::<String>());
-            let entries = document.parse(&text).unwrap();
-            T::read(&Written::root(&document, entries.get_ref())).unwrap()
-        }
-        fn check<T: Table + PartialEq + Debug>() {
-            assert_eq!(read::<T>(true), read::<T>(false));
-        }
-        check::<Output>();
-        check::<Acceleration>();
-        check::<SlidingSpec>();
-        each_capability!(C => check::<C>());
-        assert_eq!(Acceleration::default(), read(true));
-        assert_eq!(Output::default(), read(true));
+        check::<Output>("");
+        check::<Acceleration>("");
+        check::<SlidingSpec>("");
+        each_capability!(C => check::<C>(""));
+        check::<wear::WearCoefficient>("coefficient = 1e-16");
+        check::<film::Film>("");
+        check::<Temperature>("");
+        check::<Attraction>("");
+        check::<SubsurfaceSpec>("");
+        check::<Coating>("");
+        assert_eq!(Acceleration::default(), read("acceleration", &[], "", true, Acceleration::read)[0]);
+        assert_eq!(Output::default(), read("output", &[], "", true, Output::read)[0]);
+        check_part::<Form>();
+        check_part::<Generator>();
+    }
+
+    /// The defaults of these depend on the case: the table alone leaves them open.
+    #[test]
+    fn a_derived_table_reads_its_examples() {
+        let yielding =
+            read("lower.plasticity", &Yielding::sections(), "yield_stress = 1e9", false, Yielding::read);
+        assert_eq!(yielding[0].hardening, None);
+        let volume = read("plasticity", &PlasticRegion::sections(), "", false, PlasticRegion::read);
+        assert_eq!((volume[0].depth, volume[0].layers, volume[0].unload), (20e-6, 16, None));
     }
 }

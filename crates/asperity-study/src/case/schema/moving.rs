@@ -1,10 +1,10 @@
 //! Keys of moving bodies.
 
-use super::super::exists;
 use super::Bounds::{AboveZero, Any};
 use super::typed::{
     FRACTION, Optional, SEED, Typed, Value, choice, count, defaulted, optional, other, quantity, section,
 };
+use asperity_base::exists;
 use asperity_base::units::Dimension;
 
 const SPEED: Value<f64> = quantity(Dimension::Speed, AboveZero).exists(exists::SPEED);

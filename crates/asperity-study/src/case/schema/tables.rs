@@ -80,7 +80,7 @@ pub(crate) fn belongs(key: &str, table: &str) -> Option<(String, Option<String>)
     Some((format!("unknown key '{key}' {here}"), Some(hint)))
 }
 
-/// Returns an error if a key of a topography belongs to a kind other than this one: `file`, `form = "sphere"`.
+/// Returns an error if a key of the table belongs to a kind other than this one: `file`, `form = "sphere"`, `law = "arrhenius"`.
 pub(in crate::case) fn suits(table: &Table<'_>, kind: &str) -> Result<()> {
     let is_layer = table.path().ends_with("plus]");
     let of_the_whole = |key: &str| {
@@ -106,16 +106,6 @@ pub(in crate::case) fn suits(table: &Table<'_>, kind: &str) -> Result<()> {
             Some(format!("it belongs to {}", owners.join(", "))),
         ))
     })
-}
-
-/// Returns an error if a key of the table has no meaning with this choice: `law = "arrhenius"`.
-pub(in crate::case) fn suits_choice(table: &Table<'_>, kind: &str) -> Result<()> {
-    let others =
-        sections(table.path()).filter(|section| !section.suits(kind)).flat_map(|section| section.keys);
-    match others.filter_map(|key| table.get(key.name)).next() {
-        Some(entry) => Err(entry.error(format!("'{}' has no meaning with {kind}", entry.key()), None)),
-        None => Ok(()),
-    }
 }
 
 /// Reads a table, if it is given, as the struct that declares its keys.

@@ -1,15 +1,17 @@
 //! Keys of topographies: common keys, and keys of each kind of source.
 
-use super::super::exists;
-use super::Bounds::{AboveZero, AboveZeroOrInfinite, Any, Between};
+use super::Bounds::{AboveZero, Any};
 use super::Fallback::Absent;
+use super::Section;
 use super::typed::{
     LENGTH, Nested, Optional, SEED, TEXT, Typed, Value, choice, defaulted, number, optional, other, pair,
     quantity, required, section, tables,
 };
 use super::values::topography as read;
+use asperity_base::exists;
+use asperity_base::table::Part;
 use asperity_base::units::Dimension;
-use asperity_surface::{Axis, Band, Decay, Fill, Filter, Groove, Interpolation, Level};
+use asperity_surface::{Axis, Fill, Filter, Form, Generator, Interpolation, Level};
 
 const TABLES: &[&str] = &["lower.topography", "upper.topography"];
 
@@ -159,115 +161,9 @@ pub(crate) mod generate {
     use super::*;
 
     section! { TABLES, "generate";
-        GENERATE: Typed<read::Method> =
-            required("generate", choice::<read::Method>(), "\"low-pass\"", "method");
         SHAPE: Optional<[usize; 2]> =
             optional("shape", CELLS, "the other body's", "[256, 256]", "number of cells along x and y");
         SEED: Typed<u64> = defaulted("seed", super::SEED, "0", "7", "seed of the random numbers");
-    }
-}
-
-const SQ: Typed<f64> = required("sq", LENGTH.exists(exists::ROUGHNESS), "\"0.2 um\"", "rms height, exact");
-const SSK: Typed<f64> = defaulted(
-    "ssk",
-    number(Any),
-    "0",
-    "-1",
-    "skewness of the heights, −6 to 6; together with `sku`, see below",
-);
-const SKU: Typed<f64> =
-    defaulted("sku", number(Any), "3", "4.5", "kurtosis of the heights, 1.1 (Ssk² + 1) to 50, see below");
-const LAY: Typed<f64> = defaulted(
-    "lay",
-    ANGLE,
-    "0",
-    "\"90 deg\"",
-    "angle of the grooves, or of the first correlation length, from x towards y",
-);
-
-/// `generate = "low-pass"`.
-pub(crate) mod low_pass {
-    use super::*;
-
-    section! { TABLES, "generate = \"low-pass\"";
-        SQ: Typed<f64> = super::SQ;
-        CUTOFF: Typed<[f64; 2]> = required(
-            "cutoff",
-            PITCH,
-            "\"8 um\"",
-            "shortest wavelength, from two pitches to the length of the surface",
-        );
-        BAND: Typed<Band> = defaulted(
-            "band",
-            choice::<Band>(),
-            "\"elliptic\"",
-            "\"rectangular\"",
-            "shape of the pass band; `\"elliptic\"` is circular for one cut-off",
-        );
-        SSK: Typed<f64> = super::SSK;
-        SKU: Typed<f64> = super::SKU;
-    }
-}
-
-/// `generate = "autocorrelation"`.
-pub(crate) mod autocorrelation {
-    use super::*;
-
-    section! { TABLES, "generate = \"autocorrelation\"";
-        SQ: Typed<f64> = super::SQ;
-        CORRELATION_LENGTH: Typed<[f64; 2]> = required(
-            "correlation_length",
-            PITCH,
-            "\"8 um\"",
-            "length over which the autocorrelation decays to 10 %, one value or two (along and across the lay), from one pitch to the length of the surface",
-        );
-        DECAY: Typed<Decay> = defaulted(
-            "decay",
-            choice::<Decay>(),
-            "\"exponential\"",
-            "\"gaussian\"",
-            "decay of the autocorrelation: `\"exponential\"`, rough down to the smallest scale, or `\"gaussian\"`, smooth",
-        );
-        LAY: Typed<f64> = super::LAY;
-        SSK: Typed<f64> = super::SSK;
-        SKU: Typed<f64> = super::SKU;
-    }
-}
-
-/// `generate = "self-affine"`.
-pub(crate) mod self_affine {
-    use super::*;
-
-    section! { TABLES, "generate = \"self-affine\"";
-        SQ: Optional<f64> =
-            optional("sq", LENGTH.exists(exists::ROUGHNESS), "exactly one of `sq` and `sdq`", "\"0.2 um\"", "rms height, exact");
-        SDQ: Optional<f64> = optional(
-            "sdq",
-            number(AboveZero).exists(exists::SLOPE),
-            "exactly one of `sq` and `sdq`",
-            "0.1",
-            "rms slope, exact (as the sum of waves)",
-        );
-        HURST: Typed<f64> = required(
-            "hurst",
-            number(Between { least: 0.0, most: 1.0, open: [true, false] }),
-            "0.8",
-            "Hurst exponent H",
-        );
-        ROLLOFF: Optional<f64> = optional(
-            "rolloff",
-            LENGTH,
-            "none: the law holds up to the longest wave",
-            "\"32 um\"",
-            "wavelength above which the spectrum is flat, above `shortest`",
-        );
-        SHORTEST: Optional<f64> = optional(
-            "shortest",
-            LENGTH,
-            "twice the larger pitch",
-            "\"8 um\"",
-            "shortest wavelength, at least twice the larger pitch",
-        );
     }
 }
 
@@ -276,91 +172,15 @@ pub(crate) mod form {
     use super::*;
 
     section! { TABLES, "form";
-        FORM: Typed<read::Shape> = required("form", choice::<read::Shape>(), "\"sphere\"", "the form");
         SHAPE: Optional<[usize; 2]> = super::generate::SHAPE;
     }
 }
 
-const RADIUS: Typed<f64> = required("radius", LENGTH.exists(exists::RADIUS), "\"1 mm\"", "radius R");
-
-/// `form = "sphere"`.
-pub(crate) mod sphere {
-    use super::*;
-
-    section! { TABLES, "form = \"sphere\"";
-        RADIUS: Typed<f64> = super::RADIUS;
+/// Returns the sections of random topographies and of forms: the keys of all of them, then those of each.
+pub(super) fn sections_of_kinds() -> Vec<Section> {
+    fn with<P: Part>(own: Section) -> Vec<Section> {
+        let keys = [P::keys(), own.keys.to_vec()].concat().leak();
+        [vec![Section { keys, ..own }], P::sections(TABLES)].concat()
     }
-}
-
-/// `form = "ellipsoid"`.
-pub(crate) mod ellipsoid {
-    use super::*;
-
-    section! { TABLES, "form = \"ellipsoid\"";
-        RADIUS: Typed<[f64; 2]> = required(
-            "radius",
-            other(Some(Dimension::Length), "`[Rx, Ry]`, two lengths > 0", |_, entry| read::radii(entry)).exists(exists::RADIUS),
-            "[\"1 mm\", \"2 mm\"]",
-            "principal radii of curvature; an ellipsoid with semi-axes a, b and c, c normal to the plane, has a²/c and b²/c",
-        );
-    }
-}
-
-/// `form = "cylinder"`.
-pub(crate) mod cylinder {
-    use super::*;
-
-    section! { TABLES, "form = \"cylinder\"";
-        RADIUS: Typed<f64> = super::RADIUS;
-        AXIS: Typed<Axis> = defaulted("axis", choice::<Axis>(), "\"y\"", "\"x\"", "direction of the crest");
-    }
-}
-
-/// `form = "cone"`.
-pub(crate) mod cone {
-    use super::*;
-
-    section! { TABLES, "form = \"cone\"";
-        ANGLE: Typed<f64> = required(
-            "angle",
-            quantity(Dimension::Angle, AboveZero).exists(exists::ANGLE),
-            "\"5 deg\"",
-            "slope angle α from the plane, below 90°; a number without a unit is in radians",
-        );
-    }
-}
-
-/// `form = "flat"`.
-pub(crate) mod flat {
-    pub(in crate::case) const SECTION: super::super::Section =
-        super::super::Section { tables: super::TABLES, kind: "form = \"flat\"", keys: &[] };
-}
-
-/// `form = "sinusoid"`.
-pub(crate) mod sinusoid {
-    use super::*;
-
-    const WAVE: Value<f64> =
-        quantity(Dimension::Length, AboveZeroOrInfinite("no variation in that direction"))
-            .exists(exists::WAVE);
-
-    section! { TABLES, "form = \"sinusoid\"";
-        AMPLITUDE: Typed<f64> = required("amplitude", LENGTH, "\"0.1 um\"", "amplitude A");
-        WAVELENGTH: Typed<[f64; 2]> =
-            required("wavelength", pair(&WAVE), "\"64 um\"", "wavelength λ, at least two pitches");
-    }
-}
-
-/// `form = "grooves"`.
-pub(crate) mod grooves {
-    use super::*;
-
-    section! { TABLES, "form = \"grooves\"";
-        PERIOD: Typed<f64> =
-            required("period", LENGTH, "\"0.1 mm\"", "distance from ridge to ridge, at least two pitches");
-        DEPTH: Typed<f64> = required("depth", LENGTH, "\"1 um\"", "depth d");
-        PROFILE: Typed<Groove> =
-            defaulted("profile", choice::<Groove>(), "\"parabolic\"", "\"triangular\"", "shape of a groove");
-        LAY: Typed<f64> = super::LAY;
-    }
+    [with::<Generator>(generate::SECTION), with::<Form>(form::SECTION)].concat()
 }

@@ -4,11 +4,12 @@ use std::ops::Deref;
 
 use super::super::cursor::{Entry, Table};
 use super::super::document::Document;
-use super::super::exists;
 use super::{Bounds, Exists, Fallback, Key, Kind};
 use asperity_base::choice::Choice;
 use asperity_base::error::{Error, Result};
-use asperity_base::table::Source;
+use asperity_base::exists;
+use asperity_base::table;
+
 use asperity_base::units::Dimension;
 use asperity_surface::Axis;
 
@@ -16,7 +17,7 @@ use asperity_surface::Axis;
 #[derive(Clone, Copy)]
 pub(in crate::case) struct Value<T> {
     kind: Kind,
-    read: fn(&Key, &Entry<'_>) -> Result<T>,
+    pub(super) read: fn(&Key, &Entry<'_>) -> Result<T>,
     exists: Exists,
 }
 
@@ -226,31 +227,7 @@ impl Nested {
     }
 }
 
-impl Source for Table<'_> {
-    fn real(&self, key: &Key, kind: &Kind) -> Result<Option<f64>> {
-        self.get(key.name).map(|entry| real(kind, key, &entry)).transpose()
-    }
-
-    fn count(&self, key: &Key) -> Result<Option<usize>> {
-        self.get(key.name).map(|entry| (COUNT.read)(key, &entry)).transpose()
-    }
-
-    fn flag(&self, key: &Key) -> Result<Option<bool>> {
-        self.get(key.name).map(|entry| entry.flag()).transpose()
-    }
-
-    fn word(&self, key: &Key) -> Result<Option<usize>> {
-        let Kind::Choice(words) = key.kind else { unreachable!("a word is declared as one") };
-        let words: Vec<(&str, usize)> = words.iter().copied().zip(0..).collect();
-        self.get(key.name).map(|entry| entry.word(&words)).transpose()
-    }
-
-    fn missing(&self, key: &Key) -> Error {
-        missing(key, self)
-    }
-}
-
-fn missing(key: &Key, table: &Table<'_>) -> Error {
+pub(super) fn missing(key: &Key, table: &Table<'_>) -> Error {
     let hint = format!("for example `{} = {}`", key.name, key.example);
     table.error(format!("missing key '{}' in {}", key.name, table.name()), Some(hint))
 }
@@ -295,7 +272,7 @@ pub(super) const fn count(least: u64) -> Value<usize> {
 }
 
 /// A count within the limits of its key.
-const COUNT: Value<usize> = count(0);
+pub(super) const COUNT: Value<usize> = count(0);
 
 /// A count with limits.
 pub(super) const fn count_to(least: u64, most: u64) -> Value<usize> {
@@ -322,30 +299,19 @@ pub(super) const fn choice<T: Choice>() -> Value<T> {
     Value { kind: Kind::Choice(T::NAMES), read: |_, entry| entry.choice(), exists: Exists::Undeclared }
 }
 
-/// True or false.
-pub(super) const FLAG: Value<bool> =
-    Value { kind: Kind::Flag, read: |_, entry| entry.flag(), exists: Exists::Undeclared };
-
 /// A text.
 pub(super) const TEXT: Value<String> =
     Value { kind: Kind::Text, read: |_, entry| entry.text().map(str::to_owned), exists: Exists::Undeclared };
 
 /// One quantity or number for both axes, or two.
 pub(super) const fn pair(item: &'static Value<f64>) -> Value<[f64; 2]> {
-    let read = |key: &Key, entry: &Entry<'_>| {
-        let Kind::Pair(item) = key.kind else { unreachable!("a pair is declared as one") };
-        entry.pair(&format!("{}, or two", expected(item, key)), |part| real(item, key, part))
-    };
+    let read = |key: &Key, entry: &Entry<'_>| table::Value::pair(entry, key);
     Value { kind: Kind::Pair(&item.kind), read, exists: item.exists }
 }
 
 /// A component along x, or two along x and y.
 pub(super) const fn vector(item: &'static Value<f64>) -> Value<[f64; 2]> {
-    let read = |key: &Key, entry: &Entry<'_>| {
-        let Kind::Vector(item) = key.kind else { unreachable!("a vector is declared as one") };
-        let noun = item.dimension().map_or("a number", Dimension::noun);
-        entry.vector(&format!("{noun} along x, or two along x and y"), |part| real(item, key, part))
-    };
+    let read = |key: &Key, entry: &Entry<'_>| table::Value::pair(entry, key);
     Value { kind: Kind::Vector(&item.kind), read, exists: item.exists }
 }
 
@@ -383,7 +349,7 @@ pub(in crate::case) fn real(kind: &Kind, key: &Key, entry: &Entry<'_>) -> Result
 }
 
 /// Returns the expectation in the message about a quantity or a number.
-fn expected(kind: &Kind, key: &Key) -> String {
+pub(super) fn expected(kind: &Kind, key: &Key) -> String {
     match *kind {
         Kind::Quantity(dimension, Bounds::FromZero) => format!("{} of at least 0", dimension.noun()),
         Kind::Quantity(dimension, _) => {
@@ -411,8 +377,6 @@ fn expected(kind: &Kind, key: &Key) -> String {
 
 /// A length above 0.
 pub(super) const LENGTH: Value<f64> = quantity(Dimension::Length, Bounds::AboveZero).exists(exists::LENGTH);
-/// A length of at least 0.
-pub(super) const DEPTH: Value<f64> = quantity(Dimension::Length, Bounds::FromZero).exists(exists::LENGTH);
 /// A pressure or modulus above 0.
 pub(super) const PRESSURE: Value<f64> = quantity(Dimension::Pressure, Bounds::AboveZero);
 /// A fraction of a whole.

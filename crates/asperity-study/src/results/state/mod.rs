@@ -2,7 +2,7 @@
 
 pub(super) mod increment; // state of a loading
 pub(super) mod pass; // state of a motion
-pub(super) mod update; // state of a contact that wears in place
+pub(super) mod update; // state of a contact that slides in place
 
 use std::collections::BTreeMap;
 use std::io;

@@ -1,4 +1,4 @@
-//! State between two updates of a contact that wears in place.
+//! State between two updates of a contact that slides in place.
 
 use super::super::Results;
 use super::super::bodies::add_bodies;

@@ -1,11 +1,7 @@
 //! Readers of values of special forms, and their words.
 
-pub(in crate::case) mod adhesion;
 pub(in crate::case) mod contact;
 pub(in crate::case) mod hardness;
 pub(in crate::case) mod motion;
-pub(in crate::case) mod plasticity;
-pub(in crate::case) mod running;
-pub(in crate::case) mod subsurface;
 pub(in crate::case) mod sweep;
 pub(in crate::case) mod topography;

@@ -1,43 +1,9 @@
 //! Values of `[topography]`.
 
 use crate::case::cursor::Entry;
-use asperity_base::choice::choice;
 use asperity_base::error::Result;
 use asperity_base::grid::MAX_CELLS;
-use asperity_base::units::Dimension;
 use asperity_surface::Level;
-
-/// Method of generating a random topography.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::case) enum Method {
-    LowPass,
-    Autocorrelation,
-    SelfAffine,
-}
-
-choice!(Method: "low-pass" => LowPass, "autocorrelation" => Autocorrelation, "self-affine" => SelfAffine);
-
-/// A [`Form`] without its parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::case) enum Shape {
-    Sphere,
-    Ellipsoid,
-    Cylinder,
-    Cone,
-    Flat,
-    Sinusoid,
-    Grooves,
-}
-
-choice!(
-    Shape: "sphere" => Sphere,
-    "ellipsoid" => Ellipsoid,
-    "cylinder" => Cylinder,
-    "cone" => Cone,
-    "flat" => Flat,
-    "sinusoid" => Sinusoid,
-    "grooves" => Grooves
-);
 
 /// The part of a topography to keep.
 pub(in crate::case) fn window(entry: &Entry<'_>) -> Result<[usize; 4]> {
@@ -73,14 +39,4 @@ pub(in crate::case) fn shape(entry: &Entry<'_>) -> Result<[usize; 2]> {
         Some(cells) if cells <= MAX_CELLS => Ok(shape),
         _ => Err(entry.unexpected("a grid of at most 2³² cells", None)),
     }
-}
-
-/// The radii of curvature of an ellipsoid.
-pub(in crate::case) fn radii(entry: &Entry<'_>) -> Result<[f64; 2]> {
-    const EXPECTED: &str = "two radii of curvature, along x and along y, such as [\"1 mm\", \"2 mm\"]";
-    if !entry.is_array() {
-        let hint = "a body of one radius is a `form = \"sphere\"`".to_owned();
-        return Err(entry.unexpected(EXPECTED, Some(hint)));
-    }
-    entry.array(EXPECTED, |item| item.positive(Dimension::Length))
 }

@@ -2,14 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use asperity_base::grid::{Field, Grid};
+use crate::adhesion::{Adhesion, RESOLVED_CELLS};
+use crate::grid::{Field, Grid};
+use crate::motion::{IncrementRecord, PassRecord};
+use crate::operator::Boundary;
+use crate::units::{Dimension, Joule, Metre, Newton, Pascal, PerMetre, format};
 use asperity_base::math::RealFft2;
 use asperity_base::math::fft::angular_frequency;
 use asperity_base::record::columns;
-use asperity_base::units::{Dimension, Joule, Metre, Newton, Pascal, PerMetre, format};
-use asperity_contact::adhesion::{Adhesion, RESOLVED_CELLS};
-use asperity_contact::motion::{IncrementRecord, PassRecord};
-use asperity_contact::operator::Boundary;
 
 columns! {
     /// Adhesion of two bodies in numbers: `adhesion` in `summary.json`.
@@ -39,7 +39,7 @@ columns! {
 
 impl AdhesionSummary {
     /// Creates the numbers of bodies of this composite modulus with this initial `gap`, before they are pressed.
-    pub(super) fn new(
+    pub fn new(
         adhesion: &Adhesion,
         gap: &Field,
         pitch: [Metre; 2],
@@ -66,7 +66,7 @@ impl AdhesionSummary {
     }
 
     /// Adds what a retreat shows: the increments over which the approach falls.
-    pub(super) fn after(self, increments: &[IncrementRecord]) -> Self {
+    pub fn after(self, increments: &[IncrementRecord]) -> Self {
         let retreats = increments.windows(2).filter(|pair| pair[1].approach < pair[0].approach);
         let (mut least, mut work) = (None, None);
         for pair in retreats {
@@ -81,7 +81,7 @@ impl AdhesionSummary {
     }
 
     /// Returns the warnings that the grid and the surfaces give before a contact is solved.
-    pub(super) fn warnings(&self, adhesion: &Adhesion, modulus: Pascal, pitch: Metre) -> Vec<String> {
+    pub fn warnings(&self, adhesion: &Adhesion, modulus: Pascal, pitch: Metre) -> Vec<String> {
         let length = |value| format(value, Dimension::Length);
         let coarse = (self.process_zone_cells < 0.999 * RESOLVED_CELLS).then(|| {
             format!(
@@ -98,13 +98,13 @@ impl AdhesionSummary {
 }
 
 /// Returns the warning about jumps of a loading.
-pub(super) fn jumps(increments: &[IncrementRecord]) -> Option<String> {
+pub fn jumps(increments: &[IncrementRecord]) -> Option<String> {
     let jumped = |increment: &&IncrementRecord| increment.adhesion.is_some_and(|adhesion| adhesion.jumps > 0);
     let jumps: Vec<_> = increments.iter().filter(jumped).collect();
     let first = jumps.first()?;
     Some(format!(
-        "the bodies jump in {} of {} increments, first in increment {}: the energy lost there depends on the increments; give more \
-         `increments`",
+        "the bodies jump in {} of {} increments, first in increment {}: the energy lost there depends on the increments; take more of \
+         them",
         jumps.len(),
         increments.len(),
         first.increment
@@ -112,7 +112,7 @@ pub(super) fn jumps(increments: &[IncrementRecord]) -> Option<String> {
 }
 
 /// Returns the warning about positions that depend on the one before.
-pub(super) fn depends_on_history(passes: &[PassRecord]) -> Option<String> {
+pub fn depends_on_history(passes: &[PassRecord]) -> Option<String> {
     /// Largest change of the load of a position, relative to the mean, without a warning.
     const INDEPENDENT: f64 = 0.01;
     let of_pass = |pass: &PassRecord| pass.adhesion.map_or(0.0, |adhesion| adhesion.history_difference);

@@ -1,80 +1,65 @@
 //! Wear: material removed from a body by sliding.
 
-use crate::error::{Error, Result, check_in};
+mod rules;
+mod table;
+mod views;
+
+pub use table::{WearCoefficient, WearRate};
+
+use self::rules::RULES;
+use super::film::{Film, GrowthSums};
+use super::views::{Answer, Kept, OfBodies, PassCell};
+use super::{BodyLaw, BodyLaws, LawRule};
+use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field};
-use crate::motion::body::State;
-use crate::motion::film::{Film, GrowthSums};
-use crate::motion::law::{ContactCells, Law};
-use crate::motion::pair::Pair;
-use crate::units::{Dimension, PerPascal};
+use crate::motion::{ContactCells, FrettingRecord, Law, Pair, PassRecord, State, UpdateRecord, WEAR};
+use crate::units::{Dimension, Pascal, PerPascal, format};
+use asperity_base::table::Source;
 
-/// Name of the wear law, and of the body state that stores the depth worn since the beginning, m.
-pub const WEAR: &str = "wear";
+impl BodyLaw for WearCoefficient {
+    const NAME: &'static str = WEAR;
+    const MEANING: &'static str = "wear law, see [below](#running-in)";
+    const RULES: &'static [LawRule<Self>] = RULES;
+    const EFFORT: f64 = 0.0;
+    const KEPT: &'static [Kept] = views::KEPT;
+    const CELL: PassCell = views::CELL;
+    const OF_PASSES: &'static [OfBodies<PassRecord>] = views::OF_PASSES;
+    const OF_UPDATES: &'static [OfBodies<UpdateRecord>] = views::OF_UPDATES;
+    const OF_CYCLES: &'static [OfBodies<FrettingRecord>] = views::OF_CYCLES;
 
-/// Wear coefficient of a body: it gives the depth that a cell loses while it slides by ds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct WearCoefficient {
-    /// The coefficient of the bare body k₀, > 0.
-    pub bare: PerPascal,
-    /// The coefficient k_f under a film of largest thickness, 0 to k₀; k₀ for a body without film.
-    pub under_film: PerPascal,
-    /// The quantity to which wear is proportional.
-    pub driver: WearDriver,
-}
-
-/// Quantity to which wear is proportional.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum WearDriver {
-    /// The pressure: k p ds, Archard's law.
-    Pressure,
-    /// The shear traction: α |q| ds, wear proportional to the frictional energy.
-    Shear,
-}
-
-impl WearCoefficient {
-    /// Creates Archard's law with the coefficient k in 1/Pa: volume over load and distance.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`].
-    pub fn archard(bare: PerPascal) -> Result<Self> {
-        Self { bare, under_film: bare, driver: WearDriver::Pressure }.checked()
+    fn on(self, hardness: Option<Pascal>, source: &dyn Source) -> Result<Self> {
+        self.of_hardness(hardness, source)
     }
 
-    /// Creates wear proportional to the frictional energy, with α in 1/Pa, which is m³/J.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`].
-    pub fn energy(bare: PerPascal) -> Result<Self> {
-        Self { bare, under_film: bare, driver: WearDriver::Shear }.checked()
+    fn law(bodies: [&BodyLaws; 2], _: &Pair) -> Result<Option<Box<dyn Law>>> {
+        let coefficients = bodies.map(|laws| laws.wear);
+        if coefficients.iter().all(Option::is_none) {
+            return Ok(None);
+        }
+        let wear = Wear::new(coefficients, bodies.map(|laws| laws.film))?;
+        Ok(Some(Box::new(wear)))
     }
 
-    /// Sets the coefficient under a film of largest thickness.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] if it is below 0 or above that of the bare body.
-    pub fn with_film(self, under_film: PerPascal) -> Result<Self> {
-        Self { under_film, ..self }.checked()
+    fn per_pressure(&self, friction: f64) -> PerPascal {
+        self.rate.per_pressure(friction)
     }
 
-    fn checked(self) -> Result<Self> {
-        let dimension = Dimension::WearCoefficient;
-        let finite = self.bare > 0.0 && self.bare.is_finite();
-        check_in(dimension, "coefficient", self.bare, finite, "a coefficient above 0")?;
-        let less = (0.0..=self.bare).contains(&self.under_film);
-        check_in(
-            dimension,
-            "under_film",
-            self.under_film,
-            less,
-            "a coefficient from 0 to that of the bare body",
-        )?;
-        Ok(self)
+    fn after_passes(passes: &[PassRecord]) -> Option<Answer> {
+        views::after_passes(passes)
     }
 
-    /// Coefficient under a film with the fraction `part` of its largest thickness.
-    fn under(&self, part: f64) -> PerPascal {
-        self.bare - (self.bare - self.under_film) * part.min(1.0)
+    fn after_sliding(update: &UpdateRecord) -> Option<Answer> {
+        views::after_sliding(update)
+    }
+
+    fn describe(&self) -> String {
+        let coefficient = |value| format(value, Dimension::WearCoefficient);
+        let driver = match self.rate {
+            WearRate::Energy(_) => "per energy of friction",
+            _ => "per load and distance",
+        };
+        let under = self.under_film.map(|value| format!(", {} under the film", coefficient(value)));
+        format!("{} {driver}{}", coefficient(self.rate.bare()), under.unwrap_or_default())
     }
 }
 
@@ -93,9 +78,10 @@ impl Wear {
     /// Creates the wear of the lower and of the upper body, with their `films`; `None` for a body that does not wear.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a coefficient under a film on a body without film.
+    /// [`Error::OutOfRange`]; [`Error::Unsupported`] for a coefficient under a film on a body without film.
     pub fn new(coefficients: [Option<WearCoefficient>; 2], films: [Option<Film>; 2]) -> Result<Self> {
-        let lowered = coefficients.map(|coefficient| coefficient.is_some_and(|k| k.under_film != k.bare));
+        coefficients.iter().flatten().try_for_each(WearCoefficient::checked)?;
+        let lowered = coefficients.map(|coefficient| coefficient.is_some_and(|k| k.is_lowered()));
         if (0..2).any(|body| lowered[body] && films[body].is_none()) {
             return Err(Error::Unsupported("a body without a film has no wear coefficient under one"));
         }
@@ -110,14 +96,14 @@ impl Wear {
             let Some(coefficient) = self.coefficients[body] else { return Field::zeros(work.raw_dim()) };
             let depth = |k: PerPascal, work: f64| k * work * passes;
             let Some(film) = &self.films[body] else {
-                return work.mapv(|work| depth(coefficient.bare, work));
+                return work.mapv(|work| depth(coefficient.rate.bare(), work));
             };
             let states = film.states([&pair.lower, &pair.upper][body]);
             let mut depths = work.clone();
             let growing = GrowthSums::of(&sums[body][1..]);
             for (cell, value) in depths.iter_mut().enumerate() {
                 let thickness = film.mean_thickness(states.at(cell), growing.at(cell), passes);
-                *value = depth(coefficient.under(thickness / film.max_thickness()), *value);
+                *value = depth(coefficient.under(thickness / film.max_thickness), *value);
             }
             depths
         })
@@ -146,9 +132,9 @@ impl Law for Wear {
     fn add(&self, _: &Pair, contact_cells: &ContactCells, sums: &mut [Vec<Field>; 2]) {
         for (body, sums) in sums.iter_mut().enumerate() {
             if let Some(coefficient) = self.coefficients[body] {
-                let driver = match coefficient.driver {
-                    WearDriver::Pressure => contact_cells.pressure,
-                    WearDriver::Shear => contact_cells.shear,
+                let driver = match coefficient.rate {
+                    WearRate::Energy(_) => contact_cells.shear,
+                    _ => contact_cells.pressure,
                 };
                 contact_cells
                     .add(body, &mut sums[0], |index| driver[index] * contact_cells.sliding_distance(index));
@@ -160,11 +146,8 @@ impl Law for Wear {
     }
 
     fn per_pressure(&self, friction: f64) -> [PerPascal; 2] {
-        self.coefficients.map(|coefficient| match coefficient {
-            None => 0.0,
-            Some(WearCoefficient { bare, driver: WearDriver::Pressure, .. }) => bare,
-            Some(WearCoefficient { bare, driver: WearDriver::Shear, .. }) => bare * friction,
-        })
+        self.coefficients
+            .map(|coefficient| coefficient.map_or(0.0, |coefficient| coefficient.rate.per_pressure(friction)))
     }
 
     fn per_pressure_of_cells(&self, pair: &Pair, sums: &[Vec<Field>; 2], friction: f64) -> [CellValues; 2] {
@@ -176,7 +159,7 @@ impl Law for Wear {
                 let mut cells = Field::zeros(sums[body][0].raw_dim());
                 for (cell, value) in cells.iter_mut().enumerate() {
                     let thickness = film.mean_thickness(states.at(cell), growing.at(cell), 1.0);
-                    let share = coefficient.under(thickness / film.max_thickness()) / coefficient.bare;
+                    let share = coefficient.under(thickness / film.max_thickness) / coefficient.rate.bare();
                     *value = bare[body] * share;
                 }
                 cells.into()

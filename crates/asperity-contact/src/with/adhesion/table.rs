@@ -1,0 +1,93 @@
+//! The table `[adhesion]`.
+
+use serde::{Serialize, Serializer};
+
+use crate::adhesion::{Adhesion, Potential};
+use crate::error::Result;
+use crate::grid::Grid;
+use crate::motion::AdhesionHistory;
+use crate::units::{Dimension, JoulePerSquareMetre, Metre, Pascal};
+use asperity_base::exists;
+use asperity_base::table::{Bounds, Key, Kind, Value};
+use asperity_derive::Table;
+
+/// Attraction between the bodies.
+#[derive(Table, Debug, Clone, Copy, PartialEq, Serialize)]
+#[table("adhesion")]
+#[non_exhaustive]
+pub struct Attraction {
+    /// Work of adhesion: the energy that separates an area of flat surfaces.
+    #[key(quantity = SurfaceEnergy, range = AboveZero, example = "\"50 mJ/m2\"", exists = exists::ADHESION)]
+    pub work: JoulePerSquareMetre,
+    /// Range of the attraction, the gap at which the exponential tension has fallen to 1/e.
+    #[key(
+        special = range,
+        form = "length > 0, or `\"grid\"`: the shortest range that the grid resolves",
+        dimension = Length,
+        example = "\"2 nm\"",
+        exists = exists::ATTRACTION
+    )]
+    pub range: AdhesionRange,
+    /// Tension as a function of the gap: `"exponential"`, or constant up to the range, for comparison with closed forms.
+    #[key(choice, default = Potential::Exponential, example = "\"dugdale\"")]
+    pub potential: Potential,
+    /// In a motion: `"none"`, the bodies come from afar at each position; `"path"`, in a shift, from the position before, so that jumps
+    /// lose energy.
+    #[key(choice, default = AdhesionHistory::None, example = "\"path\"")]
+    #[serde(skip_serializing_if = "is_none")]
+    pub history: AdhesionHistory,
+}
+
+/// Range of the attraction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AdhesionRange {
+    /// A length, > 0.
+    Length(Metre),
+    /// The shortest range that the grid resolves.
+    Grid,
+}
+
+/// The word for the shortest range that the grid resolves.
+const GRID: &str = "grid";
+
+impl Serialize for AdhesionRange {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        match self {
+            Self::Length(length) => serializer.serialize_f64(*length),
+            Self::Grid => serializer.serialize_str(GRID),
+        }
+    }
+}
+
+impl Attraction {
+    /// Returns the law for bodies with this composite modulus on a `grid`.
+    ///
+    /// # Errors
+    /// The errors of [`Adhesion::new`].
+    pub fn on(&self, grid: &Grid, modulus: Pascal) -> Result<Adhesion> {
+        let range = match self.range {
+            AdhesionRange::Length(range) => range,
+            AdhesionRange::Grid => Adhesion::grid_range(self.work, modulus, grid.pitch[0].max(grid.pitch[1])),
+        };
+        Ok(Adhesion::new(self.work, range)?.with_potential(self.potential))
+    }
+}
+
+/// Reads a length above 0, or the word for the shortest range that the grid resolves.
+fn range(value: &dyn Value, key: &Key) -> Result<AdhesionRange> {
+    match value.text() {
+        Ok(GRID) => Ok(AdhesionRange::Grid),
+        // No word is a length.
+        Ok(word) if !word.contains(|c: char| c.is_ascii_digit()) => {
+            let hint = value.similar(word, &[GRID]);
+            Err(value.unexpected("a length above 0 such as \"2 nm\", or \"grid\"", hint.as_deref()))
+        }
+        _ => {
+            value.real(key, &Kind::Quantity(Dimension::Length, Bounds::AboveZero)).map(AdhesionRange::Length)
+        }
+    }
+}
+
+fn is_none(history: &AdhesionHistory) -> bool {
+    *history == AdhesionHistory::None
+}

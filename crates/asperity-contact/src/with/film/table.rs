@@ -1,0 +1,186 @@
+//! The tables `[lower.film]` and `[upper.film]`.
+
+use serde::Serialize;
+
+use crate::error::{Result, check_in};
+use crate::units::{CubicMetre, Dimension, Joule, Kelvin, Metre, MetrePerSecond, Pascal, PerPascal, Range};
+use asperity_base::choice::choice;
+use asperity_base::exists::{HARDNESS, WEAR};
+use asperity_base::table::{Exists, Source, Table as _};
+use asperity_derive::{Part, Table};
+
+/// The film of a body: a thickness in each cell, which grows and is removed while the cell is in contact.
+#[derive(Table, Debug, Clone, Copy, PartialEq, Serialize)]
+#[table("lower.film", "upper.film", check = thinner)]
+#[non_exhaustive]
+pub struct Film {
+    /// Law of growth and removal.
+    #[key(part)]
+    #[serde(flatten)]
+    pub law: FilmLaw,
+    /// Upper limit of the film thickness.
+    #[key(quantity = Length, range = AboveZero, example = "\"150 nm\"", exists = THICKNESS)]
+    pub max_thickness: Metre,
+    /// Hardness under the thickest film, at most the hardness of the body; interpolated linearly in the thickness.
+    #[key(
+        quantity = Pressure,
+        range = AboveZero,
+        absent = "the hardness of the body",
+        example = "\"2 GPa\"",
+        exists = HARDNESS
+    )]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hardness: Option<Pascal>,
+}
+
+/// Law of growth and removal of a film.
+#[derive(Part, Debug, Clone, Copy, PartialEq, Serialize)]
+#[part(
+    key = "law",
+    example = "\"arrhenius\"",
+    meaning = "`\"arrhenius\"`: growth activated by stress, removal by sliding; `\"mechano-chemical\"`; `\"solid-lubricant\"`: a film that is there \
+               at its thickest in the beginning and is only worn off"
+)]
+#[serde(tag = "law", rename_all = "kebab-case")]
+pub enum FilmLaw {
+    /// df/dt = G (1 − f/f_max) − R f, where G follows Arrhenius under a stress σ and R = r p v.
+    Arrhenius {
+        /// Initial growth rate, at `at_temperature` and `at_stress`.
+        #[key(quantity = Speed, range = AboveZero, example = "\"20 nm/s\"", exists = GROWTH)]
+        rate: MetrePerSecond,
+        /// Temperature at which `rate` holds.
+        #[key(quantity = Temperature, range = Within(TEMPERATURES, false), example = "\"100 °C\"")]
+        at_temperature: Kelvin,
+        /// Stress at which `rate` holds.
+        #[key(quantity = Pressure, range = FromZero, example = "\"3 GPa\"", exists = STRESS)]
+        at_stress: Pascal,
+        /// Activation energy of the growth.
+        #[key(quantity = Energy, range = Within(ENERGIES, true), example = "\"0.8 eV\"")]
+        activation_energy: Joule,
+        /// Activation volume of the growth.
+        #[key(quantity = Volume, range = Within(VOLUMES, true), example = "\"3.8e-3 nm3\"")]
+        activation_volume: CubicMetre,
+        /// Stress that activates the growth; `"shear"` requires [friction].
+        #[key(choice, default = FilmStress::Pressure, example = "\"shear\"")]
+        stress: FilmStress,
+        /// Removal per pressure and sliding distance.
+        #[key(quantity = RemovalRate, range = FromZero, default = 0.0, written = "0", example = "\"1e-11 1/(Pa m)\"", exists = REMOVAL)]
+        removal: f64,
+    },
+    /// f = g − l ≥ 0: dg/dt = (k_B T/h_P) x (f_max − g), dl/dt = C₄ (C₃ − l). The film of a
+    /// bare cell, f = 0, is removed as fast as it grows while dl/dt would be above dg/dt.
+    ///
+    /// A. Ghanbarzadeh et al., Tribol. Int. 93, 573 (2016).
+    MechanoChemical {
+        /// Factor x of the growth.
+        #[key(number = "a number", range = Within(FACTORS, false), example = "1e-16")]
+        x: f64,
+        /// Final removal C₃ as a thickness, at most `max_thickness`.
+        #[key(quantity = Length, range = FromZero, example = "\"50 nm\"", exists = THICKNESS)]
+        c3: Metre,
+        /// Rate C₄ of the removal, in 1/s.
+        #[key(number = "a number", range = Within(RATES, true), example = "0.01")]
+        c4: f64,
+    },
+    /// A solid lubricant, such as bonded MoS₂, which begins at its largest thickness and only wears: df = −k p |ds| while f > 0.
+    SolidLubricant {
+        /// Film volume lost per load and sliding distance, until the film is worn off; the heights of the surface include the film.
+        #[key(quantity = WearCoefficient, range = AboveZero, example = "\"1e-6 mm3/(N m)\"", exists = WEAR)]
+        wear: PerPascal,
+    },
+}
+
+/// The stress that drives film growth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FilmStress {
+    /// The pressure.
+    Pressure,
+    /// The magnitude of the shear traction.
+    Shear,
+}
+
+choice!(FilmStress: "pressure" => Pressure, "shear" => Shear);
+
+/// Accepted activation energies, besides 0: up to 60 eV, far above that of any chemical bond. A number in eV without its
+/// unit is rejected.
+const ENERGIES: Range = Range { least: 1e-24, most: 1e-17, unit: "J" };
+/// Accepted activation volumes, besides 0: up to 1 µm³, for soft bodies under small stresses. A number in nm³ without its
+/// unit is rejected.
+const VOLUMES: Range = Range { least: 1e-36, most: 1e-18, unit: "m³" };
+/// Accepted temperatures of a known growth rate. A number below 200, in °C without its unit, is rejected.
+const TEMPERATURES: Range = Range { least: 200.0, most: 5000.0, unit: "K" };
+/// Accepted factors x of the mechano-chemical law.
+const FACTORS: Range = Range { least: 1e-45, most: 1.0, unit: "" };
+/// Accepted rates C₄ of the mechano-chemical law, besides 0.
+const RATES: Range = Range { least: 1e-15, most: 1e15, unit: "1/s" };
+
+const THICKNESS: Exists = Exists::Within {
+    least: 1e-10,
+    most: 1e-3,
+    of: "a layer of atoms to thick coatings",
+    slips: &["nm", "um"],
+};
+const GROWTH: Exists =
+    Exists::Within { least: 1e-16, most: 1e-3, of: "slow tribofilms to plating", slips: &["nm/s"] };
+const STRESS: Exists = Exists::Within {
+    least: 1e3,
+    most: 1e12,
+    of: "traffic on rubber to diamond anvils",
+    slips: &["GPa", "MPa"],
+};
+const REMOVAL: Exists =
+    Exists::Within { least: 1e-22, most: 1e-3, of: "lubricated films to brushes", slips: &[] };
+
+/// What `c3` is expected to be.
+const THINNER: &str = "no more than 'max_thickness'";
+
+fn thinner(read: &Film, source: &dyn Source) -> Result<()> {
+    match source.value("c3").filter(|_| read.is_removed_beyond()) {
+        Some(value) => Err(value.unexpected(THINNER, None)),
+        None => Ok(()),
+    }
+}
+
+impl Film {
+    /// Creates a film of thickness at most `max_thickness`, > 0, with a law. At its thickest it can carry at most the
+    /// pressure `hardness`, which is below that of the body.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`](crate::error::Error::OutOfRange).
+    pub fn new(law: FilmLaw, max_thickness: Metre, hardness: Option<Pascal>) -> Result<Self> {
+        let this = Self { law, max_thickness, hardness };
+        this.checked().map(|()| this)
+    }
+
+    pub(super) fn checked(&self) -> Result<()> {
+        self.check()?;
+        match self.law {
+            FilmLaw::MechanoChemical { c3, .. } => {
+                check_in(Dimension::Length, "c3", c3, !self.is_removed_beyond(), THINNER)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether the final removal is above the largest thickness.
+    fn is_removed_beyond(&self) -> bool {
+        matches!(self.law, FilmLaw::MechanoChemical { c3, .. } if c3 > self.max_thickness)
+    }
+
+    /// Checks that the film is no harder than a body of this hardness, if it is one number.
+    pub(super) fn softer_than(&self, hardness: Option<Pascal>, source: &dyn Source) -> Result<()> {
+        let is_harder = self.hardness.zip(hardness).is_some_and(|(film, body)| film > body);
+        let hint = "give the body a 'hardness', or leave out the hardness of the film";
+        match source.value("hardness").filter(|_| is_harder) {
+            Some(value) => Err(value.unexpected("no more than the hardness of the body", Some(hint))),
+            None => Ok(()),
+        }
+    }
+}
+
+impl FilmLaw {
+    /// Whether the film changes with time. A solid lubricant changes only with the distance slid.
+    pub fn takes_time(&self) -> bool {
+        !matches!(self, Self::SolidLubricant { .. })
+    }
+}

@@ -1,0 +1,53 @@
+//! Films in numbers, curves and maps.
+
+use super::GROWN;
+use crate::motion::{FILM, FrettingRecord, PassRecord, UpdateRecord};
+use crate::with::views::{Kept, KeptMap, OfBodies, PassCell};
+
+pub(super) const KEPT: &[Kept] = &[
+    Kept {
+        state: FILM,
+        names: ["film_lower", "film_upper"],
+        raises: 1.0,
+        map: Some(KeptMap {
+            title: "tribofilm",
+            of_fresh: "tribofilm",
+            of_body: "Thickness of the film on",
+            quantity: "thickness",
+        }),
+    },
+    Kept { state: GROWN, names: ["film_grown_lower", "film_grown_upper"], raises: 0.0, map: None },
+];
+
+pub(super) const CELL: PassCell = PassCell {
+    head: "film",
+    column: "mean_film_lower",
+    least: 1e-9,
+    value: |pass| pass.running.map_or(0.0, |running| running.mean_film_lower.max(running.mean_film_upper)),
+    adds_up: false,
+    is_inside: false,
+    about: "film: mean of the thicker",
+};
+
+pub(super) const OF_PASSES: &[OfBodies<PassRecord>] = &[OfBodies {
+    name: "mean film",
+    column: "mean_film_lower",
+    values: |pass| {
+        pass.running.map_or([0.0; 2], |running| [running.mean_film_lower, running.mean_film_upper])
+    },
+    adds_up: false,
+}];
+
+pub(super) const OF_UPDATES: &[OfBodies<UpdateRecord>] = &[OfBodies {
+    name: "mean film in contact",
+    column: "mean_film_lower",
+    values: |update| [update.mean_film_lower, update.mean_film_upper],
+    adds_up: false,
+}];
+
+pub(super) const OF_CYCLES: &[OfBodies<FrettingRecord>] = &[OfBodies {
+    name: "thickest film",
+    column: "max_film_lower",
+    values: |cycle| [cycle.max_film_lower, cycle.max_film_upper],
+    adds_up: false,
+}];

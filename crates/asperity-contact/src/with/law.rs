@@ -1,0 +1,130 @@
+//! The definition of a law that changes a body, as a table of the body.
+
+use std::fmt::Debug;
+
+use serde::Serialize;
+
+use super::BodyLaws;
+use super::views::{Answer, Kept, OfBodies, PassCell};
+use crate::error::Result;
+use crate::motion::{FrettingRecord, Law, Pair, PassRecord, UpdateRecord};
+use crate::units::{Pascal, PerPascal};
+use asperity_base::table::{self, Source, Table};
+
+/// Something that contacts do to a body, such as wear. Its struct is the table `[lower.NAME]` and `[upper.NAME]` of a case.
+pub trait BodyLaw: Table + Serialize + Clone + PartialEq + Debug + Send + Sync + 'static {
+    /// Name of its table, and of the law in results.
+    const NAME: &'static str;
+    /// Its meaning in the list of the keys of a body.
+    const MEANING: &'static str;
+    /// Combinations that exclude it, and what it requires.
+    const RULES: &'static [LawRule<Self>];
+    /// Work on a cell of a body in contact at a position, in the unit of effort; 0 if it does not matter beside the contact.
+    const EFFORT: f64;
+
+    /// Returns the law on a body whose hardness is one finite number; `None` for any other hardness.
+    ///
+    /// # Errors
+    /// A value that is not accepted on this body, at its place.
+    fn on(self, hardness: Option<Pascal>, source: &dyn Source) -> Result<Self> {
+        let _ = (hardness, source);
+        Ok(self)
+    }
+
+    /// Creates the law of the lower and of the upper body; `None` if neither has it.
+    ///
+    /// # Errors
+    /// The reason why it does not apply to a body.
+    fn law(bodies: [&BodyLaws; 2], pair: &Pair) -> Result<Option<Box<dyn Law>>>;
+
+    /// Depth that the body loses per pressure and distance slid, 1/Pa, with shear equal to `friction` times the pressure.
+    fn per_pressure(&self, friction: f64) -> PerPascal {
+        let _ = friction;
+        0.0
+    }
+
+    /// Describes the law, for `asperity check`.
+    fn describe(&self) -> String;
+
+    /// What it leaves on a body.
+    const KEPT: &'static [Kept];
+    /// Its column in the table of passes on the terminal.
+    const CELL: PassCell;
+    /// Its curves over the passes.
+    const OF_PASSES: &'static [OfBodies<PassRecord>];
+    /// Its curves over the updates of a contact that slides in place.
+    const OF_UPDATES: &'static [OfBodies<UpdateRecord>];
+    /// Its curves over the cycles of a loading, and its numbers at the end.
+    const OF_CYCLES: &'static [OfBodies<FrettingRecord>];
+
+    /// Returns what these passes have done, if it answers a question of the user.
+    fn after_passes(passes: &[PassRecord]) -> Option<Answer> {
+        let _ = passes;
+        None
+    }
+
+    /// Returns what sliding in place has done up to an update.
+    fn after_sliding(update: &UpdateRecord) -> Option<Answer> {
+        let _ = update;
+        None
+    }
+}
+
+/// A law in the list.
+pub trait ListedLaw: BodyLaw {
+    /// Returns it, if the body has it.
+    fn of(all: &BodyLaws) -> Option<&Self>;
+
+    /// Gives it to a body.
+    fn give(self, all: &mut BodyLaws);
+}
+
+/// A body that has a law, in its case.
+#[derive(Debug, Clone, Copy)]
+pub struct Circumstances<'a> {
+    /// All laws of the body.
+    pub laws: &'a BodyLaws,
+    /// Whether a cell of it can yield at a hardness.
+    pub yields: bool,
+    /// Whether there is friction.
+    pub has_friction: bool,
+    /// Whether the temperatures of the bodies are known.
+    pub has_temperature: bool,
+    /// How the bodies slip on each other.
+    pub slip: Slip,
+    /// What is missing to know the time of the steps; `None` if it is known.
+    pub timeless: Option<Timeless>,
+}
+
+/// How the bodies slip on each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Slip {
+    /// Not at all, or all at once without a distance.
+    None,
+    /// In passes over each other.
+    InPasses,
+    /// In passes in which both bodies roll without sliding.
+    Rolling,
+    /// In place, all cells alike.
+    InPlace,
+    /// In the stages of a loading with friction, each cell by its own distance.
+    InStages,
+}
+
+/// A missing time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Timeless {
+    /// The speed of a contact that slides in place.
+    InPlace,
+    /// Cycles in the stages of a loading.
+    Cycles,
+    /// The time of a cycle.
+    Period,
+    /// The speed of an overlap.
+    Overlap,
+    /// The speeds of a shift.
+    Shift,
+}
+
+/// A combination that excludes a law `L`, or something that it requires. A key `lower.…` stands for that of the body.
+pub type LawRule<L> = table::Rule<fn(&L, &Circumstances<'_>) -> bool>;

@@ -1,0 +1,86 @@
+//! Case files as the source of tables whose struct declares the keys.
+
+use super::super::cursor::{Entry, Table, did_you_mean};
+use super::tables::suits;
+use super::typed::{COUNT, expected, missing, real};
+use super::{Key, Kind};
+use asperity_base::error::{Error, Result};
+use asperity_base::table::{self, Source};
+use asperity_base::units::Dimension;
+
+impl Source for Table<'_> {
+    fn value(&self, key: &str) -> Option<Box<dyn table::Value + '_>> {
+        self.get(key).map(|entry| Box::new(entry) as Box<dyn table::Value>)
+    }
+
+    fn missing(&self, key: &Key) -> Error {
+        missing(key, self)
+    }
+
+    fn exactly_one(&self, keys: &[&'static str], hint: &str) -> Result<&'static str> {
+        self.exactly_one(keys, hint)
+    }
+
+    fn suits(&self, choice: &str) -> Result<()> {
+        suits(self, choice)
+    }
+}
+
+impl table::Value for Entry<'_> {
+    fn real(&self, key: &Key, kind: &Kind) -> Result<f64> {
+        real(kind, key, self)
+    }
+
+    fn count(&self, key: &Key) -> Result<usize> {
+        (COUNT.read)(key, self)
+    }
+
+    fn whole(&self) -> Result<u64> {
+        self.whole(0)
+    }
+
+    fn flag(&self) -> Result<bool> {
+        self.flag()
+    }
+
+    fn word(&self, words: &[&'static str]) -> Result<usize> {
+        self.word(&words.iter().copied().zip(0..).collect::<Vec<(&str, usize)>>())
+    }
+
+    fn text(&self) -> Result<&str> {
+        self.text()
+    }
+
+    fn pair(&self, key: &Key) -> Result<[f64; 2]> {
+        match key.kind {
+            Kind::Pair(item) => {
+                self.pair(&format!("{}, or two", expected(item, key)), |part| real(item, key, part))
+            }
+            Kind::Vector(item) => {
+                let noun = item.dimension().map_or("a number", Dimension::noun);
+                self.vector(&format!("{noun} along x, or two along x and y"), |part| real(item, key, part))
+            }
+            _ => unreachable!("two numbers are declared as such"),
+        }
+    }
+
+    fn is_array(&self) -> bool {
+        self.is_array()
+    }
+
+    fn items(&self, expected: &str) -> Result<Vec<Box<dyn table::Value + '_>>> {
+        Ok(self.items(expected)?.into_iter().map(|item| Box::new(item) as Box<dyn table::Value>).collect())
+    }
+
+    fn similar(&self, word: &str, words: &[&'static str]) -> Option<String> {
+        did_you_mean(word, words.iter().copied())
+    }
+
+    fn unexpected(&self, expected: &str, hint: Option<&str>) -> Error {
+        self.unexpected(expected, hint.map(str::to_owned))
+    }
+
+    fn error(&self, message: &str, hint: Option<&str>) -> Error {
+        self.error(message.to_owned(), hint.map(str::to_owned))
+    }
+}
