@@ -341,7 +341,8 @@ fn meaning(attributes: &[Attribute], name: &Ident) -> Result<String> {
         }
         words.push(line.trim().to_owned());
     }
-    let text = words.join(" ");
+    // A table of a case in brackets is escaped, because it is no link.
+    let text = words.join(" ").replace("\\[", "[").replace("\\]", "]");
     let text = text.strip_suffix('.').unwrap_or(&text);
     let mut characters = text.chars();
     let first = characters

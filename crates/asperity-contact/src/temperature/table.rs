@@ -26,7 +26,7 @@ pub struct Temperature {
     pub bulk: [Kelvin; 2],
     /// Computes the flash temperature at each position of every n-th computed pass, from the first on, for films and results; in other
     /// passes each cell has its mean temperature over the contacts of the last of these. It requires the thermal constants of both bodies,
-    /// [friction] and a speed. 0: the surfaces have the temperatures of the bodies.
+    /// \[friction\] and a speed. 0: the surfaces have the temperatures of the bodies.
     #[key(count = 0, absent = "1 with thermal constants, else 0", example = "10")]
     pub every: Option<usize>,
 }

@@ -103,8 +103,8 @@ fn amplitude(updates: usize, under: Option<(WearCoefficient, &Film)>, exact: f64
             contact.with_law(Wear::new([coefficient; 2], [None, None])?)
         }
         Some((coefficient, film)) => {
-            let films = [Some(film.clone()), Some(film.clone())];
-            let law = Films::new(films.clone(), contact.pair())?;
+            let films = [Some(*film), Some(*film)];
+            let law = Films::new(films, contact.pair())?;
             contact.with_law(Wear::new([Some(coefficient); 2], films)?).with_law(law)
         }
     };

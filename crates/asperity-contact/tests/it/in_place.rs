@@ -290,7 +290,7 @@ fn everything(pair: Pair, updates: usize) -> SlidingContact {
         .with_bulk([373.15; 2]);
     let films = [Some(growing()), Some(growing())];
     let coefficient = |k: f64| Some(WearCoefficient::energy(k).unwrap().with_film(0.1 * k).unwrap());
-    let law = Films::new(films.clone(), &pair).unwrap();
+    let law = Films::new(films, &pair).unwrap();
     let contact = SlidingContact::new(pair, Boundary::FREE, slide, Params::default()).unwrap();
     let contact = contact.with_law(Wear::new([4e-16, 2e-16].map(|k| coefficient(10.0 * k)), films).unwrap());
     contact.with_law(law).with_heat([thermal; 2]).unwrap()
@@ -490,7 +490,7 @@ fn a_solid_lubricant_is_worn_off_and_the_body_after_it() {
         let distance = share * gone;
         let film = Film::new(FilmLaw::SolidLubricant { wear: k_film }, thickness, None).unwrap();
         let coefficient = WearCoefficient::archard(k_bare).unwrap().with_film(k_under).unwrap();
-        let wear = Wear::new([Some(coefficient), None], [Some(film.clone()), None]).unwrap();
+        let wear = Wear::new([Some(coefficient), None], [Some(film), None]).unwrap();
         let films = Films::new([Some(film), None], &pair()).unwrap();
         let slide = Slide::graded(distance, updates, Control::Load(pressure * grid.area()));
         let contact = SlidingContact::new(pair(), Boundary::PERIODIC, slide, Params::default()).unwrap();

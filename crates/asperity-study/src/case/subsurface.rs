@@ -62,7 +62,7 @@ pub struct SubsurfaceSpec {
     )]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub columns: Vec<[Metre; 2]>,
-    /// [motion] only: position of each pass at which the stress is computed.
+    /// \[motion\] only: position of each pass at which the stress is computed.
     ///
     /// From 1.
     #[key(count = 1, absent = "the position with aligned left edges", example = "3")]

@@ -60,7 +60,7 @@ pub enum FilmLaw {
         /// Activation volume of the growth.
         #[key(quantity = Volume, range = Within(VOLUMES, true), example = "\"3.8e-3 nm3\"")]
         activation_volume: CubicMetre,
-        /// Stress that activates the growth; `"shear"` requires [friction].
+        /// Stress that activates the growth; `"shear"` requires \[friction\].
         #[key(choice, default = FilmStress::Pressure, example = "\"shear\"")]
         stress: FilmStress,
         /// Removal per pressure and sliding distance.

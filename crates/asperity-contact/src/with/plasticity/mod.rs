@@ -91,7 +91,7 @@ pub struct PlasticRegion {
         example = "1.2"
     )]
     pub growth: f64,
-    /// Static: equal steps of the loading in [contact], of each [[history]] stage without its own number, and of the unloading.
+    /// Static: equal steps of the loading in \[contact\], of each \[\[history\]\] stage without its own number, and of the unloading.
     ///
     /// `None` with friction, which sets them, and in a motion.
     #[key(count = 1, written = "16", example = "32")]
@@ -112,7 +112,7 @@ pub struct PlasticRegion {
     #[key(flag, written = "true", example = "false")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unload: Option<bool>,
-    /// [motion] only: whether the volumes of the last pass or of all passes are stored.
+    /// \[motion\] only: whether the volumes of the last pass or of all passes are stored.
     ///
     /// `None` for a static contact.
     #[key(choice, written = "\"last\"", example = "\"passes\"")]

@@ -45,7 +45,7 @@ pub enum WearRate {
     /// Archard's number. The table of a body turns it into the coefficient.
     #[key(number = "a number", range = AboveZero, example = "4e-7", exists = NUMBER)]
     Dimensionless(f64),
-    /// Wear volume per frictional energy; requires [friction].
+    /// Wear volume per frictional energy; requires \[friction\].
     ///
     /// The depth is α |q| ds, with α in 1/Pa, which is m³/J.
     #[key(quantity = WearCoefficient, range = AboveZero, example = "\"1e-6 mm3/J\"", exists = OF_ENERGY)]
