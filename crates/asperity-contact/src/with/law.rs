@@ -22,7 +22,18 @@ pub trait BodyLaw: Table + Serialize + Clone + PartialEq + Debug + Send + Sync +
     /// Work on a cell of a body in contact at a position, in the unit of effort; 0 if it does not matter beside the contact.
     const EFFORT: f64;
 
-    /// Returns the law on a body whose hardness is one finite number; `None` for any other hardness.
+    /// What it leaves on a body.
+    const KEPT: &'static [Kept];
+    /// Its column in the table of passes on the terminal.
+    const CELL: PassCell;
+    /// Its curves over the passes.
+    const OF_PASSES: &'static [OfBodies<PassRecord>];
+    /// Its curves over the updates of a contact that slides in place.
+    const OF_UPDATES: &'static [OfBodies<UpdateRecord>];
+    /// Its curves over the cycles of a loading, and its numbers at the end.
+    const OF_CYCLES: &'static [OfBodies<FrettingRecord>];
+
+    /// Returns the law as it is on a body. `hardness` is that of the body, if it is one finite number.
     ///
     /// # Errors
     /// A value that is not accepted on this body, at its place.
@@ -45,17 +56,6 @@ pub trait BodyLaw: Table + Serialize + Clone + PartialEq + Debug + Send + Sync +
 
     /// Describes the law, for `asperity check`.
     fn describe(&self) -> String;
-
-    /// What it leaves on a body.
-    const KEPT: &'static [Kept];
-    /// Its column in the table of passes on the terminal.
-    const CELL: PassCell;
-    /// Its curves over the passes.
-    const OF_PASSES: &'static [OfBodies<PassRecord>];
-    /// Its curves over the updates of a contact that slides in place.
-    const OF_UPDATES: &'static [OfBodies<UpdateRecord>];
-    /// Its curves over the cycles of a loading, and its numbers at the end.
-    const OF_CYCLES: &'static [OfBodies<FrettingRecord>];
 
     /// Returns what these passes have done, if it answers a question of the user.
     fn after_passes(passes: &[PassRecord]) -> Option<Answer> {
