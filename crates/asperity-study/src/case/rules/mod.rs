@@ -34,14 +34,19 @@ struct Tables<'a> {
     case: &'a Case,
 }
 
+/// Rules of the bodies and of their loading and motion, which come before those of the laws that change the bodies.
+const OF_THE_CONTACT: [&[Rule]; 5] =
+    [bodies::RULES, motion::RULES, loading::RULES, plasticity::RULES, running::RULES];
+
+/// Rules of everything else, which come after those of the laws.
+const OF_THE_REST: [&[Rule]; 4] = [temperature::RULES, output::RULES, adhesion::RULES, device::RULES];
+
 /// Returns an error if the case breaks a rule.
 pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
     let tables = Tables { root, case };
-    for rule in tables_of_rules().into_iter().flatten() {
-        if let Some(entry) = (rule.broken)(&tables) {
-            return Err(refused(rule, &entry));
-        }
-    }
+    tables.check(&OF_THE_CONTACT)?;
+    tables.check_laws()?;
+    tables.check(&OF_THE_REST)?;
     let surroundings = case.surroundings();
     each_capability!(C => for rule in C::RULES {
         let is_broken = C::asked(&case.with).is_some_and(|asked| (rule.broken)(asked, &surroundings));
@@ -49,39 +54,16 @@ pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
             return Err(refused(rule, &entry));
         }
     });
-    for (name, body) in [("lower", &case.lower), ("upper", &case.upper)] {
-        let circumstances = tables.circumstances(body);
-        each_law!(L => for rule in L::RULES {
-            let is_broken = L::of(&body.laws).is_some_and(|law| (rule.broken)(law, &circumstances));
-            let at = rule.at.strip_prefix("lower").map_or(rule.at.to_owned(), |key| format!("{name}{key}"));
-            if let Some(entry) = tables.at(&at).filter(|_| is_broken) {
-                return Err(refused(rule, &entry));
-            }
-        });
-    }
     Ok(())
 }
 
 /// Returns the rules of a case file, in the order in which a case is checked.
 pub fn rules() -> Vec<Exclusion> {
-    let mut exclusions: Vec<_> = tables_of_rules().into_iter().flatten().map(Rule::described).collect();
-    each_capability!(C => exclusions.extend(C::RULES.iter().map(table::Rule::described)));
+    let mut exclusions: Vec<_> = OF_THE_CONTACT.into_iter().flatten().map(Rule::described).collect();
     each_law!(L => exclusions.extend(L::RULES.iter().map(table::Rule::described)));
+    exclusions.extend(OF_THE_REST.into_iter().flatten().map(Rule::described));
+    each_capability!(C => exclusions.extend(C::RULES.iter().map(table::Rule::described)));
     exclusions
-}
-
-fn tables_of_rules() -> [&'static [Rule]; 9] {
-    [
-        bodies::RULES,
-        motion::RULES,
-        loading::RULES,
-        plasticity::RULES,
-        running::RULES,
-        temperature::RULES,
-        output::RULES,
-        adhesion::RULES,
-        device::RULES,
-    ]
 }
 
 /// Returns the error for an entry that breaks a rule.
@@ -92,6 +74,27 @@ fn refused<F>(rule: &table::Rule<F>, entry: &Entry<'_>) -> Error {
 }
 
 impl<'a> Tables<'a> {
+    /// Returns an error if the case breaks one of these rules.
+    fn check(&self, rules: &[&[Rule]]) -> Result<()> {
+        let broken = rules.iter().copied().flatten().find_map(|rule| Some((rule, (rule.broken)(self)?)));
+        broken.map_or(Ok(()), |(rule, entry)| Err(refused(rule, &entry)))
+    }
+
+    /// Returns an error if the case breaks a rule of a law that changes a body.
+    fn check_laws(&self) -> Result<()> {
+        for (name, body) in [("lower", &self.case.lower), ("upper", &self.case.upper)] {
+            let circumstances = self.circumstances(body);
+            each_law!(L => for rule in L::RULES {
+                let is_broken = L::of(&body.laws).is_some_and(|law| (rule.broken)(law, &circumstances));
+                let at = rule.at.strip_prefix("lower").map_or(rule.at.to_owned(), |key| format!("{name}{key}"));
+                if let Some(entry) = self.at(&at).filter(|_| is_broken) {
+                    return Err(refused(rule, &entry));
+                }
+            });
+        }
+        Ok(())
+    }
+
     /// Returns the entry of a dotted key, if it is given.
     fn at(&self, key: &str) -> Option<Entry<'a>> {
         fn find<'a>(table: &Table<'a>, key: &str) -> Option<Entry<'a>> {
