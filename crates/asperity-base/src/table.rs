@@ -270,7 +270,7 @@ pub trait Value {
 /// Reads a key, if it is given.
 ///
 /// # Errors
-/// Those of `read`.
+/// The errors of `read`.
 pub fn optional<T>(
     source: &dyn Source,
     key: &Key,

@@ -8,7 +8,7 @@ use syn::{Data, DataEnum, DeriveInput, Error, Fields, Ident, LitStr, Path, Resul
 
 use crate::field::{Field, fields, kebab, snake};
 
-/// What the attribute of a part says.
+/// Contents of the attribute of a part.
 #[derive(Default)]
 struct Attribute {
     key: Option<LitStr>,

@@ -1,7 +1,7 @@
 //! Rows of passes and of points.
 
 use asperity::each_law;
-use asperity::motion::{PassRecord, RunningRecord, SweepRecord};
+use asperity::motion::{PassRecord, SweepRecord};
 use asperity::study::case::{Case, Source};
 use asperity::with::views::PassCell;
 use asperity::with::{BodyLaw, ListedLaw};
@@ -82,8 +82,13 @@ impl Rows {
         ranked.push((Rank::Roughness, Cell::of("Sq lower", "sq_lower_interior", pass.sq_lower_interior)));
         ranked
             .push((Rank::UpperRoughness, Cell::of("Sq upper", "sq_upper_interior", pass.sq_upper_interior)));
+        ranked.extend(self.of_laws(pass));
         match &pass.running {
-            Some(running) => ranked.extend(self.running(pass, running)),
+            Some(running) if running.max_flash_temperature.is_finite() => {
+                let temperature = Cell::of("T max", "max_flash_temperature", running.max_flash_temperature);
+                ranked.push((Rank::Always, temperature));
+            }
+            Some(_) => {}
             None if self.slides => {
                 let friction = Cell::of("friction", "friction_coefficient", pass.friction_coefficient);
                 ranked.push((Rank::Friction, friction));
@@ -95,18 +100,13 @@ impl Rows {
         above + &self.columns.row("pass", self.done, &cells)
     }
 
-    /// Returns the cells of the laws and of frictional heat in the row of a pass.
-    fn running(&mut self, pass: &PassRecord, running: &RunningRecord) -> Vec<(Rank, Cell)> {
-        let mut cells = Vec::new();
-        for (cell, sum) in &mut self.laws {
+    /// Returns the cells of the laws in the row of a pass.
+    fn of_laws(&mut self, pass: &PassRecord) -> Vec<(Rank, Cell)> {
+        let cell = |(cell, sum): &mut (PassCell, f64)| {
             *sum = if cell.adds_up { *sum } else { 0.0 } + (cell.value)(pass);
-            cells.push((Rank::Always, Cell::growing(cell.head, cell.column, cell.least, *sum)));
-        }
-        if running.max_flash_temperature.is_finite() {
-            let temperature = Cell::of("T max", "max_flash_temperature", running.max_flash_temperature);
-            cells.push((Rank::Always, temperature));
-        }
-        cells
+            (Rank::Always, Cell::growing(cell.head, cell.column, cell.least, *sum))
+        };
+        self.laws.iter_mut().map(cell).collect()
     }
 
     /// Returns the lines above the heads of the columns of passes.

@@ -15,7 +15,7 @@ use asperity_derive::Table;
 pub struct Temperature {
     /// Temperature of the bodies far from the contact; a number without a unit is in kelvin.
     ///
-    /// Of the lower and of the upper body.
+    /// The lower body is first.
     #[key(
         special = both,
         form = "temperature > 0 K, or two: `[lower, upper]`",

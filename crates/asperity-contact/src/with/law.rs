@@ -22,7 +22,7 @@ pub trait BodyLaw: Table + Serialize + Clone + PartialEq + Debug + Send + Sync +
     /// Work on a cell of a body in contact at a position, in the unit of effort; 0 if it does not matter beside the contact.
     const EFFORT: f64;
 
-    /// What it leaves on a body.
+    /// Fields that it leaves on a body.
     const KEPT: &'static [Kept];
     /// Its column in the table of passes on the terminal.
     const CELL: PassCell;
@@ -92,7 +92,7 @@ pub struct Circumstances<'a> {
     pub has_temperature: bool,
     /// How the bodies slip on each other.
     pub slip: Slip,
-    /// What is missing to know the time of the steps; `None` if it is known.
+    /// The quantity that is missing to know the time of the steps; `None` if the time is known.
     pub timeless: Option<Timeless>,
 }
 

@@ -151,7 +151,7 @@ pub struct Answer {
     pub name: &'static str,
     /// The value, with its unit.
     pub value: String,
-    /// What the value is.
+    /// Explanation of the value.
     pub about: String,
     /// The answer as a sentence.
     pub sentence: String,

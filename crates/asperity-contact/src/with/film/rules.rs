@@ -1,4 +1,4 @@
-//! What a film requires.
+//! Requirements of films.
 
 use super::{Film, FilmLaw, FilmStress};
 use crate::with::{Circumstances, LawRule, Slip, Timeless};

@@ -131,7 +131,7 @@ const STRESS: Exists = Exists::Within {
 const REMOVAL: Exists =
     Exists::Within { least: 1e-22, most: 1e-3, of: "lubricated films to brushes", slips: &[] };
 
-/// What `c3` is expected to be.
+/// Expectation of `c3` in errors.
 const THINNER: &str = "no more than 'max_thickness'";
 
 fn thinner(read: &Film, source: &dyn Source) -> Result<()> {

@@ -1,4 +1,4 @@
-//! What wear requires.
+//! Requirements of wear.
 
 use super::{WearCoefficient, WearRate};
 use crate::with::{LawRule, Slip};

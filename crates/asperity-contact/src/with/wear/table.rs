@@ -62,7 +62,7 @@ const NUMBER: Exists = Exists::Within {
     slips: &["coefficient = \"{} mm3/(N m)\""],
 };
 
-/// What a coefficient under a film is expected to be.
+/// Expectation of a coefficient under a film in errors.
 const LOWER: &str = "no more than the coefficient of the bare body";
 
 fn lowered_by_film(read: &WearCoefficient, source: &dyn Source) -> Result<()> {
