@@ -14,10 +14,6 @@ const fn within(least: f64, most: f64, of: &'static str, slips: &'static [&'stat
 pub const YOUNG: Exists = within(1e4, 1.3e12, "soft gels to diamond", &["GPa", "MPa"]);
 /// Hardnesses.
 pub const HARDNESS: Exists = within(1e6, 1.5e11, "wax to diamond", &["GPa", "MPa"]);
-/// Yield stresses.
-pub const YIELD: Exists = within(1e5, 2e10, "soft solder to whiskers", &["MPa", "GPa"]);
-/// Increases of a yield stress per plastic strain.
-pub const HARDENING: Exists = within(1e5, 1e12, "polymers to cold-worked steel", &["MPa", "GPa"]);
 /// Thermal conductivities.
 pub const CONDUCTIVITY: Exists = within(0.08, 4e3, "polymers to diamond", &["W/(mm K)"]);
 /// Electrical resistivities.
@@ -38,12 +34,6 @@ pub const WEAR: Exists = within(
     "well lubricated bearings to dry metals that seize",
     &["dimensionless = {}", "mm3/(N m)"],
 );
-/// Works of adhesion.
-///
-/// Israelachvili, Intermolecular and Surface Forces: 10 mJ/m² in liquids to some J/m² of clean metals.
-pub const ADHESION: Exists = within(1e-5, 10.0, "solids in liquids to clean metals", &["mJ/m2"]);
-/// Ranges of attractions.
-pub const ATTRACTION: Exists = within(1e-11, 1e-4, "atoms to capillary bridges", &["nm"]);
 /// Coefficients of friction.
 ///
 /// Bowden & Tabor, The Friction and Lubrication of Solids: above 3 clean metals in vacuum seize, and nothing slides.

@@ -176,11 +176,6 @@ pub trait Part: Sized {
     /// # Errors
     /// [`Error::OutOfRange`].
     fn check(&self) -> Result<()>;
-
-    /// Whether any of the keys is given.
-    fn is_given(source: &dyn Source) -> bool {
-        Self::keys().iter().any(|key| source.value(key.name).is_some())
-    }
 }
 
 /// A place from which the keys of a table are read.
@@ -217,12 +212,6 @@ pub trait Value {
     /// # Errors
     /// As all methods.
     fn count(&self, key: &Key) -> Result<usize>;
-
-    /// Reads a whole number of any size, such as a seed.
-    ///
-    /// # Errors
-    /// As all methods.
-    fn whole(&self) -> Result<u64>;
 
     /// Reads true or false.
     ///
@@ -279,18 +268,51 @@ pub fn optional<T>(
     source.value(key.name).map(|value| read(value.as_ref())).transpose()
 }
 
+/// Returns an error at a key that is given, unless its value `holds` beside the others.
+///
+/// # Errors
+/// The error of [`Value::unexpected`].
+pub fn require(
+    source: &dyn Source,
+    key: &str,
+    holds: bool,
+    expected: &str,
+    hint: Option<&str>,
+) -> Result<()> {
+    match source.value(key).filter(|_| !holds) {
+        Some(value) => Err(value.unexpected(expected, hint)),
+        None => Ok(()),
+    }
+}
+
+/// Reads each item of an array; `expected` describes it.
+///
+/// # Errors
+/// As the methods of [`Value`].
+pub fn list<T>(value: &dyn Value, expected: &str, read: impl Fn(&dyn Value) -> Result<T>) -> Result<Vec<T>> {
+    value.items(expected)?.iter().map(|item| read(item.as_ref())).collect()
+}
+
+/// Reads an array of two items; `expected` describes it.
+///
+/// # Errors
+/// As the methods of [`Value`].
+pub fn two<T>(value: &dyn Value, expected: &str, read: impl Fn(&dyn Value) -> Result<T>) -> Result<[T; 2]> {
+    list(value, expected, read)?.try_into().map_err(|_| value.unexpected(expected, None))
+}
+
 /// Checks a number against the bounds of its key.
 ///
 /// # Errors
 /// [`Error::OutOfRange`].
 pub fn check(key: &Key, value: f64) -> Result<()> {
-    let (dimension, noun, bounds) = match key.kind {
-        Kind::Quantity(dimension, bounds) => (Some(dimension), dimension.noun(), bounds),
-        Kind::Number(noun, bounds) => (None, noun, bounds),
+    let (kind, dimension, bounds) = match key.kind {
         Kind::Pair(kind) | Kind::Vector(kind) => return check(&Key { kind: *kind, ..*key }, value),
+        Kind::Quantity(dimension, bounds) => (key.kind, Some(dimension), bounds),
+        Kind::Number(_, bounds) => (key.kind, None, bounds),
         Kind::Count { least, most } => {
             let bounds = Bounds::Between { least: least as f64, most: most as f64, open: [false, false] };
-            (None, "a whole number", bounds)
+            (key.kind, None, bounds)
         }
         _ => return Ok(()),
     };
@@ -298,8 +320,43 @@ pub fn check(key: &Key, value: f64) -> Result<()> {
     if bounds.hold(value) && (value.is_finite() || may_be_infinite) {
         return Ok(());
     }
-    let expected = format!("{noun}{bounds}").into();
-    Err(Error::OutOfRange { quantity: key.name, value, dimension, expected })
+    Err(Error::OutOfRange { quantity: key.name, value, dimension, expected: expected(&kind, key).into() })
+}
+
+/// Returns what an error says that a quantity, a number or a count of this kind is expected to be.
+///
+/// # Panics
+/// For another kind.
+pub fn expected(kind: &Kind, key: &Key) -> String {
+    match *kind {
+        Kind::Count { least, most: u64::MAX } => format!("a whole number of at least {least}"),
+        Kind::Count { least, most } => format!("a whole number from {least} to {most}"),
+        Kind::Quantity(_, Bounds::Within(range, zero)) | Kind::Number(_, Bounds::Within(range, zero)) => {
+            format!("{}a magnitude of {range}", if zero { "0, or " } else { "" })
+        }
+        Kind::Quantity(dimension, Bounds::Any) => {
+            format!("{} such as \"{}\"", dimension.noun(), dimension.example())
+        }
+        Kind::Quantity(dimension, Bounds::FromZero) => format!("{} of at least 0", dimension.noun()),
+        Kind::Quantity(dimension, _) => {
+            format!("{} above 0 such as \"{}\"", dimension.noun(), dimension.example())
+        }
+        Kind::Number(noun, bounds) => match bounds {
+            Bounds::FromZero => format!("{noun} of at least 0 such as {}", key.example),
+            Bounds::AboveZero => format!("{noun} above 0 such as {}", key.example),
+            Bounds::FromZeroOrInfinite(meaning) => {
+                format!("{noun} of at least 0 such as {}, or inf: {meaning}", key.example)
+            }
+            Bounds::Between { least, most, open: [from, to] } => match (from, to) {
+                (false, false) => format!("{noun} from {least} to {most}"),
+                (false, true) => format!("{noun} from {least}, below {most}"),
+                (true, false) => format!("{noun} above {least}, at most {most}"),
+                (true, true) => format!("{noun} above {least}, below {most}"),
+            },
+            Bounds::Any | Bounds::AboveZeroOrInfinite(_) | Bounds::Within(..) => noun.to_owned(),
+        },
+        _ => unreachable!("a key that is read as a number is declared as one"),
+    }
 }
 
 /// A combination of entries that is refused, or something that an entry requires.

@@ -11,7 +11,7 @@ use asperity::study::{
 };
 use asperity::units::{self, Dimension, bytes};
 use asperity::with::adhesion::{AdhesionRange, Attraction};
-use asperity::with::{BodyLaw, Capability, Listed, ListedLaw};
+use asperity::with::{BodyLaw, Capability, Listed};
 use asperity::{each_capability, each_law};
 
 use crate::args::Check;
@@ -65,7 +65,7 @@ fn text(
     let device = device.as_ref().map(|card| ("device", on_device(card)));
     let mut asked = Vec::new();
     let surroundings = case.surroundings();
-    each_capability!(C => asked.extend(C::asked(&case.with).map(|asked| (C::VERB, asked.describe(&surroundings)))));
+    each_capability!(C => asked.extend(C::of(&case.with).map(|asked| (C::VERB, asked.describe(&surroundings)))));
     let mut page = format!("{}\n\n", case.title);
     let laws = laws(case, demand);
     let besides = theory.into_iter().chain(friction).chain(history).chain(adhesion);

@@ -9,15 +9,11 @@ use syn::{
 };
 
 /// The values that a key accepts.
-#[derive(Clone)]
 enum Accepts {
     /// A word of a `Choice`.
     Choice,
     Flag,
-    Text,
     Count(LitInt),
-    /// A whole number of any size.
-    Whole,
     Number(LitStr),
     Quantity(Expr),
     /// Values of a special form, with their reader.
@@ -27,17 +23,15 @@ enum Accepts {
 }
 
 /// A field of a table.
-#[derive(Clone)]
 pub(crate) struct Field<'a> {
     pub(crate) name: Ident,
-    key: Option<LitStr>,
     of: &'a Type,
     is_optional: bool,
     accepts: Accepts,
     range: Option<Expr>,
     most: Option<LitInt>,
-    /// `pair` or `vector`: two numbers.
-    both: Option<Ident>,
+    /// Whether the value is a pair of numbers, or one for both axes.
+    is_pair: bool,
     dimension: Option<Ident>,
     form: Option<LitStr>,
     default: Option<Expr>,
@@ -63,7 +57,7 @@ impl<'a> Field<'a> {
         absent: &LitStr,
     ) -> Result<Self> {
         let field = Self::new(name, attributes, of)?;
-        Ok(Self { is_optional: true, absent: Some(absent.clone()), ..field })
+        Ok(Self { absent: Some(absent.clone()), ..field })
     }
 
     fn new(name: Ident, attributes: &'a [Attribute], of: &'a Type) -> Result<Self> {
@@ -75,13 +69,12 @@ impl<'a> Field<'a> {
         let attribute = attribute.ok_or_else(|| Error::new_spanned(&name, "a key needs #[key(…)]"))?;
         let mut field = Self {
             name,
-            key: None,
             of,
             is_optional,
             accepts: Accepts::Part,
             range: None,
             most: None,
-            both: None,
+            is_pair: false,
             dimension: None,
             form: None,
             default: None,
@@ -97,15 +90,12 @@ impl<'a> Field<'a> {
             match word.to_string().as_str() {
                 "choice" => accepts = Some(Accepts::Choice),
                 "flag" => accepts = Some(Accepts::Flag),
-                "text" => accepts = Some(Accepts::Text),
-                "whole" => accepts = Some(Accepts::Whole),
                 "part" => accepts = Some(Accepts::Part),
                 "count" => accepts = Some(Accepts::Count(meta.value()?.parse()?)),
                 "number" => accepts = Some(Accepts::Number(meta.value()?.parse()?)),
                 "quantity" => accepts = Some(Accepts::Quantity(meta.value()?.parse()?)),
                 "special" => accepts = Some(Accepts::Special(meta.value()?.parse()?)),
-                "pair" | "vector" => field.both = Some(word.clone()),
-                "name" => field.key = Some(meta.value()?.parse()?),
+                "pair" => field.is_pair = true,
                 "range" => field.range = Some(meta.value()?.parse()?),
                 "most" => field.most = Some(meta.value()?.parse()?),
                 "dimension" => field.dimension = Some(meta.value()?.parse()?),
@@ -127,11 +117,6 @@ impl<'a> Field<'a> {
         Ok(field)
     }
 
-    /// The field with a value in any case.
-    pub(crate) fn required(&self) -> Self {
-        Self { is_optional: false, ..self.clone() }
-    }
-
     /// The type whose keys stand in place of the field, if it is a part.
     pub(crate) fn part(&self) -> Option<&'a Type> {
         matches!(self.accepts, Accepts::Part).then_some(self.of)
@@ -139,7 +124,7 @@ impl<'a> Field<'a> {
 
     /// The declaration of the key.
     pub(crate) fn declaration(&self) -> Result<TokenStream> {
-        let name = self.key.as_ref().map_or_else(|| self.name.to_string(), LitStr::value);
+        let name = self.name.to_string();
         let (kind, meaning) = (self.kind()?, &self.meaning);
         let example = match &self.example {
             Some(example) => quote!(#example),
@@ -195,15 +180,7 @@ impl<'a> Field<'a> {
     pub(crate) fn reader(&self, key: &TokenStream) -> TokenStream {
         let (name, of) = (&self.name, self.of);
         if self.part().is_some() {
-            return match self.is_optional {
-                false => quote!(let #name = <#of as ::asperity_base::table::Part>::read(source)?;),
-                true => quote! {
-                    let #name = match <#of as ::asperity_base::table::Part>::is_given(source) {
-                        true => Some(<#of as ::asperity_base::table::Part>::read(source)?),
-                        false => None,
-                    };
-                },
-            };
+            return quote!(let #name = <#of as ::asperity_base::table::Part>::read(source)?;);
         }
         let given = self.given(key);
         let read = match &self.default {
@@ -223,10 +200,8 @@ impl<'a> Field<'a> {
                     .map(|word| <#of as ::asperity_base::choice::Choice>::WORDS[word].1)
             },
             Accepts::Flag => quote!(value.flag()),
-            Accepts::Text => quote!(value.text().map(|text| <#of>::from(text))),
             Accepts::Count(_) => quote!(value.count(#key)),
-            Accepts::Whole => quote!(value.whole()),
-            Accepts::Number(_) | Accepts::Quantity(_) if self.both.is_some() => quote!(value.pair(#key)),
+            Accepts::Number(_) | Accepts::Quantity(_) if self.is_pair => quote!(value.pair(#key)),
             Accepts::Quantity(dimension) if self.form.is_some() => {
                 let bounds = self.bounds();
                 quote!(value.real(#key, &::asperity_base::table::Kind::Quantity(#dimension, #bounds)))
@@ -244,7 +219,7 @@ impl<'a> Field<'a> {
         let one = match &self.accepts {
             Accepts::Part => quote!(<#of as ::asperity_base::table::Part>::check(value)?;),
             Accepts::Count(_) => quote!(::asperity_base::table::check(#key, *value as f64)?;),
-            Accepts::Number(_) | Accepts::Quantity(_) if self.both.is_some() => {
+            Accepts::Number(_) | Accepts::Quantity(_) if self.is_pair => {
                 quote!(for value in value { ::asperity_base::table::check(#key, *value)?; })
             }
             Accepts::Number(_) | Accepts::Quantity(_) => {
@@ -264,8 +239,6 @@ impl<'a> Field<'a> {
         let kind = match (&self.accepts, &self.form) {
             (Accepts::Choice, _) => quote!(Choice(<#of as ::asperity_base::choice::Choice>::NAMES)),
             (Accepts::Flag, _) => quote!(Flag),
-            (Accepts::Text, _) => quote!(Text),
-            (Accepts::Whole, _) => quote!(Count { least: 0, most: u64::MAX }),
             (Accepts::Count(least), _) => {
                 let most = self.most.as_ref().map_or(quote!(u64::MAX), |most| quote!(#most));
                 quote!(Count { least: #least, most: #most })
@@ -292,11 +265,7 @@ impl<'a> Field<'a> {
             (Accepts::Part, _) => unreachable!("a part declares its own keys"),
         };
         let kind = quote!(::asperity_base::table::Kind::#kind);
-        Ok(match &self.both {
-            None => kind,
-            Some(both) if both == "pair" => quote!(::asperity_base::table::Kind::Pair(&#kind)),
-            Some(_) => quote!(::asperity_base::table::Kind::Vector(&#kind)),
-        })
+        Ok(if self.is_pair { quote!(::asperity_base::table::Kind::Pair(&#kind)) } else { kind })
     }
 
     fn bounds(&self) -> TokenStream {

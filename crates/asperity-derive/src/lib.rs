@@ -33,24 +33,21 @@ use syn::{DeriveInput, parse_macro_input};
 /// |---|---|
 /// | `choice` | one of the words of a `Choice` |
 /// | `flag` | true or false |
-/// | `text` | a text |
 /// | `count = 1` | a whole number of at least 1, and at most `most` |
-/// | `whole` | a whole number of any size, such as a seed |
 /// | `number = "a share"` | a number, with its name in messages, within a `range` |
 /// | `quantity = Length` | a quantity of this `Dimension`, within a `range` |
 /// | … and `pair` | one of these for both axes, or two |
-/// | … and `vector` | one of these along x, or two along x and y |
 /// | `quantity = kind.drop(), form = "…"` | one whose dimension depends on the fields above, as the documentation describes it |
 /// | `special = reader, form = "…"` | values that a function reads, of a `dimension`, if any |
 /// | `part` | the keys of a type that derives [`derive@Part`] |
 ///
-/// `range` is a variant of `Bounds`. A field that is an `Option` is `None` without the key. Any other has a `default`, an
-/// expression as a case file would write it, or the key must be given; `written = "\"5 nm\""` writes it with a unit; on an `Option` it
-/// tells the value that stands for `None`. `absent` tells in words what holds without the key. `exists` is an expression of the type `Exists`.
+/// `range` is a variant of `Bounds`. A field that is an `Option` is `None` without the key. Any other field has a `default`, or its key must
+/// be given. A default is an expression as a case file writes it; `written = "\"5 nm\""` writes it with a unit. The `written` value of an
+/// `Option` is the one that the reader of the whole case puts in place of `None`. `absent` describes in words what holds without the key.
+/// `exists` is an expression of the type `Exists`.
 ///
 /// `#[table("output", default)]` also implements `Default`, for a table all of whose keys have a default. `#[table("…", check = function)]`
-/// names a function that gets the struct and the source, and returns an error for values that do not go together. A key has the name of
-/// its field, or its own: `name = "section"`.
+/// names a function that gets the struct and the source, and returns an error for values that do not go together.
 #[proc_macro_derive(Table, attributes(table, key))]
 pub fn table(input: TokenStream) -> TokenStream {
     let input = parse_macro_input!(input as DeriveInput);

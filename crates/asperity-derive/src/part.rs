@@ -14,7 +14,6 @@ struct Attribute {
     key: Option<LitStr>,
     example: Option<LitStr>,
     meaning: Option<LitStr>,
-    default: Option<LitStr>,
     hint: Option<LitStr>,
     absent: Option<LitStr>,
     check: Option<Path>,
@@ -47,7 +46,7 @@ fn group(input: &DeriveInput, attribute: &Attribute) -> Result<TokenStream> {
         sections
     };
     let read = reader(&fields, &quote!(KEYS), attribute.check.as_ref());
-    let check = checkers(&fields, &quote!(KEYS));
+    let check = checkers(&fields, &quote!(KEYS), |name| quote!(&self.#name));
     let check = quote!(#check Ok(()));
     Ok(implementation(&input.ident, [quote!(#(#declarations),*), keys, sections, read, check]))
 }
@@ -74,9 +73,7 @@ fn one_of(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
         Ok(given.expect("this key is given"))
     };
     let checks = data.variants.iter().zip(&fields).enumerate().map(|(index, (variant, field))| {
-        // The value is optional among the keys, not in its variant.
-        let (variant, check) =
-            (&variant.ident, field.required().checker(&quote!(value), &quote!(&KEYS[#index])));
+        let (variant, check) = (&variant.ident, field.checker(&quote!(value), &quote!(&KEYS[#index])));
         quote! {
             #[allow(unused_variables, reason = "a special value has no bounds")]
             Self::#variant(value) => { #check }
@@ -104,15 +101,11 @@ fn choice(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
     let example = need(input, attribute.example.as_ref(), "a key needs an `example`")?;
     let meaning = need(input, attribute.meaning.as_ref(), "a key needs its `meaning`")?;
     let words: Vec<String> = data.variants.iter().map(|variant| kebab(&variant.ident)).collect();
-    let fallback = match &attribute.default {
-        Some(default) => quote!(Value(#default)),
-        None => quote!(Required),
-    };
     let declaration = quote! {
         ::asperity_base::table::Key {
             name: #key,
             kind: ::asperity_base::table::Kind::Choice(&[#(#words),*]),
-            default: ::asperity_base::table::Fallback::#fallback,
+            default: ::asperity_base::table::Fallback::Required,
             example: #example,
             text: #meaning,
             exists: ::asperity_base::table::Exists::Undeclared,
@@ -141,16 +134,13 @@ fn choice(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
                 let keys = keys(&fields, &list);
                 let readers = readers(&fields, &list);
                 let names: Vec<_> = fields.iter().map(|field| &field.name).collect();
-                let checks = fields.iter().enumerate().map(|(index, field)| {
-                    let name = &field.name;
-                    field.checker(&quote!(#name), &quote!(&KEYS[#index]))
-                });
+                let checks = checkers(&fields, &list, |name| quote!(#name));
                 (
                     quote!(#own let mut keys = Vec::new(); #keys),
                     quote!(#own #readers Self::#ident { #(#names),* }),
                     quote! {
                         #[allow(unused_variables, reason = "words have no bounds")]
-                        Self::#ident { #(#names),* } => { #own #(#checks)* }
+                        Self::#ident { #(#names),* } => { #own #checks }
                     },
                 )
             }
@@ -169,16 +159,6 @@ fn choice(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
             Some(#index) => { source.suits(#choice)?; #read }
         });
     }
-    let missing = match &attribute.default {
-        Some(default) => {
-            let word = default.value().trim_matches('"').to_owned();
-            let index = words.iter().position(|known| *known == word);
-            let index =
-                index.ok_or_else(|| Error::new_spanned(default, "the default is one of the kinds"))?;
-            quote!(let chosen = chosen.or(Some(#index));)
-        }
-        None => TokenStream::new(),
-    };
     let sections = quote! {
         let mut sections = Vec::new();
         #sections
@@ -187,7 +167,6 @@ fn choice(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
     let check_all = attribute.check.as_ref().map(|check| quote!(#check(&read, source)?;));
     let read = quote! {
         let chosen = ::asperity_base::table::optional(source, &KEYS[0], |value| value.word(&[#(#words),*]))?;
-        #missing
         let read = match chosen {
             #arms
             _ => return Err(source.missing(&KEYS[0])),
@@ -239,40 +218,37 @@ pub(crate) fn declarations(fields: &[Field<'_>]) -> Result<Vec<TokenStream>> {
     fields.iter().filter(|field| field.part().is_none()).map(Field::declaration).collect()
 }
 
+/// The fields, each with the index of its key in the list of their own keys, in which parts have none.
+fn numbered<'f, 'a>(fields: &'f [Field<'a>]) -> impl Iterator<Item = (usize, &'f Field<'a>)> {
+    fields.iter().scan(0, |next, field| {
+        let index = *next;
+        *next += usize::from(field.part().is_none());
+        Some((index, field))
+    })
+}
+
 /// The statements that add the keys of fields to `keys`, from the `list` of their own keys and from their parts.
 pub(crate) fn keys(fields: &[Field<'_>], list: &TokenStream) -> TokenStream {
-    let mut index = 0usize;
-    let each = fields.iter().map(|field| match field.part() {
+    let each = numbered(fields).map(|(index, field)| match field.part() {
         Some(part) => quote!(keys.extend(<#part as ::asperity_base::table::Part>::keys());),
-        None => {
-            let own = index;
-            index += 1;
-            quote!(keys.push(#list[#own]);)
-        }
+        None => quote!(keys.push(#list[#index]);),
     });
     each.collect()
 }
 
 /// The statements that read each field into a variable of its name.
 fn readers(fields: &[Field<'_>], list: &TokenStream) -> TokenStream {
-    let mut index = 0usize;
-    let each = fields.iter().map(|field| {
-        let reader = field.reader(&quote!(&#list[#index]));
-        index += usize::from(field.part().is_none());
-        reader
-    });
-    each.collect()
+    numbered(fields).map(|(index, field)| field.reader(&quote!(&#list[#index]))).collect()
 }
 
-/// The statements that check each field of a struct.
-pub(crate) fn checkers(fields: &[Field<'_>], list: &TokenStream) -> TokenStream {
-    let mut index = 0usize;
-    let each = fields.iter().map(|field| {
-        let name = &field.name;
-        let checker = field.checker(&quote!(&self.#name), &quote!(&#list[#index]));
-        index += usize::from(field.part().is_none());
-        checker
-    });
+/// The statements that check each field, whose value is an expression of its name.
+pub(crate) fn checkers(
+    fields: &[Field<'_>],
+    list: &TokenStream,
+    value: impl Fn(&Ident) -> TokenStream,
+) -> TokenStream {
+    let each =
+        numbered(fields).map(|(index, field)| field.checker(&value(&field.name), &quote!(&#list[#index])));
     each.collect()
 }
 
@@ -313,7 +289,6 @@ impl Attribute {
             "key" => &mut self.key,
             "example" => &mut self.example,
             "meaning" => &mut self.meaning,
-            "default" => &mut self.default,
             "hint" => &mut self.hint,
             "absent" => &mut self.absent,
             _ => return Err(meta.error("no such word in #[part]")),

@@ -23,7 +23,8 @@ pub(crate) fn derive(input: &DeriveInput) -> Result<TokenStream> {
     let Attribute { names, has_default, check } = attribute.parse_args_with(Attribute::parse)?;
     let fields = fields.named.iter().map(Field::of).collect::<Result<Vec<_>>>()?;
     let declarations = part::declarations(&fields)?;
-    let keys = part::keys(&fields, &quote!(<Self as ::asperity_base::table::Table>::KEYS));
+    let list = quote!(<Self as ::asperity_base::table::Table>::KEYS);
+    let keys = part::keys(&fields, &list);
     let sections = fields.iter().filter_map(Field::part).map(|part| {
         quote! {
             sections.extend(
@@ -31,8 +32,8 @@ pub(crate) fn derive(input: &DeriveInput) -> Result<TokenStream> {
             );
         }
     });
-    let read = part::reader(&fields, &quote!(<Self as ::asperity_base::table::Table>::KEYS), check.as_ref());
-    let check = part::checkers(&fields, &quote!(<Self as ::asperity_base::table::Table>::KEYS));
+    let read = part::reader(&fields, &list, check.as_ref());
+    let check = part::checkers(&fields, &list, |name| quote!(&self.#name));
     let table = &input.ident;
     let default = match has_default {
         false => TokenStream::new(),

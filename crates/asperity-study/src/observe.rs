@@ -18,7 +18,7 @@ use asperity_base::math::parallel;
 use asperity_contact::each_capability;
 use asperity_contact::motion::{ObservedContact, Output, Pair, Position, Step, SweepRecord};
 use asperity_contact::solver::Solution;
-use asperity_contact::with::{Capability, Given, Listed, Observations, Observer, Place};
+use asperity_contact::with::{Capability, Given, Listed, Observations, Observer, Place, Reported};
 
 /// An observer with what it has seen.
 struct Observed<C: Capability> {
@@ -44,7 +44,7 @@ struct Files {
     of_step: Option<FieldFile>,
 }
 
-impl<C: Listed> Observed<C> {
+impl<C: Reported> Observed<C> {
     /// Creates the observer of a capability whose rows stay in memory.
     ///
     /// # Errors
@@ -137,7 +137,7 @@ trait Look {
     fn finish(self: Box<Self>, found: &mut Observations) -> Result<Vec<NamedField>>;
 }
 
-impl<C: Listed> Look for Observed<C> {
+impl<C: Reported> Look for Observed<C> {
     fn wants(&self, place: Place, is_main: bool) -> bool {
         is_nth(place.step, self.every) || is_main && (self.every == 0 || place.pass.is_none())
     }
@@ -206,7 +206,7 @@ impl Observers {
     ) -> Result<Self> {
         let given = Given { pair, surroundings: case.surroundings(), params: params(case) };
         let mut each: Vec<Box<dyn Look + Send + Sync>> = Vec::new();
-        each_capability!(C => if let Some(asked) = C::asked(&case.with) {
+        each_capability!(C => if let Some(asked) = C::of(&case.with) {
             let observed = Observed::in_memory(asked, &given)?;
             each.push(Box::new(match writer {
                 Some(writer) => {
@@ -287,7 +287,7 @@ impl Output for Observers {
 pub(super) fn doubts(case: &Case, found: &Observations, points: &[SweepRecord]) -> Vec<String> {
     let surroundings = case.surroundings();
     let mut doubts = Vec::new();
-    each_capability!(C => if let Some(asked) = C::asked(&case.with) {
+    each_capability!(C => if let Some(asked) = C::of(&case.with) {
         doubts.extend(asked.doubts(C::rows(found), &surroundings, points));
     });
     doubts

@@ -10,7 +10,7 @@ use asperity_base::error::{Result, check_in};
 use asperity_base::exists;
 use asperity_base::grid::{Field, Grid};
 use asperity_base::math::parallel;
-use asperity_base::table::{Bounds, Key, Kind, Source, Value};
+use asperity_base::table::{Bounds, Key, Kind, Source, Value, require, two};
 use asperity_base::units::{Dimension, Metre};
 use asperity_derive::Part;
 
@@ -108,21 +108,13 @@ fn radii(value: &dyn Value, key: &Key) -> Result<[Metre; 2]> {
     }
     let kind = Kind::Quantity(Dimension::Length, Bounds::AboveZero);
     let radius = |value: &dyn Value| value.real(key, &kind);
-    match value.items(EXPECTED)?.as_slice() {
-        [x, y] => Ok([radius(x.as_ref())?, radius(y.as_ref())?]),
-        _ => Err(value.unexpected(EXPECTED, None)),
-    }
+    two(value, EXPECTED, radius)
 }
 
 fn flat_enough(read: &Form, source: &dyn Source) -> Result<()> {
     let is_steep = matches!(read, Form::Cone { angle } if *angle >= std::f64::consts::FRAC_PI_2);
-    match source.value("angle").filter(|_| is_steep) {
-        Some(value) => {
-            let hint = "a number without a unit is in radians";
-            Err(value.unexpected("an angle below 90 deg such as \"5 deg\"", Some(hint)))
-        }
-        None => Ok(()),
-    }
+    let hint = "a number without a unit is in radians";
+    require(source, "angle", !is_steep, "an angle below 90 deg such as \"5 deg\"", Some(hint))
 }
 
 /// The profile p(u) of a groove, 0 ≤ u ≤ 1 from ridge to ridge.

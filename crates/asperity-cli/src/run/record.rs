@@ -4,7 +4,7 @@ use asperity::motion::{PlasticRecord, StaticRecord};
 use asperity::study::{Case, ClosedFormRecord, Outcome, SubsurfaceRecord, Summary, dimension_of_column};
 use asperity::units::{Dimension, format, format_number};
 use asperity::with::adhesion::AdhesionSummary;
-use asperity::with::{BodyLaw, Capability, Listed, Row};
+use asperity::with::{BodyLaw, BodyLaws, Capability, Listed, Reported, Row};
 use asperity::{each_capability, each_law};
 
 use super::rows::planes;
@@ -15,7 +15,7 @@ use asperity_report::words::closed_form;
 /// passes and points are printed during the run.
 pub fn text(case: &Case, summary: &Summary) -> String {
     let contact = match &summary.outcome {
-        Outcome::Static(record) => static_table(record, planes(case)),
+        Outcome::Static(record) => static_table(case, record),
         Outcome::Sweep(_) | Outcome::Passes(_) => String::new(),
     };
     let theory = summary.closed_form.as_ref().map_or(String::new(), theory_lines);
@@ -105,13 +105,15 @@ fn mean_pressure(record: &StaticRecord) -> String {
     }
 }
 
-fn static_table(record: &StaticRecord, planes: &str) -> String {
+fn static_table(case: &Case, record: &StaticRecord) -> String {
     let share = 100.0 * record.contact_area / record.apparent_area;
     let mut rows = vec![
         ("load", format(record.load, Dimension::Force)),
         ("nominal pressure", format(record.load / record.apparent_area, Dimension::Pressure)),
         match record.approach {
-            approach if approach < 0.0 => (planes, format!("{} apart", format(-approach, Dimension::Length))),
+            approach if approach < 0.0 => {
+                (planes(case), format!("{} apart", format(-approach, Dimension::Length)))
+            }
             approach => ("approach", format(approach, Dimension::Length)),
         },
         (
@@ -179,11 +181,13 @@ fn static_table(record: &StaticRecord, planes: &str) -> String {
             )
         };
         rows.push(("cycles", fretting.cycles.to_string()));
-        each_law!(L => rows.extend(L::OF_CYCLES.iter().filter_map(|shown| {
-            let values = (shown.values)(fretting);
-            let dimension = dimension_of_column(shown.column).filter(|_| values != [0.0; 2])?;
-            Some((shown.name, both(values, dimension)))
-        })));
+        let has = |law: fn(&BodyLaws) -> bool| law(&case.lower.laws) || law(&case.upper.laws);
+        each_law!(L => if has(|laws| L::of(laws).is_some()) {
+            rows.extend(L::OF_CYCLES.iter().filter_map(|shown| {
+                let dimension = dimension_of_column(shown.column)?;
+                Some((shown.name, both((shown.values)(fretting), dimension)))
+            }));
+        });
     }
     if let Some(plastic) = &record.plastic {
         let residual = plastic.residual.as_ref();

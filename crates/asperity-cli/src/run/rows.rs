@@ -4,7 +4,7 @@ use asperity::each_law;
 use asperity::motion::{PassRecord, SweepRecord};
 use asperity::study::case::{Case, Source};
 use asperity::with::views::PassCell;
-use asperity::with::{BodyLaw, ListedLaw};
+use asperity::with::{BodyLaw, Listed};
 
 use super::columns::{Cell, Columns};
 

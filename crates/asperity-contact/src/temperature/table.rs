@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::error::Result;
 use crate::units::{Dimension, Kelvin};
 use asperity_base::exists::TEMPERATURE;
-use asperity_base::table::{Bounds, Key, Kind, Value};
+use asperity_base::table::{Bounds, Key, Kind, Value, two};
 use asperity_derive::Table;
 
 /// Temperatures of the bodies.
@@ -43,11 +43,5 @@ fn both(value: &dyn Value, key: &Key) -> Result<[Kelvin; 2]> {
         "a temperature above 0 K such as \"100 °C\", or two: of the lower and of the upper body";
     let kelvin =
         |value: &dyn Value| value.real(key, &Kind::Quantity(Dimension::Temperature, Bounds::AboveZero));
-    if !value.is_array() {
-        return kelvin(value).map(|both| [both; 2]);
-    }
-    match value.items(EXPECTED)?.as_slice() {
-        [lower, upper] => Ok([kelvin(lower.as_ref())?, kelvin(upper.as_ref())?]),
-        _ => Err(value.unexpected(EXPECTED, None)),
-    }
+    if value.is_array() { two(value, EXPECTED, kelvin) } else { kelvin(value).map(|both| [both; 2]) }
 }

@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::views::{Curve, Line, Map};
-use super::{Capabilities, Observations};
+use super::{Capabilities, Listed, Observations};
 use crate::error::Result;
 use crate::grid::Field;
 use crate::material::Material;
@@ -78,14 +78,8 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
     fn memory(shape: [usize; 2]) -> f64;
 }
 
-/// A capability in the list.
-pub trait Listed: Capability {
-    /// Returns its table, if a case asks for it.
-    fn asked(all: &Capabilities) -> Option<&Self>;
-
-    /// Asks for it.
-    fn ask(self, all: &mut Capabilities);
-
+/// A capability with its rows among those of all capabilities.
+pub trait Reported: Capability + Listed<Capabilities> {
     /// Returns its rows.
     fn rows(all: &Observations) -> &[Self::Row];
 

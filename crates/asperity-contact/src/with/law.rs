@@ -70,15 +70,6 @@ pub trait BodyLaw: Table + Serialize + Clone + PartialEq + Debug + Send + Sync +
     }
 }
 
-/// A law in the list.
-pub trait ListedLaw: BodyLaw {
-    /// Returns it, if the body has it.
-    fn of(all: &BodyLaws) -> Option<&Self>;
-
-    /// Gives it to a body.
-    fn give(self, all: &mut BodyLaws);
-}
-
 /// A body that has a law, in its case.
 #[derive(Debug, Clone, Copy)]
 pub struct Circumstances<'a> {

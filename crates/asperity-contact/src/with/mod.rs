@@ -28,9 +28,9 @@ pub mod plasticity;
 pub mod wear;
 
 pub use capability::{
-    BodyConstants, Capability, Given, Listed, NamedField, Observer, Place, Row, Rule, Surroundings,
+    BodyConstants, Capability, Given, NamedField, Observer, Place, Reported, Row, Rule, Surroundings,
 };
-pub use law::{BodyLaw, Circumstances, LawRule, ListedLaw, Slip, Timeless};
+pub use law::{BodyLaw, Circumstances, LawRule, Slip, Timeless};
 
 use serde::{Deserialize, Serialize};
 
@@ -38,14 +38,70 @@ use crate::error::Result;
 use crate::motion::{Law, Pair, PassRecord, UpdateRecord};
 use views::{Answer, Kept};
 
-/// Declares the capabilities: their tables, each by its module and its struct. `$dollar` is the sign `$` of the macro that walks the list.
-macro_rules! capabilities {
-    ($dollar:tt; $($(#[doc = $text:literal])+ $name:ident::$table:ident;)+) => {
-        /// The capabilities that a case asks for, each by its table.
+/// Declares a list of tables, each by its module and its struct: the struct that holds those that are given, and the macro that walks the list.
+/// `$dollar` is the sign `$` of this macro.
+macro_rules! list {
+    (
+        $dollar:tt;
+        $(#[$about:meta])+ $all:ident
+        $(#[$walks:meta])+ $each:ident
+        $($(#[doc = $text:literal])+ $name:ident::$table:ident;)+
+    ) => {
+        $(#[$about])+
         #[derive(Debug, Clone, Default, PartialEq, Serialize)]
         #[non_exhaustive]
-        pub struct Capabilities {
+        pub struct $all {
             $($(#[doc = $text])+ #[serde(skip_serializing_if = "Option::is_none")] pub $name: Option<$name::$table>,)+
+        }
+
+        impl $all {
+            /// Whether no table is given.
+            pub fn is_empty(&self) -> bool {
+                true $(&& self.$name.is_none())+
+            }
+        }
+
+        $(impl Listed<$all> for $name::$table {
+            fn of(all: &$all) -> Option<&Self> {
+                all.$name.as_ref()
+            }
+
+            fn give(self, all: &mut $all) {
+                all.$name = Some(self);
+            }
+        })+
+
+        $(#[$walks])+
+        #[macro_export]
+        macro_rules! $each {
+            ($dollar of:ident => $dollar statements:expr) => {{
+                $({
+                    type $dollar of = $dollar crate::with::$name::$table;
+                    $dollar statements;
+                })+
+            }};
+        }
+    };
+}
+
+/// Declares the capabilities.
+macro_rules! capabilities {
+    ($dollar:tt; $($(#[doc = $text:literal])+ $name:ident::$table:ident;)+) => {
+        list! { $dollar;
+            /// The capabilities that a case asks for, each by its table.
+            Capabilities
+            /// Repeats statements for each capability of the list, whose table has the given name in them.
+            ///
+            /// ```
+            /// use asperity_contact::each_capability;
+            /// use asperity_contact::with::Capability;
+            ///
+            /// let mut names = Vec::new();
+            /// each_capability!(C => names.push(C::NAME));
+            /// assert_eq!(names, ["conductance", "flow"]);
+            /// ```
+            each_capability
+            $($(#[doc = $text])+ $name::$table;)+
         }
 
         /// The rows of the capabilities in a summary; empty for those that a case did not ask for.
@@ -59,15 +115,7 @@ macro_rules! capabilities {
             )+
         }
 
-        $(impl Listed for $name::$table {
-            fn asked(all: &Capabilities) -> Option<&Self> {
-                all.$name.as_ref()
-            }
-
-            fn ask(self, all: &mut Capabilities) {
-                all.$name = Some(self);
-            }
-
+        $(impl Reported for $name::$table {
             fn rows(all: &Observations) -> &[Self::Row] {
                 &all.$name
             }
@@ -76,26 +124,6 @@ macro_rules! capabilities {
                 all.$name = rows;
             }
         })+
-
-        /// Repeats statements for each capability of the list, whose table has the given name in them.
-        ///
-        /// ```
-        /// use asperity_contact::each_capability;
-        /// use asperity_contact::with::Capability;
-        ///
-        /// let mut names = Vec::new();
-        /// each_capability!(C => names.push(C::NAME));
-        /// assert_eq!(names, ["conductance", "flow"]);
-        /// ```
-        #[macro_export]
-        macro_rules! each_capability {
-            ($dollar of:ident => $dollar statements:expr) => {{
-                $({
-                    type $dollar of = $dollar crate::with::$name::$table;
-                    $dollar statements;
-                })+
-            }};
-        }
     };
 }
 
@@ -106,60 +134,33 @@ capabilities! { $;
     flow::Leakage;
 }
 
-/// Declares the laws of bodies: their tables, each by its module and its struct. `$dollar` is as above.
-macro_rules! laws {
-    ($dollar:tt; $($(#[doc = $text:literal])+ $name:ident::$table:ident;)+) => {
-        /// The laws of a body, each by its table.
-        #[derive(Debug, Clone, Default, PartialEq, Serialize)]
-        #[non_exhaustive]
-        pub struct BodyLaws {
-            $($(#[doc = $text])+ #[serde(skip_serializing_if = "Option::is_none")] pub $name: Option<$name::$table>,)+
-        }
-
-        impl BodyLaws {
-            /// Whether the body has none.
-            pub fn is_empty(&self) -> bool {
-                true $(&& self.$name.is_none())+
-            }
-        }
-
-        $(impl ListedLaw for $name::$table {
-            fn of(all: &BodyLaws) -> Option<&Self> {
-                all.$name.as_ref()
-            }
-
-            fn give(self, all: &mut BodyLaws) {
-                all.$name = Some(self);
-            }
-        })+
-
-        /// Repeats statements for each law of the list, whose table has the given name in them.
-        ///
-        /// ```
-        /// use asperity_contact::each_law;
-        /// use asperity_contact::with::BodyLaw;
-        ///
-        /// let mut names = Vec::new();
-        /// each_law!(L => names.push(L::NAME));
-        /// assert_eq!(names, ["wear", "film"]);
-        /// ```
-        #[macro_export]
-        macro_rules! each_law {
-            ($dollar of:ident => $dollar statements:expr) => {{
-                $({
-                    type $dollar of = $dollar crate::with::$name::$table;
-                    $dollar statements;
-                })+
-            }};
-        }
-    };
-}
-
-laws! { $;
+list! { $;
+    /// The laws of a body, each by its table.
+    BodyLaws
+    /// Repeats statements for each law of the list, whose table has the given name in them.
+    ///
+    /// ```
+    /// use asperity_contact::each_law;
+    /// use asperity_contact::with::BodyLaw;
+    ///
+    /// let mut names = Vec::new();
+    /// each_law!(L => names.push(L::NAME));
+    /// assert_eq!(names, ["wear", "film"]);
+    /// ```
+    each_law
     /// Wear of the body.
     wear::WearCoefficient;
     /// Tribofilm on the body.
     film::Film;
+}
+
+/// A table in the list of those that a case or a body may have.
+pub trait Listed<All>: Sized {
+    /// Returns it, if it is given.
+    fn of(all: &All) -> Option<&Self>;
+
+    /// Gives it.
+    fn give(self, all: &mut All);
 }
 
 /// Whether a capability whose table is given uses a constant of the bodies without the others of its group.

@@ -24,7 +24,7 @@ const LOADED: f64 = 0.01;
 /// `done` are the passes of a motion that are done before the first and after each of the computed ones.
 pub(super) fn draw(results: &Results, done: &[usize], of: &str, of_all: &str, sheet: &mut Sheet) -> Result {
     let case = results.case()?;
-    each_capability!(C => if C::asked(&case.with).is_some() {
+    each_capability!(C => if C::of(&case.with).is_some() {
         let rows = results.rows::<C>()?;
         curves::<C>(&rows, done).into_iter().try_for_each(|curves| sheet.add_curves(curves, of_all))?;
         // The fields of a static contact are those of its last contact.

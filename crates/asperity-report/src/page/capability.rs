@@ -20,7 +20,7 @@ const LEAST: f64 = 1e-6;
 /// The sections of the capabilities that the case asks for, and the data that they show.
 pub(super) fn sections(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Vec<Section> {
     let mut sections = Vec::new();
-    each_capability!(C => if C::asked(&found.case.with).is_some() {
+    each_capability!(C => if C::of(&found.case.with).is_some() {
         sections.push((C::NAME, C::TITLE, Some(section::<C>(found, data, charts))));
     });
     sections
@@ -29,7 +29,7 @@ pub(super) fn sections(found: &mut PageData, data: &mut Value, charts: &mut Vec<
 /// The answers of the capabilities: the first number of each row, with what was asked for.
 pub(super) fn answers(found: &PageData) -> Vec<(&'static str, Line)> {
     let mut answers = Vec::new();
-    each_capability!(C => if C::asked(&found.case.with).is_some() {
+    each_capability!(C => if C::of(&found.case.with).is_some() {
         let rows = C::summary(&found.results.rows::<C>().unwrap_or_default());
         answers.extend(of_last::<C>(&rows).iter().filter_map(|row| {
             Some((C::MEANING, C::numbers(row).into_iter().next()?))

@@ -80,7 +80,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     let mut with = Capabilities::default();
     each_capability!(C => if let Some(table) = root.table(C::NAME)? {
         known_in(&table)?;
-        C::read(&table)?.ask(&mut with);
+        C::read(&table)?.give(&mut with);
     });
     Ok(Case {
         title,

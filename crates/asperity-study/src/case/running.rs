@@ -10,7 +10,7 @@ use asperity_base::units::PerPascal;
 use asperity_contact::each_law;
 use asperity_contact::motion::{Acceleration, Law, Pair, Simulation, SlidingContact, StagedLoading};
 use asperity_contact::temperature::{Temperature, Thermal};
-use asperity_contact::with::{self, BodyLaw, BodyLaws, ListedLaw};
+use asperity_contact::with::{self, BodyLaw, BodyLaws, Listed};
 
 /// Reads the laws from the table of a body.
 pub(super) fn laws(table: &Table<'_>, hardness: &Hardness) -> Result<BodyLaws> {
@@ -109,6 +109,15 @@ impl Case {
             each_law!(L => loss += L::of(&body.laws).map_or(0.0, |law| law.per_pressure(friction)));
         }
         loss
+    }
+
+    /// Number of maps of the fields that the laws of a body keep.
+    pub(crate) fn maps_of_laws(&self) -> usize {
+        let mut maps = 0;
+        each_law!(L => if [&self.lower, &self.upper].iter().any(|body| L::of(&body.laws).is_some()) {
+            maps += L::KEPT.iter().filter(|kept| kept.map.is_some()).count();
+        });
+        maps
     }
 }
 

@@ -5,7 +5,7 @@ use serde::Serialize;
 use asperity_base::choice::choice;
 use asperity_base::error::Result;
 use asperity_base::exists;
-use asperity_base::table::{Bounds, Key, Kind, Value};
+use asperity_base::table::{Bounds, Key, Kind, Value, list, two};
 use asperity_base::units::{Dimension, Metre};
 use asperity_derive::Table;
 
@@ -83,19 +83,13 @@ choice!(Side: "lower" => Lower, "upper" => Upper);
 
 /// Depths below the surface.
 fn depths(value: &dyn Value, key: &Key) -> Result<Vec<Metre>> {
-    let items = value.items("a list of depths such as [\"1 um\", \"5 um\"]")?;
-    items.iter().map(|item| length(item.as_ref(), key)).collect()
+    list(value, "a list of depths such as [\"1 um\", \"5 um\"]", |item| length(item, key))
 }
 
 /// Positions on the surface.
 fn positions(value: &dyn Value, key: &Key) -> Result<Vec<[Metre; 2]>> {
-    const EXPECTED: &str = "a position [x, y] of two lengths";
-    let position = |item: &dyn Value| match item.items(EXPECTED)?.as_slice() {
-        [x, y] => Ok([length(x.as_ref(), key)?, length(y.as_ref(), key)?]),
-        _ => Err(item.unexpected(EXPECTED, None)),
-    };
-    let items = value.items("a list of positions such as [[\"5 um\", \"10 um\"]]")?;
-    items.iter().map(|item| position(item.as_ref())).collect()
+    let position = |item: &dyn Value| two(item, "a position [x, y] of two lengths", |item| length(item, key));
+    list(value, "a list of positions such as [[\"5 um\", \"10 um\"]]", position)
 }
 
 /// A length of at least 0.

@@ -453,7 +453,7 @@ impl Sizes<'_> {
         let [nx, ny] = self.facing();
         let work = nx * ny * (nx * ny).max(2.0).log2();
         let mut effort = 0.0;
-        each_capability!(C => if let Some(asked) = C::asked(&self.case.with) {
+        each_capability!(C => if let Some(asked) = C::of(&self.case.with) {
             let every = asked.every();
             effort += asked.effort(boundary, digits) * self.observed(every) / together(self.observed_together(every));
         });
@@ -472,7 +472,7 @@ impl Sizes<'_> {
     fn memory_of_capabilities(&self, threads: usize) -> f64 {
         let [nx, ny] = self.facing();
         let (mut looked_at, mut largest) = (0, 0.0_f64);
-        each_capability!(C => if let Some(asked) = C::asked(&self.case.with) {
+        each_capability!(C => if let Some(asked) = C::of(&self.case.with) {
             let positions = self.observed_together(asked.every());
             let at_once = threads.clamp(1, positions.max(1)).min(positions) as f64;
             looked_at = looked_at.max(positions);
@@ -533,7 +533,7 @@ impl Sizes<'_> {
     /// Work of figures and page.
     fn drawing(&self, threads: usize) -> f64 {
         let case = self.case;
-        let maps = case.lower.kept_by_laws().max(case.upper.kept_by_laws()) as f64;
+        let maps = case.maps_of_laws() as f64;
         let given = |there: bool| f64::from(there);
         let mut figures = match case.motion {
             Some(_) => 19.0 + given(case.friction.is_some()) + given(case.temperature.is_some()),

@@ -20,7 +20,7 @@ use crate::summary::{Outcome, Summary};
 use crate::tables;
 use asperity_base::error::{Error, Result};
 use asperity_contact::each_capability;
-use asperity_contact::with::{Capability, Listed, Row as _};
+use asperity_contact::with::{Capability, Reported, Row as _};
 
 /// The finished and failed cases of a study.
 ///

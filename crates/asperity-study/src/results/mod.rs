@@ -62,7 +62,7 @@ use asperity_contact::motion::{
 };
 use asperity_contact::plasticity::{PlasticState, TensorField, VolumeField};
 use asperity_contact::stress::Component;
-use asperity_contact::with::{Capability, Listed, Observations};
+use asperity_contact::with::{Capability, Observations, Reported};
 use asperity_surface::Topography;
 
 /// A results directory, open for reading.

@@ -17,7 +17,7 @@ use asperity_base::grid::Grid;
 use asperity_base::math::RealFft2;
 use asperity_base::math::fft::angular_frequency;
 use asperity_base::math::parallel;
-use asperity_base::table::Source;
+use asperity_base::table::{Source, require};
 use asperity_base::units::{Dimension, Metre};
 use asperity_derive::Part;
 
@@ -90,10 +90,7 @@ pub enum Amplitude {
 
 fn shorter(read: &SelfAffine, source: &dyn Source) -> Result<()> {
     let is_longer = read.rolloff.zip(read.shortest).is_some_and(|(longest, shortest)| shortest >= longest);
-    match source.value("shortest").filter(|_| is_longer) {
-        Some(value) => Err(value.unexpected("a wavelength below that of 'rolloff'", None)),
-        None => Ok(()),
-    }
+    require(source, "shortest", !is_longer, "a wavelength below that of 'rolloff'", None)
 }
 
 impl SelfAffine {

@@ -10,9 +10,7 @@ use crate::motion::extrapolation::{
 use crate::motion::heat::PassHeat;
 use crate::motion::law::{self, FrictionHeat, Heat, Law, Sums};
 use crate::motion::pass::Pass;
-use crate::motion::record::FILM;
-use crate::motion::record::WEAR;
-use crate::motion::record::{RunningRecord, StepRecord};
+use crate::motion::record::{FILM, RunningRecord, StepRecord, WEAR};
 use crate::motion::truncation::Truncation;
 use crate::motion::watch::Watch;
 use crate::motion::worn_away;

@@ -7,8 +7,7 @@ use crate::error::Result;
 use crate::grid::Grid;
 use crate::motion::AdhesionHistory;
 use crate::units::{Dimension, JoulePerSquareMetre, Metre, Pascal};
-use asperity_base::exists;
-use asperity_base::table::{Bounds, Key, Kind, Value};
+use asperity_base::table::{Bounds, Exists, Key, Kind, Value};
 use asperity_derive::Table;
 
 /// Attraction between the bodies.
@@ -17,7 +16,7 @@ use asperity_derive::Table;
 #[non_exhaustive]
 pub struct Attraction {
     /// Work of adhesion: the energy that separates an area of flat surfaces.
-    #[key(quantity = SurfaceEnergy, range = AboveZero, example = "\"50 mJ/m2\"", exists = exists::ADHESION)]
+    #[key(quantity = SurfaceEnergy, range = AboveZero, example = "\"50 mJ/m2\"", exists = WORK)]
     pub work: JoulePerSquareMetre,
     /// Range of the attraction, the gap at which the exponential tension has fallen to 1/e.
     #[key(
@@ -25,7 +24,7 @@ pub struct Attraction {
         form = "length > 0, or `\"grid\"`: the shortest range that the grid resolves",
         dimension = Length,
         example = "\"2 nm\"",
-        exists = exists::ATTRACTION
+        exists = RANGE
     )]
     pub range: AdhesionRange,
     /// Tension as a function of the gap: `"exponential"`, or constant up to the range, for comparison with closed forms.
@@ -37,6 +36,12 @@ pub struct Attraction {
     #[serde(skip_serializing_if = "is_none")]
     pub history: AdhesionHistory,
 }
+
+/// Israelachvili, Intermolecular and Surface Forces: 10 mJ/m² in liquids to some J/m² of clean metals.
+const WORK: Exists =
+    Exists::Within { least: 1e-5, most: 10.0, of: "solids in liquids to clean metals", slips: &["mJ/m2"] };
+const RANGE: Exists =
+    Exists::Within { least: 1e-11, most: 1e-4, of: "atoms to capillary bridges", slips: &["nm"] };
 
 /// Range of the attraction.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,7 +6,7 @@ use crate::error::{Result, check_in};
 use crate::units::{CubicMetre, Dimension, Joule, Kelvin, Metre, MetrePerSecond, Pascal, PerPascal, Range};
 use asperity_base::choice::choice;
 use asperity_base::exists::{HARDNESS, WEAR};
-use asperity_base::table::{Exists, Source, Table as _};
+use asperity_base::table::{Exists, Source, Table as _, require};
 use asperity_derive::{Part, Table};
 
 /// The film of a body: a thickness in each cell, which grows and is removed while the cell is in contact.
@@ -42,6 +42,7 @@ pub struct Film {
                at its thickest in the beginning and is only worn off"
 )]
 #[serde(tag = "law", rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum FilmLaw {
     /// df/dt = G (1 − f/f_max) − R f, where G follows Arrhenius under a stress σ and R = r p v.
     Arrhenius {
@@ -135,10 +136,7 @@ const REMOVAL: Exists =
 const THINNER: &str = "no more than 'max_thickness'";
 
 fn thinner(read: &Film, source: &dyn Source) -> Result<()> {
-    match source.value("c3").filter(|_| read.is_removed_beyond()) {
-        Some(value) => Err(value.unexpected(THINNER, None)),
-        None => Ok(()),
-    }
+    require(source, "c3", !read.is_removed_beyond(), THINNER, None)
 }
 
 impl Film {
@@ -171,10 +169,7 @@ impl Film {
     pub(super) fn softer_than(&self, hardness: Option<Pascal>, source: &dyn Source) -> Result<()> {
         let is_harder = self.hardness.zip(hardness).is_some_and(|(film, body)| film > body);
         let hint = "give the body a 'hardness', or leave out the hardness of the film";
-        match source.value("hardness").filter(|_| is_harder) {
-            Some(value) => Err(value.unexpected("no more than the hardness of the body", Some(hint))),
-            None => Ok(()),
-        }
+        require(source, "hardness", !is_harder, "no more than the hardness of the body", Some(hint))
     }
 }
 

@@ -9,7 +9,7 @@ use crate::plasticity::{Hardening, J2, Layers, PlasticParams};
 use crate::units::{Dimension, Metre, Pascal};
 use asperity_base::choice::choice;
 use asperity_base::exists;
-use asperity_base::table::{Bounds, Key, Kind, Source, Value};
+use asperity_base::table::{Bounds, Exists, Key, Kind, Source, Value, list};
 use asperity_derive::{Part, Table};
 
 /// Flow law of a body: von Mises' yield criterion, with isotropic and kinematic hardening.
@@ -29,7 +29,7 @@ pub struct Yielding {
         range = FromZero,
         written = "0",
         example = "\"20 GPa\"",
-        exists = exists::HARDENING
+        exists = HARDENING
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hardening: Option<Pascal>,
@@ -40,7 +40,7 @@ pub struct Yielding {
         default = 0.0,
         written = "0",
         example = "\"20 GPa\"",
-        exists = exists::HARDENING
+        exists = HARDENING
     )]
     pub kinematic: Pascal,
     /// Recovery of the back stress by Armstrong and Frederick; with `kinematic`.
@@ -57,7 +57,7 @@ pub struct Yielding {
 #[serde(rename_all = "snake_case")]
 pub enum YieldKey {
     /// Yield stress in tension σ_Y of the virgin body.
-    #[key(quantity = Pressure, range = AboveZero, example = "\"1.5 GPa\"", exists = exists::YIELD)]
+    #[key(quantity = Pressure, range = AboveZero, example = "\"1.5 GPa\"", exists = YIELD)]
     YieldStress(Pascal),
     /// Increasing points of plastic strain and yield stress, from strain 0; constant beyond the last.
     ///
@@ -131,6 +131,11 @@ pub enum Keep {
 
 choice!(Keep: "last" => Last, "passes" => Passes);
 
+const YIELD: Exists =
+    Exists::Within { least: 1e5, most: 2e10, of: "soft solder to whiskers", slips: &["MPa", "GPa"] };
+const HARDENING: Exists =
+    Exists::Within { least: 1e5, most: 1e12, of: "polymers to cold-worked steel", slips: &["MPa", "GPa"] };
+
 /// Steps of the loading without `increments`.
 pub const INCREMENTS: usize = 16;
 
@@ -162,8 +167,7 @@ fn curve(value: &dyn Value, key: &Key) -> Result<Vec<(f64, Pascal)>> {
         [strain, stress] => Ok((strain.real(key, &STRAIN)?, stress.real(key, &STRESS)?)),
         _ => Err(item.unexpected(EXPECTED, None)),
     };
-    let items = value.items(EXPECTED)?;
-    let points = items.iter().map(|item| point(item.as_ref())).collect::<Result<Vec<_>>>()?;
+    let points = list(value, EXPECTED, point)?;
     let first = points.first().ok_or_else(|| value.unexpected(EXPECTED, None))?;
     if first.0 != 0.0 {
         return Err(value.error(

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::error::{Error, Result, check_in};
 use crate::units::{Dimension, Pascal, PerPascal};
 use asperity_base::exists::WEAR;
-use asperity_base::table::{Exists, Source, Table as _};
+use asperity_base::table::{Exists, Source, Table as _, require};
 use asperity_derive::{Part, Table};
 
 /// Wear coefficient of a body: it gives the depth that a cell loses while it slides by ds.
@@ -66,12 +66,9 @@ const NUMBER: Exists = Exists::Within {
 const LOWER: &str = "no more than the coefficient of the bare body";
 
 fn lowered_by_film(read: &WearCoefficient, source: &dyn Source) -> Result<()> {
-    let is_number = matches!(read.rate, WearRate::Dimensionless(_));
-    let is_more = read.under_film.is_some_and(|under| under > read.rate.bare());
-    match source.value("under_film").filter(|_| is_more && !is_number) {
-        Some(value) => Err(value.unexpected(LOWER, None)),
-        None => Ok(()),
-    }
+    // A dimensionless coefficient is compared once it is known in the unit of the other.
+    let is_lower = matches!(read.rate, WearRate::Dimensionless(_)) || read.is_lower_under_film();
+    require(source, "under_film", is_lower, LOWER, None)
 }
 
 impl WearCoefficient {
@@ -110,7 +107,7 @@ impl WearCoefficient {
             ));
         }
         let under = self.under_film.unwrap_or(0.0);
-        check_in(Dimension::WearCoefficient, "under_film", under, under <= self.rate.bare(), LOWER)
+        check_in(Dimension::WearCoefficient, "under_film", under, self.is_lower_under_film(), LOWER)
     }
 
     /// Replaces a dimensionless coefficient on a body of this hardness, which is one finite number.
@@ -124,6 +121,11 @@ impl WearCoefficient {
         };
         let this = Self { rate: WearRate::Coefficient(number / hardness), ..self };
         lowered_by_film(&this, source).map(|()| this)
+    }
+
+    /// Whether the coefficient under a film is no more than that of the bare body.
+    fn is_lower_under_film(&self) -> bool {
+        self.under_film.is_none_or(|under| under <= self.rate.bare())
     }
 
     /// Whether a film lowers the coefficient.

@@ -19,7 +19,7 @@ use super::{Body, Case, FrictionSpec, LoadingPath, MotionSpec};
 use asperity_base::error::{Error, Result};
 use asperity_base::table;
 use asperity_contact::motion::Strategy;
-use asperity_contact::with::{BodyLaw, Capability, Circumstances, Listed, ListedLaw, Slip, Timeless};
+use asperity_contact::with::{BodyLaw, Capability, Circumstances, Listed, Slip, Timeless};
 use asperity_contact::{each_capability, each_law};
 
 /// The description of a rule: two entries of a case file exclude each other, or one requires the other.
@@ -49,7 +49,7 @@ pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
     tables.check(&OF_THE_REST)?;
     let surroundings = case.surroundings();
     each_capability!(C => for rule in C::RULES {
-        let is_broken = C::asked(&case.with).is_some_and(|asked| (rule.broken)(asked, &surroundings));
+        let is_broken = C::of(&case.with).is_some_and(|asked| (rule.broken)(asked, &surroundings));
         if let Some(entry) = tables.at(rule.at).filter(|_| is_broken) {
             return Err(refused(rule, &entry));
         }

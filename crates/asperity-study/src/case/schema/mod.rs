@@ -103,8 +103,8 @@ mod tests {
     use super::super::document::Document;
     use crate::case::{Output, SlidingSpec, SubsurfaceSpec};
 
-    /// Reads a table of this dotted name and of these sections, once for each choice, with the examples of the required keys, and with the default of the others
-    /// if they are `told`. `one` is a key of which one of several is required.
+    /// Reads a table of this dotted name and of these sections, once for each choice, with the examples of the required keys, and with the
+    /// default of the others if they are `told`. `one` is a key of which one of several is required.
     fn read<T>(
         path: &str,
         sections: &[Section],

@@ -2,10 +2,10 @@
 
 use super::super::cursor::{Entry, Table, did_you_mean};
 use super::tables::suits;
-use super::typed::{COUNT, expected, missing, real};
+use super::typed::{COUNT, missing, real};
 use super::{Key, Kind};
 use asperity_base::error::{Error, Result};
-use asperity_base::table::{self, Source};
+use asperity_base::table::{self, Source, expected};
 use asperity_base::units::Dimension;
 
 impl Source for Table<'_> {
@@ -33,10 +33,6 @@ impl table::Value for Entry<'_> {
 
     fn count(&self, key: &Key) -> Result<usize> {
         (COUNT.read)(key, self)
-    }
-
-    fn whole(&self) -> Result<u64> {
-        self.whole(0)
     }
 
     fn flag(&self) -> Result<bool> {

@@ -8,7 +8,7 @@ use super::{Bounds, Exists, Fallback, Key, Kind};
 use asperity_base::choice::Choice;
 use asperity_base::error::{Error, Result};
 use asperity_base::exists;
-use asperity_base::table;
+use asperity_base::table::{self, expected};
 
 use asperity_base::units::Dimension;
 use asperity_surface::Axis;
@@ -281,7 +281,7 @@ pub(super) const fn count_to(least: u64, most: u64) -> Value<usize> {
         let count = entry.count(least as usize)?;
         match count as u64 <= most {
             true => Ok(count),
-            false => Err(entry.unexpected(&format!("a whole number from {least} to {most}"), None)),
+            false => Err(entry.unexpected(&expected(&key.kind, key), None)),
         }
     };
     Value { kind: Kind::Count { least, most }, read, exists: Exists::Undeclared }
@@ -344,31 +344,6 @@ pub(in crate::case) fn real(kind: &Kind, key: &Key, entry: &Entry<'_>) -> Result
             entry.number_or_infinite(|value| bounds.hold(value), &expected(kind, key))
         }
         Kind::Number(_, bounds) => entry.number(|value| bounds.hold(value), &expected(kind, key)),
-        _ => unreachable!("a key that is read as a number is declared as one"),
-    }
-}
-
-/// Returns the expectation in the message about a quantity or a number.
-pub(super) fn expected(kind: &Kind, key: &Key) -> String {
-    match *kind {
-        Kind::Quantity(dimension, Bounds::FromZero) => format!("{} of at least 0", dimension.noun()),
-        Kind::Quantity(dimension, _) => {
-            format!("{} above 0 such as \"{}\"", dimension.noun(), dimension.example())
-        }
-        Kind::Number(noun, bounds) => match bounds {
-            Bounds::FromZero => format!("{noun} of at least 0 such as {}", key.example),
-            Bounds::AboveZero => format!("{noun} above 0 such as {}", key.example),
-            Bounds::FromZeroOrInfinite(meaning) => {
-                format!("{noun} of at least 0 such as {}, or inf: {meaning}", key.example)
-            }
-            Bounds::Between { least, most, open: [from, to] } => match (from, to) {
-                (false, false) => format!("{noun} from {least} to {most}"),
-                (false, true) => format!("{noun} from {least}, below {most}"),
-                (true, false) => format!("{noun} above {least}, at most {most}"),
-                (true, true) => format!("{noun} above {least}, below {most}"),
-            },
-            Bounds::Any | Bounds::AboveZeroOrInfinite(_) | Bounds::Within(..) => noun.to_owned(),
-        },
         _ => unreachable!("a key that is read as a number is declared as one"),
     }
 }
