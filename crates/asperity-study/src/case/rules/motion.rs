@@ -2,7 +2,7 @@
 
 use super::super::{ControlKind, CounterBody, OffsetY, Prescribed, Source};
 use super::Rule;
-use super::examples::{AT_ANY_SPEED, JUMPS, MOVES, SLIDES, SWEEP, WEARS};
+use super::examples::{AT_ANY_SPEED, JUMPS, MOVES, RUBS, SLIDES, SWEEP, WEARS};
 
 pub(super) const RULES: &[Rule] = &[
     Rule {
@@ -139,6 +139,15 @@ pub(super) const RULES: &[Rule] = &[
         at: "acceleration",
         example: &[WEARS, SLIDES, JUMPS],
         broken: |tables| tables.at("sliding").and(tables.at("acceleration")),
+    },
+    Rule {
+        this: "[sliding]",
+        with: "dissimilar bodies with `coupling = \"full\"`",
+        message: "[sliding] needs a friction that does not displace the bodies normally",
+        hint: "set `coupling = \"goodman\"` or `\"none\"` in [friction]",
+        at: "sliding",
+        example: &[r#"lower.young = "70 GPa""#, WEARS, RUBS, SLIDES],
+        broken: |tables| tables.at("sliding").filter(|_| tables.case.shear_displaces_normally()),
     },
     Rule {
         this: "[sliding]",
