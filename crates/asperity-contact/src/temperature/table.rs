@@ -32,6 +32,13 @@ pub struct Temperature {
 }
 
 impl Temperature {
+    /// Returns the temperatures, with the flash temperature at each position if the table leaves it open and the bodies have
+    /// thermal constants.
+    #[must_use]
+    pub fn resolved(self, have_thermal_constants: bool) -> Self {
+        Self { every: self.every.or(Some(usize::from(have_thermal_constants))), ..self }
+    }
+
     /// Interval of the computed passes with a computed flash temperature; 0 for none.
     pub fn every(&self) -> usize {
         self.every.unwrap_or(0)

@@ -4,8 +4,8 @@ use asperity_contact::each_law;
 use asperity_contact::motion::{FrettingRecord, IncrementRecord};
 use asperity_contact::with::BodyLaw;
 
-use super::{Curves, of_bodies};
-use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
+use super::{Curves, charts_over, of_law};
+use crate::draw::{Axis, Mark, Series, Unit};
 
 /// A computed cycle: its increments, and the bodies at its end.
 struct Cycle<'a> {
@@ -52,21 +52,16 @@ pub(crate) fn curves(increments: &[IncrementRecord]) -> Option<Curves> {
     };
     let alone = |value: &dyn Fn(&Cycle<'_>) -> f64| vec![Series::new("", over(value), Mark::LineAndPoints)];
     let loss = |cycle: &Cycle<'_>| cycle.increments.iter().map(|increment| increment.dissipation).sum();
-    let mut charts = Vec::new();
-    each_law!(L => charts.extend(L::OF_CYCLES.iter().map(|shown| {
-        let of_body = |body: usize| over(&|cycle| (shown.values)(&cycle.bodies)[body]);
-        (Axis::of(shown.name, shown.column), of_bodies([of_body(0), of_body(1)]))
-    })));
-    charts.extend([
+    let mut shown = Vec::new();
+    let bodies = cycles.iter().map(|cycle| &cycle.bodies);
+    each_law!(L => shown.extend(
+        L::OF_CYCLES.iter().map(|shown| of_law(bodies.clone(), |cycle| Some(cycle.cycles as f64), shown))
+    ));
+    shown.extend([
         (Axis::of("energy of a cycle", "dissipation"), alone(&loss)),
         (Axis::of("largest pressure", "max_pressure"), alone(&|cycle| cycle.end.max_pressure)),
         (Axis::of("contact area", "contact_area"), alone(&|cycle| cycle.end.contact_area)),
     ]);
-    let is_there = |(_, series): &(Axis, Vec<Series>)| {
-        series.iter().flat_map(|series| &series.points).any(|[_, y]| *y != 0.0)
-    };
-    let x = Axis::linear("cycles", Unit::Count);
-    let charts = charts.into_iter().filter(is_there);
-    let charts = charts.map(|(y, series)| Chart::new("", x.clone(), y, series)).collect();
-    Some(Curves::new("fretting", "fretting over the cycles", Charts { charts, columns: 2, aspect: 0.7 }))
+    let charts = charts_over(&Axis::linear("cycles", Unit::Count), shown);
+    Some(Curves::new("fretting", "fretting over the cycles", charts))
 }

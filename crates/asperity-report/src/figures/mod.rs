@@ -25,10 +25,11 @@ mod tests;
 use std::path::PathBuf;
 
 use asperity_base::units::{Dimension, format};
+use asperity_contact::with::views::OfBodies;
 use asperity_study::Results;
 use asperity_study::io::fields::Fields;
 
-use crate::draw::{Charts, Mark, Paper, Series};
+use crate::draw::{Axis, Chart, Charts, Mark, Paper, Series};
 use crate::error::{Error, Result};
 
 pub use capability::field_map;
@@ -91,6 +92,34 @@ fn of_bodies(curves: [Curve; 2]) -> Vec<Series> {
     // Broken, so that neither hides the other where they are the same.
     let looks = [("lower body", Mark::Line), ("upper body", Mark::Dashed)].into_iter();
     looks.zip(curves).map(|((name, mark), curve)| Series::new(name, curve, mark)).collect()
+}
+
+/// The curves of a quantity of both bodies over `x`, from the rows that have one, with their axis.
+fn of_law<'r, R: 'r>(
+    rows: impl Iterator<Item = &'r R> + Clone,
+    x: impl Fn(&R) -> Option<f64>,
+    shown: &OfBodies<R>,
+) -> (Axis, Vec<Series>) {
+    let of_body = |body: usize| {
+        let mut sum = 0.0;
+        let points = rows.clone().filter_map(|row| {
+            let value = (shown.values)(row)[body];
+            sum = if shown.adds_up { sum + value } else { value };
+            Some([x(row)?, sum])
+        });
+        points.collect()
+    };
+    (Axis::of(shown.name, shown.column), of_bodies([0, 1].map(of_body)))
+}
+
+/// The charts of quantities over `x`, without those that are 0 or unknown everywhere.
+fn charts_over(x: &Axis, shown: Vec<(Axis, Vec<Series>)>) -> Charts {
+    let is_there = |(_, series): &(Axis, Vec<Series>)| {
+        series.iter().flat_map(|series| &series.points).any(|[_, y]| y.is_finite() && *y != 0.0)
+    };
+    let shown = shown.into_iter().filter(is_there);
+    let charts = shown.map(|(y, series)| Chart::new("", x.clone(), y, series)).collect();
+    Charts { charts, columns: 2, aspect: 0.7 }
 }
 
 /// Draws the figures of `results` into its folder `figures` and returns their paths; an error of the kind `Interrupted`

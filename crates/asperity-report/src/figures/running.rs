@@ -4,10 +4,9 @@ use asperity_base::units::CELSIUS;
 use asperity_contact::each_law;
 use asperity_contact::motion::PassRecord;
 use asperity_contact::with::BodyLaw;
-use asperity_contact::with::views::OfBodies;
 
-use super::{Curve, Curves, of_bodies};
-use crate::draw::{Axis, Chart, Charts, Mark, Series, Unit};
+use super::{Curve, Curves, charts_over, of_bodies, of_law};
+use crate::draw::{Axis, Charts, Mark, Series, Unit};
 
 /// From such a ratio of the largest to the least distance on it is drawn by its logarithm.
 const DECADES: f64 = 100.0;
@@ -29,15 +28,6 @@ fn charts(passes: &[PassRecord], sq: [f64; 2], log: bool) -> Charts {
         passes.iter().filter_map(|p| Some([p.running?.distance, value(p)])).collect()
     };
     let from = |first: f64, curve: Curve| -> Curve { std::iter::once([0.0, first]).chain(curve).collect() };
-    let of_law = |shown: &OfBodies<PassRecord>, body: usize| -> Curve {
-        let mut sum = 0.0;
-        let each = passes.iter().filter_map(|p| {
-            let value = (shown.values)(p)[body];
-            sum = if shown.adds_up { sum + value } else { value };
-            Some([p.running?.distance, sum])
-        });
-        each.collect()
-    };
     let alone = |name: &str, curve| vec![Series::new(name, curve, Mark::Line)];
     let temperature = over(&|p| p.running.map_or(f64::NAN, |r| r.max_flash_temperature - CELSIUS));
     let mut shown: Vec<(Axis, Vec<Series>)> = vec![
@@ -51,14 +41,9 @@ fn charts(passes: &[PassRecord], sq: [f64; 2], log: bool) -> Charts {
         ),
     ];
     each_law!(L => shown.extend(L::OF_PASSES.iter().map(|shown| {
-        let axis = Axis { log: log && shown.adds_up, ..Axis::of(shown.name, shown.column) };
-        (axis, of_bodies([of_law(shown, 0), of_law(shown, 1)]))
+        let (axis, series) = of_law(passes.iter(), |p| p.running.map(|running| running.distance), shown);
+        (Axis { log: log && shown.adds_up, ..axis }, series)
     })));
     shown.push((Axis::linear("largest temperature", Unit::Of("°C")), alone("both bodies", temperature)));
-    let is_there = |(_, series): &(Axis, Vec<Series>)| {
-        series.iter().flat_map(|series| &series.points).any(|[_, y]| y.is_finite() && *y != 0.0)
-    };
-    let charts = shown.into_iter().filter(is_there);
-    let charts = charts.map(|(y, series)| Chart::new("", x.clone(), y, series)).collect();
-    Charts { charts, columns: 2, aspect: 0.7 }
+    charts_over(&x, shown)
 }

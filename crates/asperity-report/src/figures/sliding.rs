@@ -9,8 +9,8 @@ use asperity_study::io::fields::Fields;
 
 use super::sheet::Sheet;
 use super::stored::StoredArray;
-use super::{Curves, of_bodies};
-use crate::draw::{Axis, Chart, Charts, Colours, Maps, Mark, Series, Unit};
+use super::{Curves, charts_over, of_law};
+use crate::draw::{Axis, Charts, Colours, Maps, Mark, Series, Unit};
 use crate::error::Result;
 
 type Number = fn(&UpdateRecord) -> f64;
@@ -64,20 +64,12 @@ fn charts(updates: &[UpdateRecord]) -> Charts {
         (Axis::of("contact area", "contact_area"), alone(|u| u.contact_area)),
         (Axis::of("largest pressure", "max_pressure"), alone(|u| u.max_pressure)),
     ];
-    each_law!(L => shown.extend(L::OF_UPDATES.iter().map(|shown| {
-        let at = |body: usize, update: &UpdateRecord| [update.distance, (shown.values)(update)[body]];
-        let of_body = |body: usize| updates.iter().map(|update| at(body, update)).collect();
-        (Axis::of(shown.name, shown.column), of_bodies([0, 1].map(of_body)))
-    })));
+    each_law!(L => shown.extend(
+        L::OF_UPDATES.iter().map(|shown| of_law(updates.iter(), |update| Some(update.distance), shown))
+    ));
     shown.push((
         Axis::linear("largest temperature", Unit::Of("°C")),
         alone(|update| update.max_temperature - CELSIUS),
     ));
-    let is_there = |(_, series): &(Axis, Vec<Series>)| {
-        series.iter().flat_map(|series| &series.points).any(|[_, y]| y.is_finite() && *y != 0.0)
-    };
-    let x = Axis::of("sliding distance", "distance");
-    let charts = shown.into_iter().filter(is_there);
-    let charts = charts.map(|(y, series)| Chart::new("", x.clone(), y, series)).collect();
-    Charts { charts, columns: 2, aspect: 0.7 }
+    charts_over(&Axis::of("sliding distance", "distance"), shown)
 }

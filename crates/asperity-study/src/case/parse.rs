@@ -10,7 +10,6 @@ use super::friction::{friction, stages};
 use super::motion::motion;
 use super::plasticity::plasticity;
 use super::rules;
-use super::running::heated;
 use super::schema::root as keys;
 use super::schema::tables::{self, belongs, known_in};
 use super::topography::{one_tells_the_other, topography};
@@ -18,6 +17,7 @@ use super::{Case, TopographySpec};
 use asperity_base::error::Result;
 use asperity_base::table::Table as _;
 use asperity_contact::each_capability;
+use asperity_contact::temperature::Temperature;
 use asperity_contact::with::{Capabilities, Capability, Listed, uses};
 
 /// Reads a topography in a separate table `[topography]`; also returns its document.
@@ -76,7 +76,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
         keys::HISTORY.entry(root).map(|entry| stages(&entry, friction.as_ref(), steps)).transpose()?;
     let acceleration = tables::read(&keys::ACCELERATION, root)?;
     let temperature = tables::read(&keys::TEMPERATURE, root)?
-        .map(|temperature| heated(temperature, lower.thermal.is_some()));
+        .map(|temperature: Temperature| temperature.resolved(lower.thermal.is_some()));
     let mut with = Capabilities::default();
     each_capability!(C => if let Some(table) = root.table(C::NAME)? {
         known_in(&table)?;

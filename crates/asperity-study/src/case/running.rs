@@ -1,4 +1,4 @@
-//! Laws that change the bodies, and their temperatures.
+//! Laws that change the bodies, and the heat of friction.
 
 use super::cursor::Table;
 use super::schema::body::both as body;
@@ -9,7 +9,7 @@ use asperity_base::table::Table as _;
 use asperity_base::units::PerPascal;
 use asperity_contact::each_law;
 use asperity_contact::motion::{Acceleration, Law, Pair, Simulation, SlidingContact, StagedLoading};
-use asperity_contact::temperature::{Temperature, Thermal};
+use asperity_contact::temperature::Thermal;
 use asperity_contact::with::{self, BodyLaw, BodyLaws, Listed};
 
 /// Reads the laws from the table of a body.
@@ -34,13 +34,6 @@ pub(super) fn thermal(table: &Table<'_>, is_alone: bool) -> Result<Option<Therma
     }
     let [conductivity, heat_capacity, density] = keys.map(|key| key.required(table));
     Thermal::new(conductivity?, heat_capacity?, density?).map(Some)
-}
-
-/// Returns the temperatures, with the flash temperature at each position if the bodies are `heated` and the table leaves it open.
-pub(super) fn heated(temperature: Temperature, heated: bool) -> Temperature {
-    let mut temperature = temperature;
-    temperature.every = temperature.every.or(Some(usize::from(heated)));
-    temperature
 }
 
 impl Case {
