@@ -41,7 +41,7 @@ from .describe import (
     Summits,
 )
 from .fields import Field, Fields
-from .material import Coating, Compliances, Material, Plasticity, composite_modulus, dundurs, tangential_modulus
+from .material import Coating, Compliances, Material, Plasticity, composite_modulus, dundurs, materials, tangential_modulus
 from .simulation import Contacts, Pass, Simulation, simulate
 from .surface import Surface, channels, read
 from .verification import Check, Verification, verification_cases, verify
@@ -95,6 +95,7 @@ __all__ = [
     "form",
     "generate",
     "keys",
+    "materials",
     "open",
     "read",
     "reference",

@@ -174,6 +174,12 @@ def closed_form(question: str, data: SupportsGetItem[int, SupportsFloat | Suppor
     The answers of a closed form of these `data` at `points`, a row of coordinates each: a row of numbers each.
     """
 
+def named_materials() -> list[tuple[str, str, float, float, float | None, float | None, float | None, float | None, float | None, str]]:
+    """
+    The materials that are known by name: name, grade, Young's modulus, Poisson's ratio, hardness, conductivity, heat capacity, density,
+    resistivity, source.
+    """
+
 def compliances(lower: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsLenAndGetItem[SupportsFloat | SupportsIndex] | None], upper: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsLenAndGetItem[SupportsFloat | SupportsIndex] | None]) -> list[float]:
     """
     The compliances of a pair, 1/E*, 1/N*, 1/G*; E* and Dundurs' β of them; and the composite tangential modulus.

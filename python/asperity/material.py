@@ -119,12 +119,13 @@ class Material(Comparable):
     Parameters
     ----------
     young : float or str
-        Young's modulus, above 0, Pa. A rigid body has ``inf``.
-    poisson : float
-        Poisson's ratio, 0 to 0.5.
+        Young's modulus, above 0, Pa. A rigid body has ``inf``. Or the name of a material, see :func:`materials`: the other constants are
+        then its own by default, and a case uses those of heat and current where it needs them.
+    poisson : float, optional
+        Poisson's ratio, 0 to 0.5. A named material has its own.
     hardness : float, str or array_like, optional
         Largest pressure of a cell, above 0, Pa: one number, or a matrix with a number for each cell of the prepared body. A body
-        without hardness is elastic.
+        without hardness is elastic. A named material may have its own; ``inf`` makes it elastic.
     coating : Coating, optional
         Elastic layer on the body.
     plasticity : Plasticity, optional
@@ -149,16 +150,27 @@ class Material(Comparable):
     210000000000.0
     >>> steel
     Material(young='210 GPa', poisson=0.3, hardness='4 GPa')
+    >>> asp.Material("alumina").hardness
+    15000000000.0
     """
 
     def __init__(
         self,
         young: Quantity,
-        poisson: float,
+        poisson: float | None = None,
         hardness: Quantity | ArrayLike | None = None,
         coating: Coating | None = None,
         plasticity: Plasticity | None = None,
     ) -> None:
+        named = _named(young)
+        self.name = None if named is None else str(young)
+        if named is not None:
+            young = named["young"]
+            poisson = named["poisson"] if poisson is None else poisson
+            # A body that flows below its surface has no hardness.
+            hardness = named["hardness"] if hardness is None and plasticity is None else hardness
+        if poisson is None:
+            raise bad_input("poisson", "missing 'poisson', Poisson's ratio", 'for example asp.Material("210 GPa", 0.3), or asp.Material("steel")')
         self.young = quantity("young", young, "pressure", infinite=True)
         self.poisson = _poisson(poisson)
         self.hardness: float | NDArray[np.float64] = math.inf
@@ -176,6 +188,8 @@ class Material(Comparable):
 
     def __repr__(self) -> str:
         parts = [f"young={written(self.young, 'pressure')}", f"poisson={self.poisson!r}"]
+        if self.name is not None:
+            parts.insert(0, repr(self.name))
         if isinstance(self.hardness, np.ndarray):
             parts.append(f"hardness=<{' × '.join(map(str, self.hardness.shape))} values>")
         elif math.isfinite(self.hardness):
@@ -191,6 +205,11 @@ class Material(Comparable):
         table: dict[str, Any] = {"young": self.young, "poisson": self.poisson}
         if not isinstance(self.hardness, np.ndarray) and math.isfinite(self.hardness):
             table["hardness"] = self.hardness
+        if self.name is not None:
+            table["material"] = self.name
+            table.setdefault("hardness", math.inf)
+            if self.plasticity is not None:
+                del table["hardness"]
         if self.coating is not None:
             table["coating"] = self.coating._table()
         if self.plasticity is not None:
@@ -201,6 +220,35 @@ class Material(Comparable):
         coating = self.coating
         layer = None if coating is None else [coating.thickness, coating.young, coating.poisson]
         return self.young, self.poisson, layer
+
+
+def materials() -> dict[str, dict[str, Any]]:
+    """Return the materials that are known by name, with their constants at room temperature.
+
+    Returns
+    -------
+    dict
+        For each name `about`, the grade; `young` and `hardness`, Pa; `poisson`; `conductivity`, W/(m K); `heat_capacity`, J/(kg K);
+        `density`, kg/m³; `resistivity`, Ω m; and `source`. A constant that differs too much between grades is None.
+
+    Examples
+    --------
+    >>> import asperity as asp
+    >>> asp.materials()["steel"]["young"]
+    210000000000.0
+    """
+    keys = ("about", "young", "poisson", "hardness", "conductivity", "heat_capacity", "density", "resistivity", "source")
+    return {name: dict(zip(keys, constants, strict=True)) for name, *constants in _core.named_materials()}
+
+
+def _named(young: Any) -> dict[str, Any] | None:
+    """Return the constants of a material, if this is its name."""
+    if not isinstance(young, str) or not young[:1].isalpha() or young.strip().lower() in ("inf", "infinity", "nan"):
+        return None
+    known = materials()
+    if young not in known:
+        raise bad_input("young", f"no material '{young}'", f"there are {', '.join(known)}")
+    return known[young]
 
 
 class Compliances(Comparable):

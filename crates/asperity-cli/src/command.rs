@@ -1,11 +1,13 @@
 //! The commands of `asperity`.
 
 use clap::error::Error;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::args::{Check, Example, Paper, Plot, Report, Run, Study, Surface};
+use crate::args::{
+    Check, Completions, Contact, Example, Init, Materials, Paper, Plot, Report, Run, Slide, Study, Surface,
+};
 use crate::from_map::FromMap;
-use crate::report::{Failure, Outcome, written};
+use crate::report::{Failure, Outcome, print, written};
 
 /// Contact of two rough surfaces that press together and move
 ///
@@ -21,7 +23,8 @@ pub(crate) struct Arguments {
 const BEGIN: &str = "\
 To begin:
   asperity run --example quickstart
-  asperity check quickstart/case/case.toml";
+  asperity contact DISC.x3p PLATE.x3p --load \"0.5 N\" --material steel --open
+  asperity init";
 
 const EXIT_CODES: &str = "
 
@@ -35,6 +38,9 @@ Exit code:
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    Contact(Contact),
+    Slide(Slide),
+    Init(Init),
     Run(Run),
     Study(Study),
     Check(Check),
@@ -49,7 +55,31 @@ pub(crate) enum Command {
     ///
     /// Prints the errors of each case on successively finer grids, and the order of convergence. The exit code is 1 if a case fails.
     Verify,
+    Materials(Materials),
     Paper(Paper),
+    Completions(Completions),
+    /// Print the manual page, for `man`
+    #[command(after_help = "Example:\n  asperity man > ~/.local/share/man/man1/asperity.1")]
+    Man,
+}
+
+/// Prints the completions of a shell.
+pub(crate) fn completions(arguments: &Completions) -> Outcome {
+    let mut text = Vec::new();
+    clap_complete::generate(arguments.shell, &mut Arguments::command(), "asperity", &mut text);
+    print(&String::from_utf8_lossy(&text))
+}
+
+/// Prints the manual page, with a section for each command.
+pub(crate) fn man() -> Outcome {
+    let mut command = Arguments::command();
+    command.build();
+    let mut text = Vec::new();
+    let mut render = |command: clap::Command| clap_mangen::Man::new(command).render(&mut text);
+    let rendered =
+        render(command.clone()).and_then(|()| command.get_subcommands().cloned().try_for_each(&mut render));
+    rendered.map_err(Failure::Stdout)?;
+    print(&String::from_utf8_lossy(&text))
 }
 
 /// Prints the requested help, or the error in the arguments.
@@ -69,8 +99,6 @@ const MAX_CHARACTERS: usize = 2000;
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
-
     use super::*;
 
     #[test]

@@ -7,7 +7,9 @@ mod example;
 mod from_map;
 mod machine;
 mod maps;
+mod materials;
 mod page;
+mod pair;
 mod paper;
 mod place;
 mod plot;
@@ -59,9 +61,17 @@ fn command(arguments: impl IntoIterator<Item = OsString>) -> report::Outcome {
     threads::start(match &command {
         Command::Run(arguments) => arguments.threads,
         Command::Study(arguments) => arguments.threads,
+        Command::Contact(arguments) => arguments.writing.threads,
+        Command::Slide(arguments) => arguments.writing.threads,
         _ => None,
     })?;
     match command {
+        Command::Contact(arguments) => pair::contact(&arguments),
+        Command::Slide(arguments) => pair::slide(&arguments),
+        Command::Init(arguments) => pair::init(&arguments),
+        Command::Materials(arguments) => materials::materials(&arguments),
+        Command::Completions(arguments) => command::completions(&arguments),
+        Command::Man => command::man(),
         Command::Run(arguments) => run::run(&arguments),
         Command::Study(arguments) => study::study(&arguments),
         Command::Check(arguments) => check::check(&arguments),

@@ -26,6 +26,13 @@ pub(crate) fn case_on(path: &Path, command: &str, device: Option<Device>) -> Out
     })
 }
 
+/// Returns a path as an argument of a shell.
+pub(crate) fn shown(path: &Path) -> String {
+    let text = path.display().to_string();
+    let is_plain = |letter: char| letter.is_alphanumeric() || "/._-+:\\".contains(letter);
+    if text.chars().all(is_plain) { text } else { format!("\"{text}\"") }
+}
+
 /// Opens a results directory for the command of that name. If the folder contains results, the hint names them.
 pub(crate) fn results(path: &Path, command: &str) -> Outcome<Results> {
     Results::open(path).map_err(|error| {

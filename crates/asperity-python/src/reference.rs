@@ -1,6 +1,6 @@
 //! Closed forms: one table of all questions.
 
-use asperity::material::{Coating, Compliances, Material};
+use asperity::material::{Coating, Compliances, MATERIALS, Material, NamedMaterial};
 use asperity::motion::Watch;
 use asperity::ndarray::{Array2, s};
 use asperity::reference::{
@@ -232,6 +232,31 @@ pub(crate) fn compliances(py: Python<'_>, lower: Constants, upper: Constants) ->
         Ok([normal, lateral, coupling, pair.modulus(), pair.dundurs(), tangential])
     };
     ok(pair(), py)
+}
+
+/// A material by name: name, grade, Young's modulus, Poisson's ratio, hardness, conductivity, heat capacity, density, resistivity, source.
+type NamedConstants = (
+    &'static str,
+    &'static str,
+    f64,
+    f64,
+    Option<f64>,
+    Option<f64>,
+    Option<f64>,
+    Option<f64>,
+    Option<f64>,
+    &'static str,
+);
+
+/// Returns the materials that are known by name.
+#[pyfunction]
+pub(crate) fn named_materials() -> Vec<NamedConstants> {
+    let row = |named: &NamedMaterial| {
+        let NamedMaterial { name, about, young, poisson, hardness, conductivity, .. } = *named;
+        let NamedMaterial { heat_capacity, density, resistivity, source, .. } = *named;
+        (name, about, young, poisson, hardness, conductivity, heat_capacity, density, resistivity, source)
+    };
+    MATERIALS.iter().map(row).collect()
 }
 
 /// Returns Dundurs' β, friction, stick ratio and stiffening of the coupled punches.

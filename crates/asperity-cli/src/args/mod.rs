@@ -2,6 +2,7 @@
 
 mod drawing;
 mod generate;
+mod pair;
 mod preparation;
 mod study;
 mod surface;
@@ -12,11 +13,13 @@ use std::path::PathBuf;
 
 use asperity::solver::Device;
 use clap::Args;
+use clap_complete::Shell;
 
 use values::{choice, threads};
 
 pub(crate) use drawing::{Drawing, RangedDrawing};
 pub(crate) use generate::{Generate, Recipe};
+pub(crate) use pair::{Bodies, Contact, Init, Load, Materials, PairWriting, Slide, load, pair_of_materials};
 pub(crate) use study::Study;
 pub(crate) use surface::{Convert, Info, Input, PlotSurface, ReadingArguments, Surface};
 pub(crate) use writing::{Writing, within};
@@ -131,6 +134,16 @@ pub(crate) struct Check {
     /// Device that would solve the contact, in place of `device` in [contact]: cpu, cuda (a GPU of NVIDIA) or host
     #[arg(long, value_name = "DEVICE", value_parser = choice::<Device>())]
     pub(crate) device: Option<Device>,
+}
+
+/// Print the completions of a shell: bash, zsh, fish, elvish or powershell
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example:\n  asperity completions bash > ~/.local/share/bash-completion/completions/asperity"
+)]
+pub(crate) struct Completions {
+    /// Shell
+    pub(crate) shell: Shell,
 }
 
 /// List the examples, or write the files of one

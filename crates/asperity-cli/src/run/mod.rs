@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use asperity::Error;
 use asperity::motion::Stage;
+use asperity::solver::Device;
 use asperity::study;
 use asperity::study::case::{Case, LoadingPath};
 use asperity::study::{Existing, Results};
@@ -23,7 +24,7 @@ use asperity_report::{figures, page};
 use display::Display;
 pub use record::text;
 
-/// Runs the case, prints a table of its outcome, draws its figures.
+/// Runs the case of the arguments.
 pub(crate) fn run(arguments: &Run) -> report::Outcome {
     let (file, directory) = match (&arguments.case, &arguments.example) {
         (Some(file), _) => (file.clone(), arguments.out.clone().unwrap_or_else(|| beside(file))),
@@ -33,18 +34,29 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
         }
         (None, None) => unreachable!("the parser asks for one of them"),
     };
-    let case = place::case_on(&file, "run", arguments.device)?;
-    machine::demand(&case)?;
-    machine::device(&case)?;
     let existing = match (arguments.resume, arguments.overwrite) {
         (true, _) => Existing::Resume,
         (_, true) => Existing::Overwrite,
         _ => Existing::Keep,
     };
+    compute(&file, &directory, existing, arguments.device, arguments.quiet)
+}
+
+/// Computes the case of a `file`, prints a table of its outcome, draws its figures.
+pub(crate) fn compute(
+    file: &Path,
+    directory: &Path,
+    existing: Existing,
+    device: Option<Device>,
+    is_quiet: bool,
+) -> report::Outcome {
+    let case = place::case_on(file, "run", device)?;
+    machine::demand(&case)?;
+    machine::device(&case)?;
     // A contact in one step has no results until it is solved, so Ctrl-C ends it at once.
     let stop = Stop::at_ctrl_c(case.motion.is_some() || in_steps(&case));
-    let display = Display::new(arguments.quiet, &case, &directory, stop.clone());
-    let outcome = study::run(&case, study::SurfaceInput::default(), &directory, existing, &display);
+    let display = Display::new(is_quiet, &case, directory, stop.clone());
+    let outcome = study::run(&case, study::SurfaceInput::default(), directory, existing, &display);
     let (printed, warned) = display.end();
     if let Err(
         Error::Interrupted
@@ -54,7 +66,7 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
         | Error::AtIncrement { .. }
         | Error::AtPoint { .. },
     ) = &outcome
-        && let Ok(results) = Results::open(&directory)
+        && let Ok(results) = Results::open(directory)
     {
         // Finished steps get their page; the message reports why no more follow.
         let _ = page::write(&results, &page::of(&results));
@@ -64,7 +76,7 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
     for warning in summary.warnings.iter().filter(|warning| !warned.contains(warning)) {
         report_warning(warning);
     }
-    let tell = |text: &str| if arguments.quiet { Ok(()) } else { print(text) };
+    let tell = |text: &str| if is_quiet { Ok(()) } else { print(text) };
     let printed = printed.and_then(|()| tell(&record::text(&case, &summary)));
     let results = writer.results();
     let (wanted, stopped) = (figures::FigureOptions::default(), || stop.asked());
@@ -73,12 +85,12 @@ pub(crate) fn run(arguments: &Run) -> report::Outcome {
     let (page, drawn) = rayon::join(write, || sheet.and_then(figures::Sheet::finish));
     drawn.map_err(|error| match error {
         asperity_report::Error::Figure(error) if error.source.kind() == ErrorKind::Interrupted => {
-            Failure::FiguresInterrupted { directory: directory.clone() }
+            Failure::FiguresInterrupted { directory: directory.to_owned() }
         }
         other => other.into(),
     })?;
     page?;
-    if !arguments.quiet {
+    if !is_quiet {
         note(&format!("results, figures and report.html in {}", directory.display()));
     }
     printed
@@ -93,8 +105,12 @@ fn in_steps(case: &Case) -> bool {
     }
 }
 
-/// Returns the default results directory: `surfaces/disc.toml` → `surfaces/disc-results`.
+/// Returns the default results directory: `surfaces/disc.toml` → `surfaces/disc-results`; of the case file within results, these.
 fn beside(file: &Path) -> PathBuf {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    if file.file_name().is_some_and(|name| name == "case.toml") && folder.join("case.json").exists() {
+        return folder.to_owned();
+    }
     let mut name = file.file_stem().unwrap_or_default().to_owned();
     name.push("-results");
     file.with_file_name(name)

@@ -12,6 +12,7 @@ mod documents;
 mod files_of_a_run;
 mod friction;
 mod limits;
+mod pair;
 mod passage;
 mod resume;
 mod study;

@@ -50,7 +50,7 @@ use witness::{DPI, PICTURES};
 pub use witness::{Seen, gathered};
 
 /// Name of the page in a results directory.
-const FILE: &str = "report.html";
+pub const FILE: &str = "report.html";
 
 /// Writes the page of the results in `directory`, finished or under way, to `out`, or into the directory, and gives its path.
 ///

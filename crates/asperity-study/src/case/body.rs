@@ -3,23 +3,25 @@
 use std::path::Path;
 
 use super::cursor::Table;
-use super::running;
+use super::running::{self, Used};
 use super::schema::body::{both, upper};
 use super::schema::tables::{self, known_in};
 use super::topography::topography;
 use super::{Body, Hardness, HardnessMap, Mount, Source};
 use asperity_base::error::Result;
-use asperity_contact::material::Material;
+use asperity_contact::material::{Material, NamedMaterial};
 use asperity_contact::with::plasticity::Yielding;
 use asperity_surface::UNDERSIDE;
 
-/// Reads a body of a case, whose thermal conductivity may be given alone if `is_alone`; files are relative to the `folder` of the case.
-pub(super) fn body(table: &Table<'_>, folder: &Path, is_alone: bool) -> Result<Body> {
+/// Reads a body of a case, whose tables use some constants of a named material; files are relative to the `folder` of the case.
+pub(super) fn body(table: &Table<'_>, folder: &Path, used: Used) -> Result<Body> {
     let is_upper = table.path() == "upper";
     known_in(table)?;
-    let young = both::YOUNG.of(table)?;
-    let poisson = both::POISSON.of(table)?;
-    let hardness = hardness(table, folder)?;
+    let named = both::MATERIAL.of(table)?;
+    let young = both::YOUNG.of_material(table, named.map(|named| named.young))?;
+    let poisson = both::POISSON.of_material(table, named.map(|named| named.poisson))?;
+    // A body that flows below its surface has no hardness.
+    let hardness = hardness(table, folder, named.filter(|_| both::PLASTICITY.entry(table).is_none()))?;
     let coating = tables::read(&both::COATING, table)?;
     let plasticity = tables::read(&both::PLASTICITY, table)?.map(Yielding::resolved);
     let laws = running::laws(table, &hardness)?;
@@ -32,9 +34,13 @@ pub(super) fn body(table: &Table<'_>, folder: &Path, is_alone: bool) -> Result<B
     };
     // Checked above, entry by entry, so this cannot fail.
     let material = Material { coating, ..Material::elastic(young, poisson)? };
-    let thermal = running::thermal(table, is_alone)?;
-    let conductivity = if thermal.is_none() { both::CONDUCTIVITY.of(table)? } else { None };
-    let resistivity = both::RESISTIVITY.of(table)?;
+    let thermal = running::thermal(table, named, used)?;
+    let conducts = named.filter(|_| used.conduction);
+    let conductivity = match thermal {
+        None => both::CONDUCTIVITY.of(table)?.or(conducts.and_then(|named| named.conductivity)),
+        Some(_) => None,
+    };
+    let resistivity = both::RESISTIVITY.of(table)?.or(conducts.and_then(|named| named.resistivity));
     Ok(Body { material, hardness, plasticity, thermal, conductivity, resistivity, laws, topography, mount })
 }
 
@@ -43,8 +49,11 @@ fn may_be_an_underside(source: &Source) -> bool {
     matches!(source, Source::File { channel: Some(channel), .. } if channel == UNDERSIDE)
 }
 
-/// Reads the hardness from the table of a body; files are relative to the folder of the case.
-fn hardness(table: &Table<'_>, folder: &Path) -> Result<Hardness> {
+/// Reads the hardness from the table of a body, by default that of a named material; files are relative to the folder of the case.
+fn hardness(table: &Table<'_>, folder: &Path, named: Option<&NamedMaterial>) -> Result<Hardness> {
+    if let (None, Some(hardness)) = (both::HARDNESS.entry(table), named.and_then(|named| named.hardness)) {
+        return Ok(Hardness::Uniform(hardness));
+    }
     Ok(match both::HARDNESS.of(table)? {
         Hardness::Map(map) => Hardness::Map(HardnessMap { path: folder.join(map.path), ..map }),
         other => other,

@@ -10,6 +10,7 @@ use super::friction::{friction, stages};
 use super::motion::motion;
 use super::plasticity::plasticity;
 use super::rules;
+use super::running::{Used, heat_together};
 use super::schema::root as keys;
 use super::schema::tables::{self, belongs, known_in};
 use super::topography::{one_tells_the_other, topography};
@@ -52,10 +53,18 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     known_in(root)?;
     let stem = || file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let title = keys::TITLE.of(root)?.unwrap_or_else(stem);
-    let is_alone = uses("conductivity", |name| root.get(name).is_some());
-    let lower = body(&keys::LOWER.demand(root)?, folder, is_alone)?;
+    let used = Used {
+        flash: keys::TEMPERATURE.entry(root).is_some()
+            && keys::FRICTION.entry(root).is_some()
+            && (keys::MOTION.entry(root).is_some() || keys::SLIDING.entry(root).is_some()),
+        conduction: uses("conductivity", |name| root.get(name).is_some()),
+    };
+    let lower_table = keys::LOWER.demand(root)?;
+    let mut lower = body(&lower_table, folder, used)?;
     let upper_table = keys::UPPER.demand(root)?;
-    let upper = body(&upper_table, folder, is_alone)?;
+    let mut upper = body(&upper_table, folder, used)?;
+    heat_together(&mut lower, &lower_table, &upper, used);
+    heat_together(&mut upper, &upper_table, &lower, used);
     one_tells_the_other(&lower.topography, &upper.topography, &upper_table)?;
     let contact = contact(&keys::CONTACT.demand(root)?)?;
     let adhesion = tables::read(&keys::ADHESION, root)?;

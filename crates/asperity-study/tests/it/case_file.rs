@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use asperity_base::Error;
 use asperity_base::units::{Dimension, format, format_number};
+use asperity_contact::material::{MATERIALS, NamedMaterial};
 use asperity_study::Case;
 use asperity_study::case::rules::Exclusion;
 use asperity_study::case::schema::{Exists, Key, Section};
@@ -33,6 +34,7 @@ fn the_tables_of_the_documents_are_those_of_the_program() {
                     tables_of_rules += 1;
                     table_of_rules()
                 }
+                Some("materials") => table_of_materials(),
                 Some(mark) => match mark.strip_prefix("keys: ") {
                     Some(names) => {
                         let named = names.split(", ").map(|name| {
@@ -189,6 +191,28 @@ fn table_of_keys(sections: &[&Section]) -> String {
         }
     }
     text
+}
+
+fn table_of_materials() -> String {
+    let row = |material: &NamedMaterial| {
+        let or_none = |value: Option<String>| value.unwrap_or_else(|| "–".to_owned());
+        let quantity = |value: Option<f64>, dimension| or_none(value.map(|value| format(value, dimension)));
+        let NamedMaterial { name, about, source, .. } = material;
+        let [young, hardness] =
+            [Some(material.young), material.hardness].map(|value| quantity(value, Dimension::Pressure));
+        let conductivity = quantity(material.conductivity, Dimension::Conductivity);
+        let heat_capacity = quantity(material.heat_capacity, Dimension::HeatCapacity);
+        let density = quantity(material.density, Dimension::Density);
+        let resistivity = quantity(material.resistivity, Dimension::Resistivity);
+        let poisson = format_number(material.poisson);
+        format!(
+            "| `{name}` | {about} | {young} | {poisson} | {hardness} | {conductivity} | {heat_capacity} | {density} | \
+             {resistivity} | {source} |\n"
+        )
+    };
+    let heads = "| name | grade | young | poisson | hardness | conductivity | heat_capacity | density | resistivity | source |";
+    let rows: String = MATERIALS.iter().map(row).collect();
+    format!("{heads}\n|---|---|---|---|---|---|---|---|---|---|\n{rows}")
 }
 
 fn table_of_rules() -> String {

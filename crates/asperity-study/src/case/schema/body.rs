@@ -3,10 +3,11 @@
 use super::Bounds::{AboveZero, AboveZeroOrInfinite, Between};
 use super::Fallback::{Absent, Required};
 use super::typed::{
-    Nested, Optional, Typed, Value, choice, number, optional, other, quantity, required, section, table,
+    MATERIAL_NAME, Nested, Optional, Typed, Value, choice, number, optional, other, quantity, section, table,
 };
 use asperity_base::exists;
 use asperity_base::units::Dimension;
+use asperity_contact::material::NamedMaterial;
 
 /// Poisson's ratio.
 const RATIO: Value<f64> = number(Between { least: 0.0, most: 0.5, open: [false, false] });
@@ -21,14 +22,28 @@ pub(crate) mod both {
     use crate::case::schema::values::hardness as read;
 
     section! { &["lower", "upper"], "";
-        YOUNG: Typed<f64> = required(
+        MATERIAL: Optional<&'static NamedMaterial> = optional(
+            "material",
+            MATERIAL_NAME,
+            "none",
+            "\"steel\"",
+            "material by name, see [materials](#materials): its `young`, `poisson` and `hardness`, and the constants of heat and current \
+             where the case uses them; keys given beside it replace them",
+        );
+        YOUNG: Optional<f64> = optional(
             "young",
             quantity(Dimension::Pressure, AboveZeroOrInfinite("a rigid body")).exists(exists::YOUNG),
+            "that of `material`; must be given without one",
             "\"210 GPa\"",
             "Young's modulus; for a coated body, the modulus below the coating; at most one uncoated body may be rigid",
         );
-        POISSON: Typed<f64> =
-            required("poisson", RATIO, "0.3", "Poisson's ratio; for a coated body, the ratio below the coating");
+        POISSON: Optional<f64> = optional(
+            "poisson",
+            RATIO,
+            "that of `material`; must be given without one",
+            "0.3",
+            "Poisson's ratio; for a coated body, the ratio below the coating",
+        );
         HARDNESS: Typed<Hardness> = super::super::typed::defaulted(
             "hardness",
             other(

@@ -11,6 +11,7 @@ use asperity_base::exists;
 use asperity_base::table::{self, expected};
 
 use asperity_base::units::Dimension;
+use asperity_contact::material::{self, MATERIALS, NamedMaterial};
 use asperity_surface::Axis;
 
 /// A kind of values, with its reader.
@@ -172,6 +173,17 @@ impl<T> Typed<T> {
     }
 }
 
+impl Optional<f64> {
+    /// Returns the value in `table`, or that of a named material; one of them must be given.
+    pub(in crate::case) fn of_material(&self, table: &Table<'_>, named: Option<f64>) -> Result<f64> {
+        let hint =
+            format!("for example `{} = {}`, or `material = \"steel\"`", self.key.name, self.key.example);
+        let missing =
+            || table.error(format!("missing key '{}' in {}", self.key.name, table.name()), Some(hint));
+        self.of(table)?.or(named).ok_or_else(missing)
+    }
+}
+
 impl<T> Optional<T> {
     /// Declares the key for another table, with another default.
     pub(super) const fn elsewhere(&self, absent: &'static str, text: &'static str) -> Self {
@@ -298,6 +310,16 @@ pub(super) const SEED: Value<u64> = Value {
 pub(super) const fn choice<T: Choice>() -> Value<T> {
     Value { kind: Kind::Choice(T::NAMES), read: |_, entry| entry.choice(), exists: Exists::Undeclared }
 }
+
+/// The name of a material.
+pub(super) const MATERIAL_NAME: Value<&'static NamedMaterial> = Value {
+    kind: Kind::Choice(material::NAMES),
+    read: |_, entry| {
+        let names = material::NAMES.iter().copied().zip(MATERIALS).collect::<Vec<_>>();
+        entry.word(&names)
+    },
+    exists: Exists::Undeclared,
+};
 
 /// A text.
 pub(super) const TEXT: Value<String> =

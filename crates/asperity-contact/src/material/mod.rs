@@ -1,5 +1,9 @@
 //! Elastic constants of the bodies and of their pair.
 
+mod named;
+
+pub use named::{MATERIALS, NAMES, NamedMaterial};
+
 use crate::error::{Error, Result, check, check_in};
 use crate::units::{Dimension, Metre, Pascal};
 use asperity_base::exists;

@@ -1,0 +1,120 @@
+//! `asperity contact`, `asperity slide` and `asperity init`: from two files to a case, and to its results.
+
+mod draft;
+mod init;
+mod surface;
+
+use std::path::{Path, PathBuf};
+
+use asperity::study::{Existing, SurfaceInput, bodies};
+use asperity::{Error, io};
+
+use crate::args::{Bodies, Contact, PairWriting, ReadingArguments, Slide};
+use crate::report::{Failure, Outcome, note};
+use crate::{place, run};
+use asperity_report::page;
+use draft::{Draft, DraftBody};
+pub(crate) use init::init;
+use surface::FileSurface;
+
+/// Computes the contact of two files at rest.
+pub(crate) fn contact(arguments: &Contact) -> Outcome {
+    compute(&arguments.bodies, &arguments.reading, &arguments.writing, None)
+}
+
+/// Computes passes of one file over another.
+pub(crate) fn slide(arguments: &Slide) -> Outcome {
+    compute(&arguments.bodies, &arguments.reading, &arguments.writing, Some(arguments.passes))
+}
+
+fn compute(
+    asked: &Bodies,
+    reading: &ReadingArguments,
+    writing: &PairWriting,
+    passes: Option<u32>,
+) -> Outcome {
+    let directory = writing.out.clone().unwrap_or_else(|| directory(asked, passes.is_some()));
+    let case = directory.join("case.toml");
+    if directory.join("case.json").exists() && !writing.overwrite {
+        let there = Error::ResultsExist { path: directory, results: true }.to_string();
+        return Err(Failure::usage(there, Some("--overwrite replaces them, --out names another directory")));
+    }
+    if case.exists() && !writing.overwrite {
+        let hint = format!("`asperity run {}` computes it, --overwrite replaces it", place::shown(&case));
+        return Err(Failure::usage(format!("`{}` exists", case.display()), Some(&hint)));
+    }
+    let surfaces = [("lower", &asked.lower), ("upper", &asked.upper)];
+    let surfaces = surfaces.map(|(body, file)| FileSurface::read(body, file, reading));
+    let [lower, upper] = surfaces;
+    let (lower, upper) = (lower?, upper?);
+    let body = |index: usize, surface: &FileSurface| DraftBody {
+        material: asked.material.0[index].clone(),
+        hardness: asked.hardness.as_ref().map(|hardness| hardness.0[index].clone()),
+        topography: surface.keys(&directory),
+    };
+    let draft = Draft {
+        title: format!("{} on {}", name(&asked.upper), name(&asked.lower)),
+        bodies: [body(0, &lower), body(1, &upper)],
+        load: asked.load.clone(),
+        periodic: asked.periodic,
+        is_common: !lower.fits(&upper),
+        passes,
+    };
+    let failed = |source| Error::File { path: directory.clone(), source };
+    let is_new = !directory.exists();
+    std::fs::create_dir_all(&directory).map_err(failed)?;
+    io::replace(&case, draft.text().as_bytes())?;
+    let outcome = prepared(&case, [&lower, &upper], writing.quiet).and_then(|()| {
+        let existing = if writing.overwrite { Existing::Overwrite } else { Existing::Keep };
+        run::compute(&case, &directory, existing, None, writing.quiet)
+    });
+    if outcome.is_err() && !directory.join("case.json").exists() {
+        // Nothing has been computed: the next try begins with other arguments.
+        let _ = std::fs::remove_file(&case);
+        if is_new {
+            let _ = std::fs::remove_file(directory.join(".lock"));
+            let _ = std::fs::remove_dir(&directory);
+        }
+    }
+    outcome?;
+    if !writing.quiet {
+        let case = place::shown(&case);
+        note(&format!("the case is {case}: edit it, then `asperity run {case} --overwrite`"));
+    }
+    match writing.open {
+        true => show(&directory.join(page::FILE)),
+        false => Ok(()),
+    }
+}
+
+/// Prints what was done to the surfaces, a line for each.
+fn prepared(case: &Path, surfaces: [&FileSurface; 2], is_quiet: bool) -> Outcome {
+    if is_quiet {
+        return Ok(());
+    }
+    let case = place::case(case, "run")?;
+    let bodies = bodies(&case, SurfaceInput::default())?;
+    for (surface, body) in surfaces.into_iter().zip([&bodies.lower, &bodies.upper]) {
+        note(&surface.story(body.topography.grid()));
+    }
+    Ok(())
+}
+
+/// Opens a page in the browser.
+fn show(page: &Path) -> Outcome {
+    open::that_detached(page).map_err(|error| {
+        let hint = format!("open {} in a browser", page.display());
+        Failure::usage(format!("no browser could be started: {error}"), Some(&hint))
+    })
+}
+
+/// Name of a file without its folders and its ending.
+fn name(file: &Path) -> String {
+    file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// The default directory of the results.
+fn directory(asked: &Bodies, moves: bool) -> PathBuf {
+    let what = if moves { "slide" } else { "contact" };
+    PathBuf::from(format!("{}-{}-{what}", name(&asked.lower), name(&asked.upper)))
+}

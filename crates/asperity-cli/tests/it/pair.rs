@@ -1,0 +1,124 @@
+//! Two files in one command: `contact`, `slide` and `init`.
+
+use std::fs;
+
+use assert_cmd::Command;
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::support::{asperity, change, ok, refused, stderr, summary};
+
+/// A folder with two surfaces of different pitch and size, and one without a pitch.
+fn files() -> TempDir {
+    let folder = TempDir::new().unwrap();
+    let at = |arguments: &str| ok(&asperity(&folder, arguments));
+    let made = "surface generate self-affine --hurst 0.8 --sq 80nm";
+    at(&format!("{made} --shape 48x40 --pitch 1um --seed 1 --out disc.x3p"));
+    at(&format!("{made} --shape 90x70 --pitch 0.7um --seed 2 --out plate.x3p"));
+    at("surface convert plate.x3p plate.npy");
+    folder
+}
+
+#[test]
+fn two_files_become_a_case_and_its_results() {
+    let folder = files();
+    let at = |arguments: &str| asperity(&folder, arguments);
+    let output =
+        at("contact disc.x3p plate.x3p --load 20mN --material steel,bearing-steel --hardness 4GPa,inf");
+    assert!(ok(&output).contains("contact area"));
+    let told = stderr(&output);
+    for part in ["lower: disc.x3p", "upper: plate.x3p", "tilt removed", "brought to 48 × 40 of 1 µm"] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    let results = folder.path().join("disc-plate-contact");
+    let found = summary(&results);
+    assert_eq!(found["case"]["lower"]["young"], 210e9);
+    assert_eq!(found["case"]["lower"]["hardness"], 4e9);
+    assert_eq!(found["case"]["upper"]["young"], 207.9e9);
+    assert!((found["static"]["load"].as_f64().unwrap() - 0.02).abs() < 1e-6);
+    // The case beside the results is the same contact, in any folder from which it is called.
+    let again = "run disc-plate-contact/case.toml --out again";
+    ok(&at(again));
+    assert_eq!(summary(&folder.path().join("again"))["static"], found["static"]);
+    // What is there is kept.
+    let error = refused(&at("contact disc.x3p plate.x3p --load 20mN --material steel"));
+    assert!(error.contains("already holds results") && !error.contains("--resume"), "{error}");
+    change(&results.join("case.toml"), "20mN", "30mN");
+    let error = refused(&at("run disc-plate-contact/case.toml"));
+    assert!(error.contains("--overwrite"), "{error}");
+    ok(&at("run disc-plate-contact/case.toml --overwrite"));
+    assert!((summary(&results)["static"]["load"].as_f64().unwrap() - 0.03).abs() < 1e-6);
+}
+
+#[test]
+fn a_file_passes_over_another_and_goes_round_with_periodic_surfaces() {
+    let folder = files();
+    let at = |arguments: &str| asperity(&folder, arguments);
+    ok(&at("slide disc.x3p plate.npy --pitch 0.7um --load 10MPa --material glass --passes 2 --out over"));
+    let passes = summary(&folder.path().join("over"))["passes"].as_array().unwrap().len();
+    assert_eq!(passes, 2);
+    ok(&at("slide disc.x3p disc.x3p --load 10MPa --material steel --periodic --out round"));
+    let found = summary(&folder.path().join("round"));
+    assert_eq!(found["case"]["motion"]["strategy"], "shift");
+    assert_eq!(found["case"]["contact"]["boundary"], "periodic");
+}
+
+#[test]
+fn mistakes_name_the_argument_and_leave_nothing() {
+    let folder = files();
+    let at = |arguments: &str| asperity(&folder, arguments);
+    for (arguments, part) in [
+        ("contact disc.x3p plate.npy --load 1mN --material steel", "--pitch"),
+        ("contact disc.x3p nothing.x3p --load 1mN --material steel", "nothing.x3p"),
+        ("contact disc.x3p plate.x3p --load 1um --material steel", "a force such as 0.5N"),
+        ("contact disc.x3p plate.x3p --load 1mN --material stele", "no material `stele`"),
+        ("contact disc.x3p plate.x3p --load 1mN", "--material"),
+        ("contact disc.x3p plate.x3p --load 1mN --material steel --hardness 4um", "--hardness"),
+        ("slide disc.x3p plate.x3p --load 1mN --material steel --passes 0", "--passes"),
+    ] {
+        let error = refused(&at(arguments));
+        assert!(error.contains(part), "{arguments}: {error}");
+    }
+    // A load that cannot be carried is found out after the case is written.
+    let output = at("contact disc.x3p plate.x3p --load 1kN --material bearing-steel --out heavy");
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(left.len(), 3, "{left:?}");
+}
+
+#[test]
+fn five_answers_make_a_case() {
+    let folder = files();
+    let init = |arguments: &str, answers: &str| {
+        let words = arguments.split_whitespace();
+        let mut command = Command::cargo_bin("asperity").unwrap();
+        command.arg("init").args(words).current_dir(folder.path());
+        command.write_stdin(answers.to_owned()).output().unwrap()
+    };
+    let at = |arguments: &str| asperity(&folder, arguments);
+    ok(&init("", "disc.x3p\nplate.x3p\nsteel\n20 mN\n3\n"));
+    let check = ok(&at("check case.toml"));
+    assert!(check.contains("plate on disc") && check.contains("3 passes"), "{check}");
+    // Empty answers are those in brackets, and a wrong one is asked again.
+    ok(&init("other.toml", "\n\nstele\n\n\n\n"));
+    assert!(ok(&at("check other.toml")).contains("256 × 256 cells"));
+    ok(&init("all.toml --lower disc.x3p --upper disc.x3p --material glass --load 5MPa --passes 0", ""));
+    ok(&at("check all.toml"));
+    assert!(refused(&init("", "")).contains("`case.toml` exists"));
+    assert!(refused(&init("new.toml --lower disc.x3p", "")).contains("give --upper"));
+}
+
+#[test]
+fn materials_completions_and_the_manual_are_printed() {
+    let folder = TempDir::new().unwrap();
+    let at = |arguments: &str| asperity(&folder, arguments);
+    let all: Value = serde_json::from_str(&ok(&at("materials --json"))).unwrap();
+    assert!(all.as_array().unwrap().len() >= 20);
+    assert!(ok(&at("materials")).contains("bearing-steel"));
+    assert!(ok(&at("materials steel")).contains("EN 1993-1-1"));
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        assert!(ok(&at(&format!("completions {shell}"))).contains("asperity"), "{shell}");
+    }
+    let manual = ok(&at("man"));
+    assert!(manual.starts_with(".ie") && manual.contains("asperity\\-slide"), "{manual}");
+}

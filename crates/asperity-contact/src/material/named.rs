@@ -1,0 +1,254 @@
+//! Materials by name.
+
+use super::Material;
+use crate::error::Result;
+use crate::units::Pascal;
+
+/// Constants of a material at room temperature. Those that differ too much between grades are missing.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct NamedMaterial {
+    /// The name in a case file.
+    pub name: &'static str,
+    /// The grade.
+    pub about: &'static str,
+    /// Young's modulus.
+    pub young: Pascal,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// Largest pressure that it carries, where the grade determines it.
+    pub hardness: Option<Pascal>,
+    /// Thermal conductivity, W/(m K).
+    pub conductivity: Option<f64>,
+    /// Heat capacity, J/(kg K).
+    pub heat_capacity: Option<f64>,
+    /// Density, kg/m³.
+    pub density: Option<f64>,
+    /// Electrical resistivity, Ω m.
+    pub resistivity: Option<f64>,
+    /// Where the constants are from.
+    pub source: &'static str,
+}
+
+impl NamedMaterial {
+    /// Returns the material of this name.
+    pub fn of(name: &str) -> Option<&'static Self> {
+        MATERIALS.iter().find(|material| material.name == name)
+    }
+
+    /// Returns its elastic constants.
+    ///
+    /// # Errors
+    /// None for a material of [`MATERIALS`].
+    pub fn elastic(&self) -> Result<Material> {
+        Material::elastic(self.young, self.poisson)
+    }
+
+    const fn new(name: &'static str, about: &'static str, elastic: [f64; 2], source: &'static str) -> Self {
+        Self {
+            name,
+            about,
+            young: 1e9 * elastic[0],
+            poisson: elastic[1],
+            hardness: None,
+            conductivity: None,
+            heat_capacity: None,
+            density: None,
+            resistivity: None,
+            source,
+        }
+    }
+
+    /// Sets the hardness, GPa.
+    const fn hard(self, hardness: f64) -> Self {
+        Self { hardness: Some(1e9 * hardness), ..self }
+    }
+
+    /// Sets conductivity, heat capacity and density, SI.
+    const fn thermal(self, [conductivity, heat_capacity, density]: [f64; 3]) -> Self {
+        Self {
+            conductivity: Some(conductivity),
+            heat_capacity: Some(heat_capacity),
+            density: Some(density),
+            ..self
+        }
+    }
+
+    /// Sets the resistivity, nΩ m.
+    const fn electrical(self, resistivity: f64) -> Self {
+        Self { resistivity: Some(1e-9 * resistivity), ..self }
+    }
+}
+
+/// Elastic constants of metals from Kaye and Laby, the others from the CRC Handbook.
+const METAL: &str = "elastic: Kaye & Laby, Tables of Physical and Chemical Constants, 2.2.2; others: CRC Handbook \
+                     of Chemistry and Physics, properties of the elements";
+
+/// The materials, by their names: steels and irons, metals, ceramics and glasses, polymers.
+pub const MATERIALS: &[NamedMaterial] = &[
+    NamedMaterial::new("steel", "carbon steel", [210.0, 0.3], "EN 1993-1-1, EN 1993-1-2 at 20 °C, EN 1991-1-1")
+        .thermal([53.3, 440.0, 7850.0]),
+    NamedMaterial::new(
+        "bearing-steel",
+        "100Cr6 (AISI 52100), through-hardened to 62 HRC",
+        [207.9, 0.3],
+        "elastic: ISO/TS 16281; hardness: 62 HRC is 746 HV by ASTM E140; others: ASM Handbook vol. 1",
+    )
+    .hard(7.3)
+    .thermal([46.6, 475.0, 7810.0]),
+    NamedMaterial::new(
+        "stainless-steel",
+        "AISI 304 (1.4301), annealed",
+        [193.0, 0.29],
+        "ASM Handbook vol. 1, wrought stainless steels",
+    )
+    .thermal([16.2, 500.0, 8000.0])
+    .electrical(720.0),
+    NamedMaterial::new("cast-iron", "grey iron EN-GJL-250", [110.0, 0.26], "EN 1561:2011, annex A")
+        .thermal([48.5, 460.0, 7200.0]),
+    NamedMaterial::new("iron", "soft", [211.4, 0.293], METAL).thermal([80.4, 449.0, 7874.0]).electrical(96.1),
+    NamedMaterial::new("aluminium", "pure", [70.3, 0.345], METAL)
+        .thermal([237.0, 897.0, 2700.0])
+        .electrical(26.5),
+    NamedMaterial::new("chromium", "pure", [279.1, 0.21], METAL).thermal([93.9, 449.0, 7150.0]),
+    NamedMaterial::new("copper", "pure", [129.8, 0.343], METAL)
+        .thermal([401.0, 385.0, 8960.0])
+        .electrical(16.8),
+    NamedMaterial::new(
+        "brass",
+        "70 % copper, 30 % zinc",
+        [100.6, 0.35],
+        "elastic: Kaye & Laby, Tables of Physical and Chemical Constants, 2.2.2; others: ASM Handbook vol. 2, C26000",
+    )
+    .thermal([120.0, 375.0, 8530.0])
+    .electrical(62.0),
+    NamedMaterial::new("gold", "pure", [78.0, 0.44], METAL).thermal([318.0, 129.0, 19300.0]).electrical(22.1),
+    NamedMaterial::new("molybdenum", "pure", [324.8, 0.293], METAL)
+        .thermal([138.0, 251.0, 10200.0])
+        .electrical(53.4),
+    NamedMaterial::new("nickel", "soft", [199.5, 0.312], METAL)
+        .thermal([90.9, 444.0, 8900.0])
+        .electrical(69.3),
+    NamedMaterial::new("silver", "pure", [82.7, 0.367], METAL)
+        .thermal([429.0, 235.0, 10500.0])
+        .electrical(15.9),
+    NamedMaterial::new(
+        "titanium-alloy",
+        "Ti-6Al-4V, annealed",
+        [113.8, 0.342],
+        "ASM Materials Properties Handbook: Titanium Alloys",
+    )
+    .thermal([6.7, 526.0, 4430.0])
+    .electrical(1780.0),
+    NamedMaterial::new("tungsten", "pure", [411.0, 0.28], METAL)
+        .thermal([174.0, 132.0, 19300.0])
+        .electrical(52.8),
+    NamedMaterial::new(
+        "alumina",
+        "sintered, 99.5 % and more",
+        [416.0, 0.231],
+        "R. G. Munro, J. Am. Ceram. Soc. 80, 1919 (1997)",
+    )
+    .hard(15.0)
+    .thermal([33.0, 755.0, 3984.0]),
+    NamedMaterial::new(
+        "silicon-carbide",
+        "sintered α-SiC",
+        [415.0, 0.16],
+        "R. G. Munro, J. Phys. Chem. Ref. Data 26, 1195 (1997)",
+    )
+    .hard(32.0)
+    .thermal([114.0, 715.0, 3160.0]),
+    NamedMaterial::new(
+        "silicon-nitride",
+        "bearing grade",
+        [310.0, 0.27],
+        "within the limits of ASTM F2094, class I, whose least hardness is 1480 HV",
+    )
+    .hard(14.5)
+    .thermal([25.0, 700.0, 3200.0]),
+    NamedMaterial::new("glass", "soda-lime, float", [70.0, 0.2], "EN 572-1, whose hardness is Knoop's")
+        .hard(6.0)
+        .thermal([1.0, 720.0, 2500.0]),
+    NamedMaterial::new("fused-silica", "Corning 7980", [72.7, 0.16], "Corning HPFS 7980, data sheet")
+        .thermal([1.3, 770.0, 2201.0]),
+    NamedMaterial::new(
+        "silicon",
+        "polycrystal; a single crystal has 130 to 188 GPa",
+        [160.0, 0.22],
+        "elastic: M. A. Hopcroft, W. D. Nix, T. W. Kenny, J. Microelectromech. Syst. 19, 229 (2010); others: CRC \
+         Handbook of Chemistry and Physics",
+    )
+    .thermal([149.0, 712.0, 2330.0]),
+    NamedMaterial::new(
+        "diamond",
+        "polycrystal",
+        [1143.0, 0.069],
+        "C. A. Klein, G. F. Cardinale, Diamond Relat. Mater. 2, 918 (1993)",
+    ),
+    NamedMaterial::new(
+        "peek",
+        "unfilled",
+        [4.0, 0.4],
+        "Victrex PEEK 450G, data sheet; a polymer creeps, so that its modulus falls with time",
+    )
+    .thermal([0.32, 2200.0, 1300.0]),
+    NamedMaterial::new(
+        "pmma",
+        "cast",
+        [3.3, 0.37],
+        "Plexiglas GS, data sheet; a polymer creeps, so that its modulus falls with time",
+    )
+    .thermal([0.19, 1470.0, 1190.0]),
+];
+
+/// The names of [`MATERIALS`].
+pub const NAMES: &[&str] = &{
+    let mut names = [""; MATERIALS.len()];
+    let mut index = 0;
+    while index < names.len() {
+        names[index] = MATERIALS[index].name;
+        index += 1;
+    }
+    names
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_base::exists;
+    use asperity_base::table::Exists;
+
+    #[test]
+    fn every_material_has_constants_that_exist_and_a_source() {
+        let within = |what: Exists, value: Option<f64>| match (what, value) {
+            (Exists::Within { least, most, .. }, Some(value)) => (least..=most).contains(&value),
+            _ => true,
+        };
+        for (index, material) in MATERIALS.iter().enumerate() {
+            let name = material.name;
+            assert!(material.elastic().is_ok() && material.source.len() > 10, "{name}");
+            assert!(MATERIALS[..index].iter().all(|other| other.name != name), "{name} is there twice");
+            assert_eq!(NamedMaterial::of(name), Some(material));
+            assert!(within(exists::YOUNG, Some(material.young)), "{name}");
+            assert!(within(exists::HARDNESS, material.hardness), "{name}");
+            assert!(within(exists::CONDUCTIVITY, material.conductivity), "{name}");
+            assert!(within(exists::HEAT_CAPACITY, material.heat_capacity), "{name}");
+            assert!(within(exists::DENSITY, material.density), "{name}");
+            assert!(within(exists::RESISTIVITY, material.resistivity), "{name}");
+            // Without plastic deformation a solid carries no more than about a fifth of its modulus.
+            assert!(material.hardness.is_none_or(|hardness| hardness < 0.2 * material.young), "{name}");
+        }
+    }
+
+    #[test]
+    fn metals_follow_the_law_of_wiedemann_and_franz() {
+        // λ ρ / T = 2.44e-8 W Ω/K² for electrons alone; alloys and stiff lattices lie above.
+        for material in MATERIALS {
+            if let (Some(conductivity), Some(resistivity)) = (material.conductivity, material.resistivity) {
+                let lorenz = conductivity * resistivity / 293.0;
+                assert!((1.9e-8..4.6e-8).contains(&lorenz), "{}: {lorenz:.2e}", material.name);
+            }
+        }
+    }
+}
