@@ -436,6 +436,8 @@ class Flow(_RequiredFlow, total=False):
     outlet : float or str
         Absolute pressure of a gas at the outlet, to which its leakage refers; pressure > 0. Without it: with a gas:
         must be given.
+    density : float or str
+        Density of a liquid, by which its leakage is also told as a mass; density > 0. Without it: unknown.
     every : int
         Interval of the positions of a pass, or of the increments, updates or points, whose flow is computed; 0: once a
         pass, where the left edges are flush, or for the last contact alone; whole number ≥ 0. By default `1`.
@@ -446,6 +448,7 @@ class Flow(_RequiredFlow, total=False):
     ends: Literal["periodic", "reservoirs"]
     gas: bool
     outlet: Quantity
+    density: Quantity
     every: int
 
 
@@ -455,7 +458,7 @@ class Capabilities(TypedDict, total=False):
     conductance: Annotated[Conductance | None, "",
         "Thermal or electrical conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`."]
     flow: Annotated[Flow | None, "",
-        "Flow of a fluid through the gap: `viscosity`, `pressure`, `along`, `ends`, `gas`, `outlet`, `every`."]
+        "Flow of a fluid through the gap: `viscosity`, `pressure`, `along`, `ends`, `gas`, `outlet`, `density`, `every`."]
 
 
 def __dir__() -> list[str]:

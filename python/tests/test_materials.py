@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import pathlib
 
 import asperity as asp
 import numpy as np
@@ -34,11 +33,11 @@ def test_the_contact_is_that_of_the_constants() -> None:
     assert (pressure(asp.Material("bearing-steel", hardness=math.inf)) == pressure(asp.Material(207.9e9, 0.3))).all()
 
 
-def test_heat_passes_with_the_conductivity_of_the_material(tmp_path: pathlib.Path) -> None:
+def test_heat_passes_with_the_conductivity_of_the_material() -> None:
     copper = asp.Material("copper")
     given = asp.Body(rough(1), asp.Material(copper.young, copper.poisson), thermal={"conductivity": 401.0})
     found = [
-        asp.contact(body, asp.Body(rough(2), copper), load="20 mN", conductance={}, progress=False).conductance
+        asp.contact(body, asp.Body(rough(2), copper), load="20 mN", conductance={}, progress=False).record["conductance"]
         for body in (asp.Body(rough(1), copper), given)
     ]
     assert found[0] == found[1]

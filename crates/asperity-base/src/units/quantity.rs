@@ -482,7 +482,7 @@ impl Dimension {
     fn smallest(self, exponent: i32) -> f64 {
         match (self, exponent) {
             (Self::Area, _) => 1e-2,
-            (Self::Volume, _) => 1e-3,
+            (Self::Volume | Self::VolumeFlow, _) => 1e-3,
             // A thousandth of the smallest prefix of energies, beside which it is read.
             (Self::Energy, -18) => 1e-3,
             _ => 1.0,

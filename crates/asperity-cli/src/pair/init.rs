@@ -1,9 +1,11 @@
 //! `asperity init`: a case file with comments.
 
+use std::fmt::Write as _;
 use std::io::{BufRead, Write as _};
 use std::path::Path;
 
-use asperity::io;
+use asperity::with::{BodyLaw, Capability};
+use asperity::{each_capability, each_law, io};
 
 use super::draft::{Draft, DraftBody};
 use super::name;
@@ -12,23 +14,19 @@ use crate::args::{Init, Load, load, pair_of_materials};
 use crate::place;
 use crate::report::{Failure, Outcome, note, print};
 
-/// What else a case may say, as comments.
-const MORE: &str = "
-# Remove the leading # from what you need. Each key is explained by `asperity check --schema` and in the documents.
-#
-# [friction]
-# coefficient = 0.1
-#
-# [lower.wear]
-# coefficient = \"1e-8 mm3/(N m)\"   # needs [motion]
-#
-# [conductance]                    # heat through the contact
-# [flow]                           # leakage through the gap
-# viscosity = \"1 mPa s\"
-#
-# [output]
-# pressure_every = 8               # keep the pressure of every 8th position
-";
+/// Other tables of a case, as comments.
+const MORE: &str = include_str!("more.toml");
+
+/// Returns the tables that a case may have beside those of the draft, as comments.
+fn more() -> String {
+    let mut text = MORE.to_owned();
+    let mut table = |name: &str, meaning: &str| {
+        let _ = writeln!(text, "#\n# {:<32} # {meaning}", format!("[{name}]"));
+    };
+    each_law!(L => table(&format!("lower.{}", L::NAME), L::MEANING));
+    each_capability!(C => table(C::NAME, C::MEANING));
+    text
+}
 
 /// A rough surface, for bodies without a file.
 const GENERATED: [(&str, &str); 5] = [
@@ -68,7 +66,7 @@ pub(crate) fn init(arguments: &Init) -> Outcome {
             text.parse::<u32>().map_err(|_| "expected a whole number".to_owned())
         })?,
     };
-    let text = draft([&lower, &upper], materials.0, pressed, passes).text() + MORE;
+    let text = draft([&lower, &upper], materials.0, pressed, passes).text() + &more();
     io::replace(&arguments.case, text.as_bytes())?;
     let case = place::shown(&arguments.case);
     note(&format!("next: asperity check {case}, then asperity run {case}"));

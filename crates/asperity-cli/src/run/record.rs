@@ -1,9 +1,11 @@
 //! Summary of a contact at the end of a run: a line for each number.
 
-use asperity::motion::{PlasticRecord, StaticRecord};
+use asperity::motion::{PassRecord, PlasticRecord, StaticRecord};
 use asperity::study::{Case, ClosedFormRecord, Outcome, SubsurfaceRecord, Summary, dimension_of_column};
 use asperity::units::{Dimension, format, format_number};
+use asperity::with;
 use asperity::with::adhesion::AdhesionSummary;
+use asperity::with::views::Answer;
 use asperity::with::{BodyLaw, BodyLaws, Capability, Listed, Reported, Row};
 use asperity::{each_capability, each_law};
 
@@ -16,31 +18,41 @@ use asperity_report::words::closed_form;
 pub fn text(case: &Case, summary: &Summary) -> String {
     let contact = match &summary.outcome {
         Outcome::Static(record) => static_table(case, record),
-        Outcome::Sweep(_) | Outcome::Passes(_) => String::new(),
+        Outcome::Passes(passes) => changes(passes),
+        Outcome::Sweep(_) => String::new(),
     };
     let theory = summary.closed_form.as_ref().map_or(String::new(), theory_lines);
     let plastic = summary.plasticity.as_ref().map_or(String::new(), plastic_line);
     let adhesion = summary.adhesion.as_ref().map_or(String::new(), adhesion_lines);
-    answers(summary)
-        + &contact
+    answers(case, summary)
         + &adhesion
+        + &contact
         + &theory
         + &plastic
         + &summary.subsurface.iter().map(stress_line).collect::<String>()
 }
 
 /// Describes what the case asks for beside the contact.
-fn answers(summary: &Summary) -> String {
+fn answers(case: &Case, summary: &Summary) -> String {
     let mut text = String::new();
-    each_capability!(C => {
+    each_capability!(C => if let Some(asked) = C::of(&case.with) {
         let rows = C::rows(&summary.found);
         // A motion has the mean of each pass, of which the last one is shown.
         let of_last = rows.iter().filter(|row| row.pass() == rows.last().and_then(|last| last.pass()));
-        for numbers in of_last.flat_map(C::numbers).filter(|numbers| !numbers.is_detail) {
+        for numbers in of_last.flat_map(|row| asked.numbers(row)).filter(|numbers| !numbers.is_detail) {
             text += &line(&numbers.name, &numbers.value);
         }
     });
     text
+}
+
+/// Describes what passes have done to the bodies.
+fn changes(passes: &[PassRecord]) -> String {
+    let told = |answer: &Answer| {
+        let about = answer.about.trim_end_matches('.').replacen("Of", "of", 1);
+        line(&answer.name, &format!("{}; {about}", answer.value))
+    };
+    with::after_passes(passes).iter().map(told).collect()
 }
 
 /// Describes the adhesion of the bodies, and what a retreat shows.

@@ -363,7 +363,9 @@ fn the_table_of_bodies_that_run_in_counts_the_passes_of_the_motion() {
     let rows: Vec<f64> = lines.iter().filter_map(|words| words.first()?.parse().ok()).collect();
     assert!(rows.starts_with(&[1.0, 3.0]) && rows.ends_with(&[20_000.0]), "{table}");
     // k W s of both bodies, whatever stood for what.
-    let worn: f64 = lines.last().unwrap().last().unwrap().parse().unwrap();
+    let [.., row, answer] = &lines[..] else { panic!("{table}") };
+    let worn: f64 = row.last().unwrap().parse().unwrap();
+    assert_eq!((answer[0], answer[2]), ("wear", "µm³;"), "{table}");
     let volume = 2.0 * 1e-17 * 50e6 * (16e-6f64).powi(2) * 20_000.0 * 16e-6 / 1e-18;
     assert!((worn / volume - 1.0).abs() < 2e-3, "{worn} µm³, not {volume}");
     assert!(table.lines().all(|line| line.chars().count() <= 80 || line.contains(';')), "{table}");

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::views::{Curve, Line, Map};
+use super::views::{Answer, Curve, Line, Map};
 use super::{Capabilities, Listed, Observations};
 use crate::error::Result;
 use crate::grid::Field;
@@ -60,8 +60,11 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
     /// Describes what is asked for, for `asperity check`.
     fn describe(&self, surroundings: &Surroundings) -> String;
 
-    /// Returns the numbers of a row, the answer to the question that the user asked first.
-    fn numbers(row: &Self::Row) -> Vec<Line>;
+    /// Returns the answers to the question of the user from the rows of all contacts at rest, or from those of the last pass.
+    fn answers(&self, rows: &[Self::Row]) -> Vec<Answer>;
+
+    /// Returns the numbers of a row.
+    fn numbers(&self, row: &Self::Row) -> Vec<Line>;
 
     /// Returns reasons in the rows not to trust them. The `points` are those of a sweep.
     fn doubts(&self, rows: &[Self::Row], surroundings: &Surroundings, points: &[SweepRecord]) -> Vec<String>;

@@ -63,6 +63,12 @@ pub trait BodyLaw: Table + Serialize + Clone + PartialEq + Debug + Send + Sync +
         None
     }
 
+    /// Returns what cycles of slip have done.
+    fn after_cycles(cycles: &FrettingRecord) -> Option<Answer> {
+        let _ = cycles;
+        None
+    }
+
     /// Returns what sliding in place has done up to an update.
     fn after_sliding(update: &UpdateRecord) -> Option<Answer> {
         let _ = update;

@@ -35,7 +35,7 @@ pub use law::{BodyLaw, Circumstances, LawRule, Slip, Timeless};
 use serde::{Deserialize, Serialize};
 
 use crate::error::Result;
-use crate::motion::{Law, Pair, PassRecord, UpdateRecord};
+use crate::motion::{FrettingRecord, Law, Pair, PassRecord, UpdateRecord};
 use views::{Answer, Kept};
 
 /// Declares a list of tables, each by its module and its struct: the struct that holds those that are given, and the macro that walks the list.
@@ -191,6 +191,13 @@ pub fn kept() -> Vec<Kept> {
 pub fn after_passes(passes: &[PassRecord]) -> Vec<Answer> {
     let mut answers = Vec::new();
     each_law!(L => answers.extend(L::after_passes(passes)));
+    answers
+}
+
+/// Returns what cycles of slip have done to the bodies.
+pub fn after_cycles(cycles: &FrettingRecord) -> Vec<Answer> {
+    let mut answers = Vec::new();
+    each_law!(L => answers.extend(L::after_cycles(cycles)));
     answers
 }
 

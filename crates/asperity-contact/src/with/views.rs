@@ -35,6 +35,8 @@ pub struct Curve<R: 'static> {
     pub names: [&'static str; 2],
     /// The quantity.
     pub title: &'static str,
+    /// Sentence about what is seen.
+    pub caption: &'static str,
     /// The column that has its unit.
     pub column: fn(&R) -> &'static str,
     /// The curves, the main one first.
@@ -54,8 +56,38 @@ pub struct Series<R: 'static> {
     pub is_dashed: bool,
     /// Whether it stands only beside the main curve of single contacts, such as a correlation or a share.
     pub is_beside: bool,
-    /// Whether it ends at a pressure, named beside the curve, from which on the value is 0.
-    pub may_end: bool,
+    /// What its name says of its course over the mean pressure.
+    pub over_pressure: OverPressure,
+}
+
+/// What the name of a curve says of its course over the mean pressure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OverPressure {
+    /// Nothing.
+    Nothing,
+    /// The pressure from which on its value is 0, if there is one.
+    End,
+    /// The exponent of the power of the pressure that fits it best.
+    Exponent,
+}
+
+/// Returns the exponent of the power of the pressure that fits values best, by least squares of their logarithms; `None` for values at fewer
+/// than three pressures, or over less than half a decade. Values that are not above 0 are left out.
+pub fn exponent(points: impl Iterator<Item = [f64; 2]>) -> Option<f64> {
+    /// Ratio of the largest to the least pressure.
+    const LEAST_RANGE: f64 = 3.0;
+    let good = points.filter(|[pressure, value]| *pressure > 0.0 && *value > 0.0 && value.is_finite());
+    let points: Vec<[f64; 2]> = good.map(|point| point.map(f64::ln)).collect();
+    let [least, most] = [f64::min, f64::max].map(|pick| points.iter().map(|p| p[0]).fold(f64::NAN, pick));
+    if points.len() < 3 || (most - least).is_nan() || most - least < LEAST_RANGE.ln() {
+        return None;
+    }
+    let count = points.len() as f64;
+    let mean = [0, 1].map(|axis| points.iter().map(|point| point[axis]).sum::<f64>() / count);
+    let moment = |axis: usize| {
+        points.iter().map(|point| (point[0] - mean[0]) * (point[axis] - mean[axis])).sum::<f64>()
+    };
+    Some(moment(1) / moment(0))
 }
 
 /// A map of a field.
@@ -65,6 +97,8 @@ pub struct Map<R: 'static> {
     pub field: &'static str,
     /// Title.
     pub title: &'static str,
+    /// Sentence about what is seen.
+    pub caption: &'static str,
     /// The quantity.
     pub quantity: &'static str,
     /// The unit.
@@ -148,11 +182,26 @@ pub struct PassCell {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
     /// The name.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// The value, with its unit.
     pub value: String,
     /// Explanation of the value.
     pub about: String,
     /// The answer as a sentence.
     pub sentence: String,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_power_of_the_pressure_is_found_from_points_that_say_enough() {
+        let power = |points: &[f64]| exponent(points.iter().map(|p| [*p, 3.0 * p.powf(0.95)]));
+        assert!((power(&[1.0, 2.0, 5.0, 10.0]).unwrap() - 0.95).abs() < 1e-12);
+        assert_eq!(power(&[1.0, 10.0]), None);
+        assert_eq!(power(&[1.0, 1.5, 2.0]), None);
+        let closed = [[1.0, 1.0], [3.0, 9.0], [9.0, 81.0], [20.0, 0.0]];
+        assert!((exponent(closed.into_iter()).unwrap() - 2.0).abs() < 1e-12);
+    }
 }

@@ -13,7 +13,8 @@ class ChartView {
     this.readout = element("output", { "aria-live": "off" });
     const csv = element("button", { type: "button", "aria-label": `CSV of ${chart.title}`, onclick: () => this.saveCsv() }, "CSV");
     place.querySelector("figcaption").append(csv);
-    place.append(this.host, this.legend, element("div", { class: "readout" }, this.readout));
+    const about = element("p", { class: "caption" }, chart.caption || "");
+    place.append(this.host, this.legend, about, element("div", { class: "readout" }, this.readout));
     new ResizeObserver(() => this.resize()).observe(place);
     redraws.add(() => this.show(this.chart));
     this.show(chart);

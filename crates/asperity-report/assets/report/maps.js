@@ -3,6 +3,8 @@
 
 const MARGIN = { left: 58, right: 84, top: 8, bottom: 40 };
 const FONT = "12px system-ui, sans-serif";
+/** Length over height from which on a map takes a whole row. */
+const STRIP = 3;
 
 /** A canvas in a figure, drawn again where the figure's width or the colours of the page change. */
 class Drawing {
@@ -89,8 +91,9 @@ class MapView extends Drawing {
     const readout = element("output", { "aria-live": "off" });
     const legend = element("div", { class: "legend" });
     const png = element("button", { type: "button", "aria-label": `PNG of ${title}`, onclick: () => this.savePng(file) }, "PNG");
-    super(place, "map", title, [png], legend, element("div", { class: "readout" }, readout));
-    Object.assign(this, { readout, legend, images: [] });
+    const about = element("p", { class: "caption" });
+    super(place, "map", title, [png], legend, about, element("div", { class: "readout" }, readout));
+    Object.assign(this, { readout, legend, about, images: [] });
     this.canvas.addEventListener("pointermove", (event) => this.read(event));
     this.canvas.addEventListener("pointerleave", () => { this.readout.textContent = ""; });
     if (picked) {
@@ -102,23 +105,27 @@ class MapView extends Drawing {
   /**
    * Shows a scene: `region` [[x0, x1], [y0, y1]] (m); `length` its unit; `images` of packed maps, each with `kind`,
    * `range`, `corner` (m) and whether it `wraps` in the region; `rects` with `from`, `size`, `colour`, `dashed`;
-   * `lines`; `marks`; `bar` with `range`, `unit`, `label`, `kind`; `classes`; `down` where y is a depth; `relief`.
+   * `lines`; `marks`; `caption`; `bar` with `range`, `unit`, `label`, `kind`; `classes`; `down` where y is a depth; `relief`.
    */
   show(scene) {
+    this.about.textContent = scene.caption || "";
     const classes = JSON.stringify(scene.classes || []);
     if (classes !== this.classes) {
       this.classes = classes;
       this.legend.replaceChildren(...(scene.classes || []).map(([colour, name]) =>
         element("span", {}, element("i", { class: "box", style: `background:${colour}` }), name)));
     }
+    const { parentNode } = this.figure;
+    const item = parentNode.matches(".maps") ? this.figure : parentNode;
+    item.classList.toggle("strip", this.aspect(scene) > STRIP);
     super.show(scene);
   }
 
+  aspect({ region: [[x0, x1], [y0, y1]] }) { return (x1 - x0) / (y1 - y0); }
+
   /** Where the plane is on a canvas of a width: [left, top, width, height]. */
   frame(width) {
-    const { region } = this.scene;
-    const [dx, dy] = region.map(([a, b]) => b - a);
-    const aspect = Math.min(4, Math.max(0.25, dx / dy));
+    const aspect = Math.min(12, Math.max(0.25, this.aspect(this.scene)));
     let w = Math.max(60, width - MARGIN.left - (this.hasBar() ? MARGIN.right : 16));
     const most = Math.max(220, Math.min(520, window.innerHeight * 0.62));
     if (w / aspect > most) w = most * aspect;

@@ -35,11 +35,11 @@ for (const button of document.querySelectorAll(".copy")) {
 
 /** A map that does not change, such as one below the surface. */
 async function showPlane(place) {
-  const { file, title, map, x, down, length, quantity, unit, kind, range, mark, spans } = data.planes[Number(place.dataset.plane)];
+  const { file, title, caption, map, x, down, length, quantity, unit, kind, range, mark, spans } = data.planes[Number(place.dataset.plane)];
   await unpack(map);
   const extent = map.shape.map((cells, axis) => cells * map.pitch[axis]);
   new MapView(place, title, file).show({
-    region: [[x, x + extent[0]], [0, extent[1]]], length, down, names: ["x", down ? "depth" : "y"],
+    caption, region: [[x, x + extent[0]], [0, extent[1]]], length, down, names: ["x", down ? "depth" : "y"],
     images: [{ packed: map, kind, range, corner: [x, 0], told: (v) => written(v, unit) }],
     bar: { range, unit, label: quantity, kind },
     marks: mark ? [mark.at] : [],

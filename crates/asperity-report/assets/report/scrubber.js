@@ -131,7 +131,7 @@ class Scrubber {
     this.map.title(sentence([layer.title, label].filter(Boolean).join(", ")));
     const range = layer.ranges[this.group];
     this.map.show({
-      region, length, rects, classes,
+      caption: layer.caption, region, length, rects, classes,
       images: packed ? [{ packed, kind: layer.kind, range, corner, wraps: this.contact.wraps, told }] : [],
       lines: [{ from: [region[0][0], row], to: [region[0][1], row], colour: "#8a8f98" }],
       bar: layer.kind === "class" ? null : { range, unit: layer.unit, label: layer.title, kind: layer.kind },

@@ -27,10 +27,13 @@ class Explorer {
     this.over = study.axes.filter((axis) => axis.numbers && axis.numbers.length > 1);
     if (!this.over.length) this.over = study.axes.filter((axis) => axis.numbers);
     this.quantities = study.quantities;
-    this.chosen = { y: 0, x: 0 };
+    // The axis with the most numbers tells most.
+    const most = this.over.reduce((best, axis, k) => (axis.numbers.length > this.over[best].numbers.length ? k : best), 0);
+    this.chosen = { y: 0, x: most };
     const choice = (label, name, options) => {
       const select = element("select", { onchange: () => { this.chosen[name] = Number(select.value); this.show(); } },
         ...options.map((text, k) => element("option", { value: k }, text)));
+      select.value = this.chosen[name];
       return element("label", {}, label, select);
     };
     this.colours = element("select", { onchange: () => this.show() });

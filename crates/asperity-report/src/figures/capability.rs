@@ -3,7 +3,7 @@
 use asperity_base::units::{Dimension, format};
 use asperity_base::{Field, Grid};
 use asperity_contact::each_capability;
-use asperity_contact::with::views::{Curve, Map as MapOf, Scale, Series as SeriesOf};
+use asperity_contact::with::views::{Curve, Map as MapOf, OverPressure, Scale, Series as SeriesOf, exponent};
 use asperity_contact::with::{Capability, Listed, Row};
 use asperity_study::Results;
 use asperity_study::io::fields::Fields;
@@ -123,7 +123,8 @@ fn over_passes<R: Row>(curve: &Curve<R>, rows: &[R], done: &[usize]) -> Option<C
     });
     let (x, y) = (Axis::linear("pass", Unit::Count), Axis::of(curve.title, (curve.column)(rows.first()?)));
     let chart = Chart::new("", x, y, series.collect());
-    Some(Curves::new(curve.names[0], format!("{} over the passes", curve.title), chart))
+    let title = format!("{} over the passes", curve.title);
+    Some(Curves { caption: curve.caption, ..Curves::new(curve.names[0], title, chart) })
 }
 
 /// A curve over the contacts; none for a single one.
@@ -142,14 +143,15 @@ fn over_contacts<R: Row>(curve: &Curve<R>, rows: &[&R], name: &'static str) -> O
             2.. if series.is_dashed => Mark::Dashed,
             _ => Mark::LineAndPoints,
         };
-        let name = format!("{}{}", series.name, order.end(series, &rows));
+        let name = format!("{}{}", series.name, order.course(series, &rows));
         Some(Series::new(name, order.points(series, &rows), mark))
     });
     let series = series.collect();
     let vertical = Axis { log: order.log, ..Axis::of(curve.title, (curve.column)(rows.first()?)) };
     let over = if order.by_pressure { " over mean pressure" } else { ", contact after contact" };
     let chart = Chart::new("", order.axis(), vertical, series);
-    Some(Curves::new(name, format!("{}{over}", curve.title), chart))
+    let title = format!("{}{over}", curve.title);
+    Some(Curves { caption: curve.caption, ..Curves::new(name, title, chart) })
 }
 
 /// How the contacts are lined up: by their mean pressure, or one after another.
@@ -185,15 +187,23 @@ impl Order {
         points
     }
 
-    /// Names the pressure from which on the values of a curve are 0, after its name.
-    fn end<R: Row>(&self, series: &SeriesOf<R>, rows: &[&R]) -> String {
+    /// Describes the course of a curve over the pressure, after its name.
+    fn course<R: Row>(&self, series: &SeriesOf<R>, rows: &[&R]) -> String {
         let value = |row: &&&R| (series.value)(row).unwrap_or(0.0);
-        let open = rows.iter().filter(|row| value(row) > 0.0).map(|row| row.mean_pressure());
-        let open = open.fold(0.0, f64::max);
-        let closed = rows.iter().map(|row| row.mean_pressure()).filter(|pressure| *pressure > open);
-        let end = closed.reduce(f64::min).filter(|_| self.by_pressure && series.may_end);
-        end.map_or(String::new(), |pressure| {
-            format!(", closed from {}", format(pressure, Dimension::Pressure))
-        })
+        match series.over_pressure {
+            OverPressure::End if self.by_pressure => {
+                let open = rows.iter().filter(|row| value(row) > 0.0).map(|row| row.mean_pressure());
+                let open = open.fold(0.0, f64::max);
+                let closed = rows.iter().map(|row| row.mean_pressure()).filter(|pressure| *pressure > open);
+                closed.reduce(f64::min).map_or(String::new(), |pressure| {
+                    format!(", closed from {}", format(pressure, Dimension::Pressure))
+                })
+            }
+            OverPressure::Exponent if self.by_pressure => {
+                let power = exponent(rows.iter().map(|row| [row.mean_pressure(), value(&row)]));
+                power.map_or(String::new(), |power| format!(", as the power {power:.2} of the pressure"))
+            }
+            _ => String::new(),
+        }
     }
 }

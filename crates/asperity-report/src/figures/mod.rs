@@ -31,6 +31,7 @@ use asperity_study::io::fields::Fields;
 
 use crate::draw::{Axis, Chart, Charts, Mark, Paper, Series};
 use crate::error::{Error, Result};
+use crate::words::captions;
 
 pub use capability::field_map;
 pub(crate) use capability::{curves as curves_of_capability, logarithmic};
@@ -74,13 +75,16 @@ pub struct Curves {
     pub name: &'static str,
     /// The title.
     pub title: String,
+    /// Sentence about what is seen; empty without one.
+    pub caption: &'static str,
     /// The charts.
     pub charts: Charts,
 }
 
 impl Curves {
     fn new(name: &'static str, title: impl Into<String>, charts: impl Into<Charts>) -> Self {
-        Self { name, title: title.into(), charts: charts.into() }
+        let caption = captions::of(name).unwrap_or_default();
+        Self { name, title: title.into(), caption, charts: charts.into() }
     }
 }
 

@@ -11,7 +11,7 @@ use crate::draw::{Axis, Charts, Mark, Series, Unit};
 /// From such a ratio of the largest to the least distance on it is drawn by its logarithm.
 const DECADES: f64 = 100.0;
 
-/// Roughness, contact area, what laws have done, and temperature, each where there is any; none of bodies that do not run in.
+/// What laws have done, roughness, contact area and temperature, each where there is any; none of bodies that do not run in.
 pub(super) fn curves(passes: &[PassRecord], sq: [f64; 2]) -> Option<Curves> {
     let distances: Vec<f64> = passes.iter().filter_map(|p| Some(p.running?.distance)).collect();
     let (least, most) = (distances.first()?, distances.last()?);
@@ -30,7 +30,12 @@ fn charts(passes: &[PassRecord], sq: [f64; 2], log: bool) -> Charts {
     let from = |first: f64, curve: Curve| -> Curve { std::iter::once([0.0, first]).chain(curve).collect() };
     let alone = |name: &str, curve| vec![Series::new(name, curve, Mark::Line)];
     let temperature = over(&|p| p.running.map_or(f64::NAN, |r| r.max_flash_temperature - CELSIUS));
-    let mut shown: Vec<(Axis, Vec<Series>)> = vec![
+    let mut shown: Vec<(Axis, Vec<Series>)> = Vec::new();
+    each_law!(L => shown.extend(L::OF_PASSES.iter().map(|shown| {
+        let (axis, series) = of_law(passes.iter(), |p| p.running.map(|running| running.distance), shown);
+        (Axis { log: log && shown.adds_up, ..axis }, series)
+    })));
+    shown.extend([
         (
             Axis::of("Sq", "sq_lower"),
             of_bodies([from(sq[0], over(&|p| p.sq_lower)), from(sq[1], over(&|p| p.sq_upper))]),
@@ -39,11 +44,7 @@ fn charts(passes: &[PassRecord], sq: [f64; 2], log: bool) -> Charts {
             Axis::of("real contact area", "mean_contact_area"),
             alone("both bodies", over(&|p| p.mean_contact_area)),
         ),
-    ];
-    each_law!(L => shown.extend(L::OF_PASSES.iter().map(|shown| {
-        let (axis, series) = of_law(passes.iter(), |p| p.running.map(|running| running.distance), shown);
-        (Axis { log: log && shown.adds_up, ..axis }, series)
-    })));
+    ]);
     shown.push((Axis::linear("largest temperature", Unit::Of("°C")), alone("both bodies", temperature)));
     charts_over(&x, shown)
 }

@@ -90,7 +90,7 @@ impl<'a> Sheet<'a> {
 
     /// Adds curves, if they are wanted.
     pub(super) fn add_curves(&mut self, curves: Curves, of: &str) -> Result {
-        let Curves { name, title, charts } = curves;
+        let Curves { name, title, charts, .. } = curves;
         self.add(name, &title, of, || Ok(charts))
     }
 

@@ -31,7 +31,7 @@ pub(super) fn section(found: &PageData, charts: &mut Vec<Value>) -> Option<Strin
     found.case.adhesion?;
     let mut html = String::new();
     let curve = figures::of_force_distance(&found.increments);
-    html += &curves::html(curve.into_iter().collect(), charts);
+    html += &curves::first(curve.into_iter().collect(), charts);
     let summary = found.summary.as_ref()?;
     if let Some(Value::Object(record)) =
         summary.adhesion.and_then(|numbers| serde_json::to_value(numbers).ok())

@@ -12,6 +12,7 @@ use super::plane::{self, Plane, Shades};
 use crate::draw::Unit;
 use crate::error::{Error, Result};
 use crate::figures;
+use crate::words::captions;
 
 /// The section, and the data that it shows; none where no stress was wanted.
 pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
@@ -81,6 +82,7 @@ fn stress(fields: &Fields) -> Result<CaptionedPlane> {
             "Von Mises stress in the {body} body in the section y = {}.",
             format(number("section"), Dimension::Length)
         ),
+        caption: captions::of("subsurface").unwrap_or_default(),
         map: QuantisedField::positive(&section, pitch),
         x,
         down: true,

@@ -1,7 +1,6 @@
 //! The sections of the capabilities: the numbers, maps and curves that each declares.
 
 use asperity_contact::each_capability;
-use asperity_contact::with::views::Line;
 use asperity_contact::with::{Capability, Listed, Row};
 use serde_json::Value;
 
@@ -20,22 +19,10 @@ const LEAST: f64 = 1e-6;
 /// The sections of the capabilities that the case asks for, and the data that they show.
 pub(super) fn sections(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Vec<Section> {
     let mut sections = Vec::new();
-    each_capability!(C => if C::of(&found.case.with).is_some() {
-        sections.push((C::NAME, C::TITLE, Some(section::<C>(found, data, charts))));
+    each_capability!(C => if let Some(asked) = C::of(&found.case.with).cloned() {
+        sections.push((C::NAME, C::TITLE, Some(section(&asked, found, data, charts))));
     });
     sections
-}
-
-/// The answers of the capabilities: the first number of each row, with what was asked for.
-pub(super) fn answers(found: &PageData) -> Vec<(&'static str, Line)> {
-    let mut answers = Vec::new();
-    each_capability!(C => if C::of(&found.case.with).is_some() {
-        let rows = C::summary(&found.results.rows::<C>().unwrap_or_default());
-        answers.extend(of_last::<C>(&rows).iter().filter_map(|row| {
-            Some((C::MEANING, C::numbers(row).into_iter().next()?))
-        }));
-    });
-    answers
 }
 
 /// The rows of the last contact, or of the last pass.
@@ -44,20 +31,25 @@ fn of_last<C: Capability>(rows: &[C::Row]) -> Vec<C::Row> {
     rows.iter().filter(|row| row.pass() == last).cloned().collect()
 }
 
-fn section<C: Capability>(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> String {
+fn section<C: Capability>(
+    asked: &C,
+    found: &mut PageData,
+    data: &mut Value,
+    charts: &mut Vec<Value>,
+) -> String {
     let rows = found.kept(found.results.rows::<C>()).unwrap_or_default();
     let done = figures::done(&found.kept(found.results.passes()).unwrap_or_default());
     let last = of_last::<C>(&C::summary(&rows));
-    let numbers = last.iter().flat_map(C::numbers);
+    let numbers = last.iter().flat_map(|row| asked.numbers(row));
     let numbers: Vec<_> = numbers.map(|line| (line.name.into_owned(), escaped(&line.value))).collect();
-    let mut html = facts(numbers);
+    let html = curves::first(figures::curves_of_capability::<C>(&rows, &done), charts);
     if !found.moves() && found.is_finished() {
         let planes = planes::<C>(found, &last);
         if !planes.is_empty() {
-            html += &plane::html(planes, data);
+            return html + &plane::beside(planes, &facts(numbers), data);
         }
     }
-    html + &curves::html(figures::curves_of_capability::<C>(&rows, &done), charts)
+    html + &facts(numbers)
 }
 
 /// The maps of the last contact.
@@ -74,6 +66,7 @@ fn planes<C: Capability>(found: &mut PageData, rows: &[C::Row]) -> Vec<Plane> {
         Some(Plane {
             file: map.field.to_owned(),
             title: curves::sentence(map.title),
+            caption: map.caption,
             map: match scale {
                 Some(least) => QuantisedField::logarithmic(&field, pitch, least.unwrap_or(LEAST)),
                 None => QuantisedField::positive(&field, pitch),

@@ -3,14 +3,13 @@
 use std::fmt::Write;
 
 use asperity_base::units::{CELSIUS, Dimension, format, format_number};
-use asperity_contact::motion::{PassRecord, StaticRecord, SweepRecord};
-use asperity_contact::with;
+use asperity_contact::motion::{IncrementRecord, PassRecord, StaticRecord, SweepRecord};
 use asperity_study::{Outcome, column};
 
+use super::answers;
 use super::found::PageData;
 use super::html::{escaped, minus};
 use super::verdict::{differ, shaken_down, share_of_overlap};
-use super::{capability, curves};
 use crate::words::numbers::change;
 
 /// Cards on a page, at most.
@@ -37,9 +36,9 @@ impl Card {
 
 /// The cards of a run; nothing where nothing is finished.
 pub(super) fn html(found: &PageData) -> String {
-    let answers = capability::answers(found).into_iter();
+    let answers = answers::all(found).into_iter();
     let mut cards: Vec<Card> =
-        answers.map(|(about, line)| Card::new(&line.name, line.value, curves::sentence(about))).collect();
+        answers.map(|answer| Card::new(&answer.name, answer.value, answer.about)).collect();
     cards.extend(match (&found.passes[..], &found.points[..]) {
         ([first, .., last], _) => of_passes(found, first, last),
         ([only], _) => of_passes(found, only, only),
@@ -111,8 +110,6 @@ fn of_passes(found: &PageData, first: &PassRecord, last: &PassRecord) -> Vec<Car
         ]);
         return cards;
     }
-    let answers = with::after_passes(&found.passes).into_iter();
-    cards.extend(answers.map(|answer| Card::new(answer.name, answer.value, answer.about)));
     let before = found.results.surfaces_after(0).map(|bodies| bodies.map(|body| body.sq())).ok();
     let after =
         [("lower", last.sq_lower, last.sq_lower_interior), ("upper", last.sq_upper, last.sq_upper_interior)];
@@ -202,15 +199,27 @@ fn of_points(points: &[SweepRecord]) -> Vec<Card> {
     cards
 }
 
+/// Bodies that are apart in the end: what they were on the way.
+fn of_separated(found: &PageData, record: &StaticRecord) -> Vec<Card> {
+    let most = |value: fn(&IncrementRecord) -> f64| found.increments.iter().map(value).fold(0.0, f64::max);
+    let [area, load] = [most(|increment| increment.contact_area), most(|increment| increment.load)];
+    let on_the_way = "On the way together and apart.";
+    let mut cards = Vec::new();
+    if area > 0.0 {
+        cards.push(Card::new("largest area of contact", format(area, Dimension::Area), on_the_way));
+        cards.push(Card::new("largest load", format(load, Dimension::Force), on_the_way));
+    }
+    cards.push(Card::new("mean gap", format(record.mean_gap, Dimension::Length), "In the end."));
+    cards
+}
+
 fn of_rest(found: &PageData, record: &StaticRecord) -> Vec<Card> {
     let share = format_number(100.0 * record.contact_area / record.apparent_area);
     let mean = record.load / record.contact_area;
-    let worn = record.fretting.map(|fretting| {
-        let volume = fretting.worn_volume_lower + fretting.worn_volume_upper;
-        let about = format!("Of both bodies, after {} cycles.", fretting.cycles);
-        Card::new("worn volume", format(volume, Dimension::Volume), about)
-    });
-    let mut cards: Vec<Card> = worn.into_iter().collect();
+    if record.contact_area == 0.0 {
+        return of_separated(found, record);
+    }
+    let mut cards = Vec::new();
     cards.extend([
         Card::new(
             "real area of contact",
@@ -241,35 +250,6 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> Vec<Card> {
         let stick = format_number(100.0 * shear.stick_area / record.contact_area);
         let about = format!("Tangential force over load; {stick} % of the contact sticks.");
         cards.push(Card::new("traction coefficient", format_number(shear.force_ratio), about));
-    }
-    if let Some(adhesion) = &record.adhesion {
-        let numbers = found.summary.as_ref().and_then(|summary| summary.adhesion);
-        let pull_off = numbers.and_then(|numbers| numbers.pull_off);
-        let mut of_adhesion: Vec<Card> = pull_off
-            .map(|load| Card::of("pull-off", "pull_off", format(load, Dimension::Force)))
-            .into_iter()
-            .collect();
-        if let Some(work) = numbers.and_then(|numbers| numbers.work_of_separation) {
-            of_adhesion.push(Card::of(
-                "work of separation",
-                "work_of_separation",
-                format(work, Dimension::Energy),
-            ));
-        }
-        if of_adhesion.is_empty() {
-            let load = format(adhesion.adhesive_load, Dimension::Force);
-            of_adhesion.push(Card::of("adhesive load", "adhesive_load", load));
-        }
-        if let Some(tabor) = numbers.and_then(|numbers| numbers.tabor) {
-            let about = "Below 0.1 the attraction is long, above 5 it is short beside the deformation.";
-            of_adhesion.push(Card::new("Tabor's parameter", format_number(tabor), about));
-        }
-        // The bodies may be apart at the end, where pressures say little.
-        cards.splice(0..0, of_adhesion);
-    }
-    if let Some(last) = found.updates.last() {
-        let answers = with::after_sliding(last).into_iter();
-        cards.extend(answers.map(|answer| Card::new(answer.name, answer.value, answer.about)));
     }
     if let Some(plastic) = record.plastic.as_ref().filter(|plastic| plastic.max_plastic_strain > 0.0) {
         let strain = format!("{} %", format_number(100.0 * plastic.max_plastic_strain));

@@ -18,6 +18,7 @@ use super::table::evenly;
 use crate::draw::{Charts, Colours};
 use crate::error::Result;
 use crate::figures::{self, Cap, Curves, StoredArray};
+use crate::words::captions;
 
 /// Bytes that all maps of a page take together, at most.
 const MAX_BYTES: usize = 11 << 18;
@@ -87,7 +88,8 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
 /// HTML with places for the section through the most loaded spot.
 fn section_of(profile: Option<Charts>, charts: &mut Vec<Value>) -> String {
     if let Some(profile) = profile {
-        let charts_of = Curves { charts: profile, name: "profile", title: String::new() };
+        let caption = captions::of("profile").unwrap_or_default();
+        let charts_of = Curves { charts: profile, name: "profile", title: String::new(), caption };
         let places = curves::html(vec![charts_of], charts);
         if !places.is_empty() {
             return format!("<h3>Section through the most loaded spot</h3>{places}");
@@ -171,7 +173,8 @@ fn of_motion(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) ->
         );
     }
     let title = format!("distribution of the pressure over the contact, pass {}", found.done[last]);
-    let histogram = histogram.map(|charts| Curves { name: "pressure_histogram", title, charts });
+    let caption = captions::of("pressure_histogram").unwrap_or_default();
+    let histogram = histogram.map(|charts| Curves { name: "pressure_histogram", title, caption, charts });
     html += &curves::html(histogram.into_iter().collect(), charts);
     Some(html)
 }
@@ -456,6 +459,7 @@ fn shown(frames: &[PageFrame], groups: Vec<Value>) -> Value {
         layers.push(json!({
             "name": layer.name,
             "title": layer.title,
+            "caption": captions::of(layer.name),
             "kind": kind,
             "classes": classes,
             // Each pass has its own, so that a late pass of low pressures shows them.

@@ -8,6 +8,29 @@ use super::found::PageData;
 use super::html::details;
 use crate::figures;
 
+/// The section of bodies that change over the distance that they slide; none of others.
+pub(super) fn running_in(found: &mut PageData, charts: &mut Vec<Value>) -> Option<String> {
+    let mut curves = match (&found.passes[..], &found.updates[..]) {
+        ([_, _, ..], _) => {
+            let sq = roughness_before(found);
+            figures::of_motion(&found.passes, &found.steps, sq)
+        }
+        (_, [_, _, ..]) => figures::of_sliding(&found.updates),
+        _ => return None,
+    };
+    curves.retain(|curves| OVER_DISTANCE.contains(&curves.name));
+    Some(curves::html(curves, charts)).filter(|html| !html.is_empty())
+}
+
+/// Names of the curves over the sliding distance.
+const OVER_DISTANCE: [&str; 2] = ["running-in", "sliding"];
+
+/// Sq of both bodies before the first pass.
+fn roughness_before(found: &mut PageData) -> [f64; 2] {
+    let sq = found.results.surfaces_after(0).map(|bodies| bodies.map(|body| spread(body.heights())));
+    found.kept(sq).unwrap_or([f64::NAN; 2])
+}
+
 /// The section; none of a contact in one step.
 pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
     let mut html = String::from(
@@ -16,12 +39,14 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     );
     let without_curves = html.len();
     if !found.passes.is_empty() {
-        let sq = found.results.surfaces_after(0).map(|bodies| bodies.map(|body| spread(body.heights())));
-        let sq = found.kept(sq).unwrap_or([f64::NAN; 2]);
+        let sq = roughness_before(found);
         let mut curves = figures::of_motion(&found.passes, &found.steps, sq);
-        // The curves over the sliding distance show them once more.
-        if curves.iter().any(|curves| curves.name == "running-in") {
-            curves.retain(|curves| !["roughness", "mean_contact_area"].contains(&curves.name));
+        // The curves over the sliding distance, in a section of their own, show them once more.
+        if found.passes.len() > 1 && curves.iter().any(|curves| OVER_DISTANCE.contains(&curves.name)) {
+            curves.retain(|curves| {
+                let shown = ["roughness", "mean_contact_area"].contains(&curves.name);
+                !shown && !OVER_DISTANCE.contains(&curves.name)
+            });
         }
         if friction_follows_load(&found.steps) {
             curves.retain(|curves| curves.name != "friction");
@@ -32,9 +57,6 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     // The section on adhesion has the force–distance curve.
     if found.increments.len() > 1 && figures::of_force_distance(&found.increments).is_none() {
         html += &curves::html(figures::of_loading(&found.increments), charts);
-    }
-    if found.updates.len() > 1 {
-        html += &curves::html(figures::of_sliding(&found.updates), charts);
     }
     if !found.points.is_empty() {
         html += &curves::html(figures::of_sweep(&found.points, &found.case), charts);

@@ -8,13 +8,20 @@ use super::html::escaped;
 use crate::draw::{Axis, Chart, Charts, Unit};
 use crate::figures::Curves;
 
+/// [`html`] with the charts over the whole width, for the curve that answers the question of the case.
+pub(super) fn first(curves: Vec<Curves>, data: &mut Vec<Value>) -> String {
+    html(curves, data).replace("<div class=\"charts\">", "<div class=\"charts first\">")
+}
+
 /// HTML with a place for each chart that shows something, whose numbers go to `data`; nothing where none does.
 pub(super) fn html(curves: Vec<Curves>, data: &mut Vec<Value>) -> String {
     let mut html = String::new();
-    for Curves { name, title, charts } in curves {
+    for Curves { name, title, caption, charts } in curves {
         let Charts { charts, .. } = charts;
         let several = charts.len() > 1;
-        for chart in charts.into_iter().filter(shows) {
+        let charts: Vec<Chart> = charts.into_iter().filter(shows).collect();
+        let last = charts.len().saturating_sub(1);
+        for (index, chart) in charts.into_iter().enumerate() {
             let title = match (several, chart.title.as_str(), title.as_str()) {
                 (false, ..) => title.clone(),
                 (true, "", _) => format!("{} over {}", chart.y.label, chart.x.label),
@@ -27,7 +34,10 @@ pub(super) fn html(curves: Vec<Curves>, data: &mut Vec<Value>) -> String {
                 data.len(),
                 escaped(&sentence(&title))
             );
-            data.push(of_chart(name, &title, &chart));
+            let mut of_chart = of_chart(name, &title, &chart);
+            // As in a paper, panels share their caption.
+            of_chart["caption"] = if index == last { caption } else { "" }.into();
+            data.push(of_chart);
         }
     }
     if html.is_empty() { html } else { format!("<div class=\"charts\">{html}</div>") }

@@ -4,6 +4,7 @@
 //! and curves, those of the figures. Nothing on the page asks for anything from outside.
 
 mod adhesion;
+mod answers;
 mod below;
 mod bodies;
 mod cards;
@@ -98,8 +99,9 @@ fn page(results: &Results, seen: Option<Seen>) -> asperity_base::Result<(String,
     // What the case asks for comes first.
     let mut sections = capability::sections(&mut found, &mut data, &mut charts);
     sections.extend([
-        ("contact", "Contact", contact::section(&mut found, &mut data, &mut charts)),
         ("adhesion", "Adhesion", adhesion::section(&found, &mut charts)),
+        ("running-in", "Running in", course::running_in(&mut found, &mut charts)),
+        ("contact", "Contact", contact::section(&mut found, &mut data, &mut charts)),
         ("below", "Below the surface", below::section(&mut found, &mut data, &mut charts)),
         ("plastic", "Plastic flow", plastic::section(&mut found, &mut data, &mut charts)),
         ("bodies", "Bodies", bodies::section(&mut found, &mut data, &mut charts)),

@@ -11,6 +11,7 @@ pub(super) struct Plane {
     /// Name of the picture when it is saved.
     pub(super) file: String,
     pub(super) title: String,
+    pub(super) caption: &'static str,
     pub(super) map: QuantisedField,
     /// Where its left end is, m.
     pub(super) x: f64,
@@ -38,6 +39,11 @@ pub(super) enum Shades {
 
 /// HTML with a place for each plane, which go to `data`.
 pub(super) fn html(planes: Vec<Plane>, data: &mut Value) -> String {
+    beside(planes, "", data)
+}
+
+/// [`html`] with something beside the planes.
+pub(super) fn beside(planes: Vec<Plane>, other: &str, data: &mut Value) -> String {
     if data["planes"].is_null() {
         data["planes"] = json!([]);
     }
@@ -46,6 +52,9 @@ pub(super) fn html(planes: Vec<Plane>, data: &mut Value) -> String {
     for plane in planes {
         html += &format!("<div data-plane=\"{}\"></div>", all.len());
         all.push(plane.data());
+    }
+    if !other.is_empty() {
+        html += &format!("<div>{other}</div>");
     }
     html + "</div>"
 }
@@ -61,6 +70,7 @@ impl Plane {
         json!({
             "file": self.file,
             "title": self.title,
+            "caption": self.caption,
             "x": self.x,
             "length": curves::unit(Unit::Length, along.max(down)),
             "down": self.down,

@@ -11,6 +11,7 @@ use super::plane::{self, Plane, Shades};
 use super::table::text_of;
 use crate::draw::Unit;
 use crate::figures::{self, Curves, PlasticSection};
+use crate::words::captions;
 
 /// The section, and the data that it shows; none of bodies that do not flow.
 pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
@@ -48,6 +49,7 @@ fn of_body(plastic_sections: PlasticSection, data: &mut Value) -> String {
     let section = |name: &str, title: String, map, quantity, unit, shades| Plane {
         file: format!("{name}_{body}"),
         title,
+        caption: captions::of(name).unwrap_or_default(),
         map,
         x: 0.0,
         down: true,

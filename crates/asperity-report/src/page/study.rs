@@ -62,7 +62,7 @@ fn page(study: &Study, table: &Table, directory: &Path) -> String {
     let has_chart = !quantities.is_empty() && table.axes().iter().any(|axis| measure(axis).is_some());
     let sections: [Section; 2] = [
         ("curves", "Chart", has_chart.then(|| "<div id=\"explorer\"></div>".to_owned())),
-        ("cases", "Cases", Some(rows(table, &quantities, directory))),
+        ("cases", "Cases", Some(about(study, table) + &rows(table, &quantities, directory))),
     ];
     let colours = json!({ "pressure": palette(Colours::Pressure) });
     let data =
@@ -91,6 +91,11 @@ fn head(study: &Study, table: &Table) -> String {
         }
         html += "</ul></div>";
     }
+    html
+}
+
+/// The axes of the study, and its numbers as a whole.
+fn about(study: &Study, table: &Table) -> String {
     let axes = study.axes().iter().map(|axis| {
         let [first, last] = [0, axis.len() - 1].map(|index| axis.text(index));
         let values = if axis.len() == 1 {
@@ -110,7 +115,7 @@ fn head(study: &Study, table: &Table) -> String {
             "<a href=\"table.csv\">table.csv</a>, <a href=\"table.h5\">table.h5</a>".to_owned(),
         ),
     ];
-    html + &facts(axes.chain(rest))
+    facts(axes.chain(rest))
 }
 
 /// A row per case: its values, its main numbers, each column in one unit. The number of a case leads to its page where that was made.

@@ -1,19 +1,17 @@
 //! The result in a sentence or two.
 
-use asperity_base::units::{Dimension, format, format_number};
+use asperity_base::units::{CELSIUS, Dimension, format, format_number};
 use asperity_contact::motion::{PassRecord, PlasticRecord, Regime, StaticRecord, SweepRecord};
-use asperity_contact::with;
-use asperity_study::Outcome;
+use asperity_study::{Outcome, SubsurfaceRecord};
 
+use super::answers;
 use super::found::PageData;
-use super::{capability, curves};
 use crate::words::closed_form;
 use crate::words::numbers::change;
 
 /// The outcome of a run, or what there is of it so far.
 pub(super) fn sentence(found: &PageData) -> String {
-    let answers = capability::answers(found).into_iter();
-    let answers = answers.map(|(_, line)| curves::sentence(&format!("{}: {}", line.name, line.value)));
+    let answers = answers::all(found).into_iter().map(|answer| answer.sentence);
     answers.chain([of_contact(found)]).collect::<Vec<_>>().join(" ")
 }
 
@@ -52,10 +50,21 @@ fn of_passes(found: &PageData, last: &PassRecord) -> String {
     }
     text += &format!(" and the largest pressure {}", format(last.max_pressure, Dimension::Pressure));
     text += ". ";
-    for answer in with::after_passes(&found.passes) {
-        text += &format!("{} ", answer.sentence);
+    if let Some(running) = last.running.filter(|running| running.max_flash_temperature.is_finite()) {
+        let celsius = format_number(running.max_flash_temperature - CELSIUS);
+        text += &format!("The surfaces reach {celsius} °C. ");
+    }
+    if let Some(stress) = found.summary.as_ref().and_then(|summary| summary.subsurface.last()) {
+        text += &format!("{} ", of_stress(stress));
     }
     text + &of_roughness(found, last)
+}
+
+/// The largest stress below the surface, and its place.
+fn of_stress(stress: &SubsurfaceRecord) -> String {
+    let [x, y, depth] = stress.position.map(|length| format(length, Dimension::Length));
+    let most = format(stress.max_von_mises, Dimension::Pressure);
+    format!("The largest von Mises stress is {most}, {depth} below the surface at x = {x}, y = {y}.")
 }
 
 /// How the rms heights of the bodies have changed.
@@ -151,7 +160,15 @@ fn of_points(points: &[SweepRecord]) -> String {
 fn of_rest(found: &PageData, record: &StaticRecord) -> String {
     if record.contact_area == 0.0 {
         let gap = format(record.mean_gap, Dimension::Length);
-        return format!("The bodies do not touch: their mean gap is {gap}.{}", of_adhesion(found, record));
+        let most = found.increments.iter().map(|increment| increment.contact_area).fold(0.0, f64::max);
+        return match most > 0.0 {
+            true => format!(
+                "On the way they touched on up to {} under up to {}; in the end they are {gap} apart.",
+                format(most, Dimension::Area),
+                force(found.increments.iter().map(|increment| increment.load).fold(0.0, f64::max))
+            ),
+            false => format!("The bodies do not touch: their mean gap is {gap}."),
+        };
     }
     let share = format_number(100.0 * record.contact_area / record.apparent_area);
     let mut text = format!(
@@ -161,7 +178,6 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> String {
         format(record.max_pressure, Dimension::Pressure),
         format(record.approach, Dimension::Length)
     );
-    text += &of_adhesion(found, record);
     if let Some(theory) = found.summary.as_ref().and_then(|summary| summary.closed_form.as_ref()) {
         let (values, deviations) = (closed_form::computed(theory), closed_form::deviations(theory));
         text += &format!(
@@ -183,35 +199,8 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> String {
             ),
         };
     }
-    if let Some(last) = found.updates.last() {
-        for answer in with::after_sliding(last) {
-            text += &format!(" {}", answer.sentence);
-        }
-    }
-    text
-}
-
-/// The attraction of the bodies, and what a retreat shows.
-fn of_adhesion(found: &PageData, record: &StaticRecord) -> String {
-    let Some(adhesion) = &record.adhesion else { return String::new() };
-    let numbers = found.summary.as_ref().and_then(|summary| summary.adhesion);
-    let mut text = format!(" They attract each other with {} across the gap.", force(adhesion.adhesive_load));
-    if let Some((pull_off, work)) =
-        numbers.and_then(|numbers| numbers.pull_off.zip(numbers.work_of_separation))
-    {
-        text += &match pull_off < 0.0 {
-            true => format!(
-                " The retreat takes a pull of up to {}, and {} of work.",
-                force(-pull_off),
-                format(work, Dimension::Energy)
-            ),
-            false => " The retreat takes no pull.".to_owned(),
-        };
-    }
-    if adhesion.jumps > 0 {
-        let jumps =
-            if adhesion.jumps == 1 { "a jump".to_owned() } else { format!("{} jumps", adhesion.jumps) };
-        text += &format!(" {} is lost in {jumps}.", format(adhesion.energy_lost, Dimension::Energy));
+    if let Some(stress) = found.summary.as_ref().and_then(|summary| summary.subsurface.first()) {
+        text += &format!(" {}", of_stress(stress));
     }
     text
 }

@@ -4,6 +4,8 @@
 
 mod record;
 mod table;
+mod views;
 
 pub use record::{AdhesionSummary, depends_on_history, jumps};
 pub use table::{AdhesionRange, Attraction};
+pub use views::answers;

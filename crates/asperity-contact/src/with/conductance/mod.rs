@@ -66,7 +66,7 @@ pub use spots::ContactSpots;
 pub use table::{Joint, Kind};
 pub use views::{conducts, resistance, shares};
 
-use super::views::{Curve, Line, Map};
+use super::views::{Answer, Curve, Line, Map};
 use super::{Capability, Given, Rule, Surroundings};
 use crate::error::Result;
 use crate::motion::SweepRecord;
@@ -112,7 +112,11 @@ impl Capability for Joint {
         views::describe(self, surroundings)
     }
 
-    fn numbers(row: &ConductanceRecord) -> Vec<Line> {
+    fn answers(&self, rows: &[ConductanceRecord]) -> Vec<Answer> {
+        views::answers(rows)
+    }
+
+    fn numbers(&self, row: &ConductanceRecord) -> Vec<Line> {
         views::numbers(row)
     }
 

@@ -3,13 +3,14 @@
 use super::{ConductanceRecord, Joint, Kind, MAX_CORRELATED_FRACTION};
 use crate::units::{Dimension, format, format_number};
 use crate::with::Surroundings;
-use crate::with::views::{Curve, Line, Map, Scale, Series};
+use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Scale, Series, exponent};
 use asperity_base::Choice;
 
 /// Joint conductance, with that of the spots among gas, and that of clean spots by the correlation.
 pub(super) const CURVES: &[Curve<ConductanceRecord>] = &[Curve {
     names: ["joint_conductance", "joint_conductance_positions"],
     title: "joint conductance",
+    caption: "Conductance of a unit of the apparent area. Clean metal spots alone grow about as the power 0.95 of the pressure.",
     column: |row| row.quantities.joint_column(),
     series: &[
         Series {
@@ -18,7 +19,7 @@ pub(super) const CURVES: &[Curve<ConductanceRecord>] = &[Curve {
             value: |row| row.quantities.joint_conductance,
             is_dashed: false,
             is_beside: false,
-            may_end: false,
+            over_pressure: OverPressure::Exponent,
         },
         Series {
             name: "through the spots",
@@ -26,7 +27,7 @@ pub(super) const CURVES: &[Curve<ConductanceRecord>] = &[Curve {
             value: |row| row.quantities.joint_conductance.map(|joint| joint * row.spot_share),
             is_dashed: false,
             is_beside: true,
-            may_end: false,
+            over_pressure: OverPressure::Nothing,
         },
         Series {
             name: "correlation of clean spots",
@@ -34,7 +35,7 @@ pub(super) const CURVES: &[Curve<ConductanceRecord>] = &[Curve {
             value: |row| row.quantities.joint_correlation,
             is_dashed: true,
             is_beside: true,
-            may_end: false,
+            over_pressure: OverPressure::Nothing,
         },
     ],
 }];
@@ -43,6 +44,7 @@ pub(super) const CURVES: &[Curve<ConductanceRecord>] = &[Curve {
 pub(super) const MAPS: &[Map<ConductanceRecord>] = &[Map {
     field: "flux",
     title: "flux through the contact",
+    caption: "Heat or current through each cell; it crowds at the edges of the spots.",
     quantity: "flux",
     unit: |row| flux_unit(row.quantities.kind),
     scale: Scale::FromZeroOrLogarithmic,
@@ -66,6 +68,40 @@ pub(super) fn describe(joint: &Joint, surroundings: &Surroundings) -> String {
         format!(", gas {} with a jump distance of {jump}", format(gas, Dimension::Conductivity))
     });
     format!("{}{film}{gas}; {}", joint.kind.word(), surroundings.often(joint.every))
+}
+
+pub(super) fn answers(rows: &[ConductanceRecord]) -> Vec<Answer> {
+    let rows = match rows.last().and_then(|last| last.pass) {
+        None => rows.to_vec(),
+        Some(_) => ConductanceRecord::means(rows),
+    };
+    let pressure = |row: &ConductanceRecord| row.mean_pressure;
+    let Some(most) = rows.iter().max_by(|one, other| pressure(one).total_cmp(&pressure(other))) else {
+        return Vec::new();
+    };
+    let at = format(most.mean_pressure, Dimension::Pressure);
+    let name = "joint conductance".into();
+    let quantities = &most.quantities;
+    let Some(joint) = quantities.joint_conductance else {
+        let text = "all cells touch without a film".to_owned();
+        let sentence = format!("At {at} all cells touch without a film: nothing resists.");
+        return vec![Answer { name, value: "no resistance".to_owned(), about: text, sentence }];
+    };
+    let value = of_area(quantities.kind, joint);
+    let whole = conducts(quantities.kind, quantities.conductance, None);
+    let whole = whole.first().map_or(String::new(), |line| format!(" ({})", line.value));
+    let points = rows.iter().filter_map(|row| Some([row.mean_pressure, row.quantities.joint_conductance?]));
+    let power = exponent(points);
+    let grows = power.map(|power| format!("It grows as the power {power:.2} of the pressure."));
+    vec![Answer {
+        name,
+        about: [format!("At {at}."), grows.clone().unwrap_or_default()].join(" ").trim_end().to_owned(),
+        sentence: [format!("At {at} the joint conducts {value}{whole}."), grows.unwrap_or_default()]
+            .join(" ")
+            .trim_end()
+            .to_owned(),
+        value,
+    }]
 }
 
 pub(super) fn numbers(row: &ConductanceRecord) -> Vec<Line> {

@@ -60,7 +60,7 @@ use crate::grid::{Field, Grid, check_finite, in_rows};
 use crate::math::parallel;
 use crate::motion::SweepRecord;
 use crate::units::{CubicMetre, Dimension, Metre};
-use crate::with::views::{Curve, Line, Map};
+use crate::with::views::{Answer, Curve, Line, Map};
 use crate::with::{Capability, Given, Rule, Surroundings};
 use asperity_base::choice::choice;
 
@@ -98,8 +98,12 @@ impl Capability for Leakage {
         views::describe(self, surroundings)
     }
 
-    fn numbers(row: &FlowRecord) -> Vec<Line> {
-        views::numbers(row)
+    fn answers(&self, rows: &[FlowRecord]) -> Vec<Answer> {
+        views::answers(self, rows)
+    }
+
+    fn numbers(&self, row: &FlowRecord) -> Vec<Line> {
+        views::numbers(self, row)
     }
 
     fn doubts(&self, rows: &[FlowRecord], surroundings: &Surroundings, _: &[SweepRecord]) -> Vec<String> {

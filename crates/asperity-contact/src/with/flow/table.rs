@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::{Along, Ends, Fluid};
 use crate::operator::Boundary;
 use crate::units::{Pascal, PascalSecond};
+use asperity_base::exists;
 use asperity_base::table::Exists;
 use asperity_derive::Table;
 
@@ -44,6 +45,10 @@ pub struct Leakage {
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub outlet: Option<Pascal>,
+    /// Density of a liquid, by which its leakage is also told as a mass.
+    #[key(quantity = Density, range = AboveZero, absent = "unknown", example = "\"870 kg/m3\"", exists = exists::DENSITY)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub density: Option<f64>,
     /// Interval of the positions of a pass, or of the increments, updates or points, whose flow is computed; 0: once a pass, where the left
     /// edges are flush, or for the last contact alone.
     #[key(count = 0, default = 1, example = "4")]

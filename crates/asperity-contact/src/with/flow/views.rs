@@ -4,13 +4,14 @@ use super::{Along, FlowRecord, Leakage};
 use crate::surface::Axis;
 use crate::units::{Dimension, Metre, format, format_number};
 use crate::with::Surroundings;
-use crate::with::views::{Curve, Line, Map, Scale, Series};
+use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Scale, Series};
 use asperity_base::Choice;
 
 /// Leakage along both axes.
 pub(super) const CURVES: &[Curve<FlowRecord>] = &[Curve {
     names: ["leakage", "leakage_positions"],
     title: "leakage",
+    caption: "Volume that leaks in a unit of time. A curve ends where no path leads through the gap any more.",
     column: |_| "leakage",
     series: &[
         Series {
@@ -19,7 +20,7 @@ pub(super) const CURVES: &[Curve<FlowRecord>] = &[Curve {
             value: |row| Some(row.leakage),
             is_dashed: false,
             is_beside: false,
-            may_end: true,
+            over_pressure: OverPressure::End,
         },
         Series {
             name: "along y",
@@ -27,7 +28,7 @@ pub(super) const CURVES: &[Curve<FlowRecord>] = &[Curve {
             value: |row| Some(row.leakage),
             is_dashed: true,
             is_beside: false,
-            may_end: true,
+            over_pressure: OverPressure::End,
         },
     ],
 }];
@@ -42,11 +43,15 @@ pub const TITLES: [&str; 2] = [
     "flow through the gap under a pressure that falls along y",
 ];
 
+/// Caption of the maps.
+const FLOW: &str = "The fluid follows few channels; the cross marks the narrowest place of the widest path, where the pressure falls.";
+
 /// The flow along each axis, with the critical constriction.
 pub(super) const MAPS: &[Map<FlowRecord>] = &[
     Map {
         field: "flow_x",
         title: TITLES[0],
+        caption: FLOW,
         quantity: "flow per width",
         unit: |_| "m²/s",
         scale: Scale::Logarithmic(LEAST_FLOW),
@@ -56,6 +61,7 @@ pub(super) const MAPS: &[Map<FlowRecord>] = &[
     Map {
         field: "flow_y",
         title: TITLES[1],
+        caption: FLOW,
         quantity: "flow per width",
         unit: |_| "m²/s",
         scale: Scale::Logarithmic(LEAST_FLOW),
@@ -84,9 +90,116 @@ pub(super) fn describe(leakage: &Leakage, surroundings: &Surroundings) -> String
     format!("{kind} of {viscosity} under {pressure}, ends {ends}; {often}")
 }
 
-pub(super) fn numbers(row: &FlowRecord) -> Vec<Line> {
+pub(super) fn answers(leakage: &Leakage, rows: &[FlowRecord]) -> Vec<Answer> {
+    let last = rows.last().and_then(|row| row.pass);
+    let along = |axis: Axis| {
+        if last.is_some() {
+            return of_pass(axis, rows.iter().filter(|row| row.pass == last && row.along == axis));
+        }
+        let mut rows: Vec<&FlowRecord> = rows.iter().filter(|row| row.along == axis).collect();
+        rows.sort_by(|one, other| one.mean_pressure.total_cmp(&other.mean_pressure));
+        answer(leakage, axis, &rows)
+    };
+    [Axis::X, Axis::Y].into_iter().filter_map(along).collect()
+}
+
+/// Returns what leaks along an axis, from rows with rising mean pressures.
+fn answer(leakage: &Leakage, axis: Axis, rows: &[&FlowRecord]) -> Option<Answer> {
+    let (least, most) = (rows.first()?, rows.last()?);
+    let pressure = |row: &FlowRecord| format(row.mean_pressure, Dimension::Pressure);
+    let flow = |row: &FlowRecord| format(row.leakage, Dimension::VolumeFlow);
+    let in_trade = |row: &FlowRecord| match per_metre(leakage, row) {
+        Some(per_metre) => format!(" ({per_metre})"),
+        None => String::new(),
+    };
+    let axis = axis.word();
+    let name = format!("leakage along {axis}").into();
+    let open = rows.iter().rfind(|row| row.leakage > 0.0);
+    // The gap may close and open again over the increments of a loading: one pressure tells nothing then.
+    let closed =
+        rows.iter().skip_while(|row| open.is_some_and(|open| row.mean_pressure <= open.mean_pressure));
+    let closed = closed.copied().next().filter(|_| most.mean_pressure > least.mean_pressure);
+    Some(match (open, closed) {
+        (None, _) => Answer {
+            name,
+            value: "none".to_owned(),
+            about: "No path leads through the gap.".to_owned(),
+            sentence: format!("Along {axis} no path leads through the gap."),
+        },
+        (Some(open), Some(closed)) => Answer {
+            name,
+            value: format!("closed from {}", pressure(closed)),
+            about: format!("At {} {} leak{}.", pressure(open), flow(open), in_trade(open)),
+            sentence: format!(
+                "Along {axis} the gap is closed from {}; at {} {} leak{}.",
+                pressure(closed),
+                pressure(open),
+                flow(open),
+                in_trade(open)
+            ),
+        },
+        (Some(_), None) => Answer {
+            name,
+            value: flow(most),
+            about: match per_metre(leakage, most) {
+                Some(per_metre) => format!("At {}; {per_metre}.", pressure(most)),
+                None => format!("At {}.", pressure(most)),
+            },
+            sentence: format!("Along {axis} {} leak at {}{}.", flow(most), pressure(most), in_trade(most)),
+        },
+    })
+}
+
+/// Returns the mean of what leaks along an axis over the positions of the last pass.
+fn of_pass<'a>(axis: Axis, rows: impl Iterator<Item = &'a FlowRecord>) -> Option<Answer> {
+    let leakages: Vec<f64> = rows.map(|row| row.leakage).collect();
+    let mean = leakages.iter().sum::<f64>() / leakages.len() as f64;
+    let value = format(mean, Dimension::VolumeFlow);
+    let axis = axis.word();
+    (!leakages.is_empty()).then(|| Answer {
+        name: format!("leakage along {axis}").into(),
+        about: "Mean over the last pass.".to_owned(),
+        sentence: match mean > 0.0 {
+            true => format!("Along {axis} {value} leak in the mean of the last pass."),
+            false => format!("Along {axis} no path led through the gap in the last pass."),
+        },
+        value,
+    })
+}
+
+/// Describes a leakage for a metre of a seal, in the units of the trade: ml/h of a liquid, with its mass if the density is known; mbar l/s of
+/// a gas. `None` if the width of the strip is not known.
+fn per_metre(leakage: &Leakage, row: &FlowRecord) -> Option<String> {
+    let width = row.load / (row.mean_pressure * row.length);
+    let flow = row.leakage / width;
+    if !(flow.is_finite() && flow > 0.0) {
+        return None;
+    }
+    if let Some(outlet) = leakage.outlet.filter(|_| leakage.gas) {
+        return Some(format!("{} mbar l/s per metre of seal", format_number(10.0 * outlet * flow)));
+    }
+    let mut text = scaled(3.6e6 * flow, "l/h");
+    if let Some(density) = leakage.density {
+        text += &format!(", {}", scaled(1e3 * density * flow, "g/s"));
+    }
+    Some(text + " per metre of seal")
+}
+
+/// Writes a value with the prefix of its unit that suits it.
+fn scaled(value: f64, unit: &str) -> String {
+    const PREFIXES: [(f64, &str); 6] =
+        [(1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p"), (1e-15, "f")];
+    let (factor, prefix) =
+        PREFIXES.into_iter().find(|(factor, _)| value >= *factor).unwrap_or(PREFIXES[PREFIXES.len() - 1]);
+    format!("{} {prefix}{unit}", format_number(value / factor))
+}
+
+pub(super) fn numbers(leakage: &Leakage, row: &FlowRecord) -> Vec<Line> {
     let name = format!("leakage along {}", row.along.word());
-    let value = format(row.leakage, Dimension::VolumeFlow);
+    let mut value = format(row.leakage, Dimension::VolumeFlow);
+    if let Some(per_metre) = per_metre(leakage, row) {
+        value += &format!(", {per_metre}");
+    }
     let mut lines = leaks(name, value, row.critical_gap, row.constriction(), row.estimate);
     if row.leakage > 0.0 {
         let medium = format_number(row.effective_medium / row.mean_gap.powi(3));

@@ -48,6 +48,10 @@ impl BodyLaw for WearCoefficient {
         views::after_passes(passes)
     }
 
+    fn after_cycles(cycles: &FrettingRecord) -> Option<Answer> {
+        views::after_cycles(cycles)
+    }
+
     fn after_sliding(update: &UpdateRecord) -> Option<Answer> {
         views::after_sliding(update)
     }

@@ -1,7 +1,7 @@
 //! Wear in numbers, curves and maps.
 
 use crate::motion::{FrettingRecord, PassRecord, UpdateRecord, WEAR};
-use crate::units::{Dimension, format};
+use crate::units::{Dimension, format, format_number};
 use crate::with::views::{Answer, Kept, KeptMap, OfBodies, PassCell};
 
 pub(super) const KEPT: &[Kept] = &[Kept {
@@ -57,22 +57,66 @@ pub(super) const OF_CYCLES: &[OfBodies<FrettingRecord>] = &[
 
 pub(super) fn after_passes(passes: &[PassRecord]) -> Option<Answer> {
     let worn: f64 = passes.iter().flat_map(|pass| pass.lost(WEAR)).sum();
+    let last = passes.last()?;
+    let distance = last.running.map_or(f64::NAN, |running| running.distance);
     let value = format(worn, Dimension::Volume);
+    let over = format(distance, Dimension::Length);
+    let coefficient = coefficient(worn, passes, distance);
+    let known = distance > 0.0 && coefficient.is_finite();
+    (worn > 0.0).then(|| match known {
+        true => {
+            let [k, rate] = [format_number(1e9 * coefficient), per_metre(worn / distance)];
+            Answer {
+                name: "wear".into(),
+                about: format!("Of both bodies over {over}: {rate}, a coefficient of {k} mm³/(N m)."),
+                sentence: format!(
+                    "Wear has taken {value} from the bodies over {over} of sliding: {rate}, a coefficient of {k} mm³/(N m)."
+                ),
+                value,
+            }
+        }
+        false => Answer {
+            name: "wear".into(),
+            about: "Volume that both bodies have lost so far.".to_owned(),
+            sentence: format!("Wear has taken {value} from the bodies."),
+            value,
+        },
+    })
+}
+
+/// Returns the volume worn per load and distance, m²/N. A pass that stands for several counts as often.
+fn coefficient(worn: f64, passes: &[PassRecord], distance: f64) -> f64 {
+    let represented: f64 = passes.iter().map(|pass| pass.represents() as f64).sum();
+    let load = passes.iter().map(|pass| pass.represents() as f64 * pass.mean_load).sum::<f64>() / represented;
+    worn / (load * distance)
+}
+
+/// Writes a volume per distance.
+fn per_metre(rate: f64) -> String {
+    format!("{} µm³/m", format_number(1e18 * rate))
+}
+
+pub(super) fn after_cycles(cycles: &FrettingRecord) -> Option<Answer> {
+    let worn = cycles.worn_volume_lower + cycles.worn_volume_upper;
+    let deepest = cycles.max_wear_lower.max(cycles.max_wear_upper);
+    let (value, deepest) = (format(worn, Dimension::Volume), format(deepest, Dimension::Length));
+    let count = cycles.cycles;
     (worn > 0.0).then(|| Answer {
-        name: "wear",
-        about: "Volume that both bodies have lost so far.".to_owned(),
-        sentence: format!("Wear has taken {value} from the bodies."),
+        name: "worn volume".into(),
+        about: format!("Of both bodies, after {count} cycles; up to {deepest} deep."),
+        sentence: format!("{count} cycles have worn {value} off the bodies, up to {deepest} deep."),
         value,
     })
 }
 
 pub(super) fn after_sliding(update: &UpdateRecord) -> Option<Answer> {
-    let deepest = format(update.max_wear_lower.max(update.max_wear_upper), Dimension::Length);
+    let deepest = update.max_wear_lower.max(update.max_wear_upper);
+    let value = format(deepest, Dimension::Length);
     let distance = format(update.distance, Dimension::Length);
-    Some(Answer {
-        name: "deepest wear",
+    (deepest > 0.0).then(|| Answer {
+        name: "deepest wear".into(),
         about: format!("After {distance} of sliding."),
-        sentence: format!("After {distance} of sliding the wear is up to {deepest} deep."),
-        value: deepest,
+        sentence: format!("After {distance} of sliding the wear is up to {value} deep."),
+        value,
     })
 }

@@ -1,0 +1,28 @@
+//! What the user asked for, before the contact itself: the answers of capabilities, of adhesion and of the laws of the bodies.
+
+use asperity_contact::each_capability;
+use asperity_contact::with::views::Answer;
+use asperity_contact::with::{self, Capability, Listed, Row, adhesion};
+use asperity_study::Outcome;
+
+use super::found::PageData;
+
+/// The answers, the first of which is that to the question of the case.
+pub(super) fn all(found: &PageData) -> Vec<Answer> {
+    let mut answers = Vec::new();
+    each_capability!(C => if let Some(asked) = C::of(&found.case.with) {
+        let rows = found.results.rows::<C>().unwrap_or_default();
+        let last = rows.last().and_then(Row::pass);
+        let rows: Vec<_> = rows.into_iter().filter(|row| row.pass() == last).collect();
+        answers.extend(asked.answers(&rows));
+    });
+    let outcome = found.summary.as_ref().map(|summary| &summary.outcome);
+    if let Some(Outcome::Static(record)) = outcome {
+        let numbers = found.summary.as_ref().and_then(|summary| summary.adhesion.as_ref());
+        answers.extend(record.adhesion.iter().flat_map(|attraction| adhesion::answers(numbers, attraction)));
+        answers.extend(record.fretting.iter().flat_map(with::after_cycles));
+    }
+    answers.extend(with::after_passes(&found.passes));
+    answers.extend(found.updates.last().into_iter().flat_map(with::after_sliding));
+    answers
+}

@@ -1,0 +1,84 @@
+//! Captions of the charts and maps of the page, as in a paper.
+
+/// Captions by the names of figures and of the maps of a contact. A capability has its own.
+const CAPTIONS: [(&str, &str); 34] = [
+    (
+        "approach",
+        "Rigid-body approach of each pass, with what the surfaces have lost by plastic deformation.",
+    ),
+    ("contact", "Cells that bear load, elastic and at the hardness. Their area is the real area of contact."),
+    ("contact_area", "Area of the cells that bear load."),
+    (
+        "displacement",
+        "Elastic displacement of both surfaces together, positive where they give way to each other.",
+    ),
+    (
+        "force_distance",
+        "Load over the distance of the bodies, together and apart; a pull is below 0. The shaded area is energy lost.",
+    ),
+    (
+        "fretting",
+        "What the cycles have done to the bodies. Points are the computed cycles, each of which may stand for several.",
+    ),
+    ("friction", "Force of friction at each position."),
+    ("gap", "Distance of the deformed surfaces where they do not touch."),
+    ("load", "Load at each position: it grows with the overlap where the bodies enter and leave."),
+    (
+        "loading",
+        "Force over displacement on the way through all stages. A loop encloses the energy that friction takes.",
+    ),
+    ("material_ratio", "Share of the surface that lies above a height."),
+    ("max_pressure", "Pressure of the most loaded cell."),
+    ("mean_contact_area", "Mean of the real area of contact over the positions of each pass."),
+    ("mean_gap", "Mean distance of the deformed surfaces over the whole grid."),
+    ("plastic", "Depth that yields at the hardness, both bodies together."),
+    ("plastic_flow", "Plastic strain and work of each step. Bodies that have shaken down flow no more."),
+    ("pressure", "Pressure on each cell. White cells do not touch."),
+    (
+        "pressure_histogram",
+        "Share of the contact at each pressure. A peak at the right end is material at its hardness.",
+    ),
+    ("profile", "The deformed surfaces and the pressure on a line along x through the most loaded cell."),
+    ("roughness", "Rms height of each body before the first pass and after each one."),
+    (
+        "running-in",
+        "What sliding has done to the bodies. Volumes add up; the temperature is the largest of a pass.",
+    ),
+    ("shear", "Shear traction on the lower body."),
+    ("sliding", "What sliding in place has done to the bodies, update after update."),
+    ("slip", "Distance that the surfaces have slipped on each other, added up over all increments."),
+    ("solution", "Residual of each solution beside its tolerance, and its cost."),
+    (
+        "spectrum",
+        "Power of the heights at each wave number, averaged over all directions. Long waves are at the left.",
+    ),
+    ("stick", "Where the surfaces stick, and where they slip."),
+    ("stiffness", "Load that one unit of approach more takes."),
+    ("stress_columns", "Stress below chosen places, over the depth."),
+    (
+        "subsurface",
+        "The section passes through the most stressed point; the bar at the top is where the bodies touch.",
+    ),
+    ("temperature", "Temperature of the surfaces in contact, flash temperature and bulk together."),
+    ("traction", "Tangential force over the load as the creepage grows."),
+    ("plastic_strain", "Plastic strain accumulated so far. It is largest below the surface."),
+    ("residual_stress", "Stress that stays without load; tension is above 0."),
+];
+
+/// Returns the caption of a figure; `None` for one that its title explains.
+pub(crate) fn of(name: &str) -> Option<&'static str> {
+    CAPTIONS.iter().find(|(known, _)| *known == name).map(|(_, caption)| *caption)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_caption_is_a_sentence_of_one_figure() {
+        for (index, (name, caption)) in CAPTIONS.iter().enumerate() {
+            assert!(caption.ends_with('.') && caption.starts_with(char::is_uppercase), "{name}: {caption}");
+            assert!(CAPTIONS[..index].iter().all(|(other, _)| other != name), "{name}");
+        }
+    }
+}
