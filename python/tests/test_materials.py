@@ -37,7 +37,7 @@ def test_heat_passes_with_the_conductivity_of_the_material() -> None:
     copper = asp.Material("copper")
     given = asp.Body(rough(1), asp.Material(copper.young, copper.poisson), thermal={"conductivity": 401.0})
     found = [
-        asp.contact(body, asp.Body(rough(2), copper), load="20 mN", conductance={}, progress=False).record["conductance"]
+        asp.contact(body, asp.Body(rough(2), copper), load="20 mN", conductance={}, progress=False).conductances["thermal_conductance"]
         for body in (asp.Body(rough(1), copper), given)
     ]
     assert found[0] == found[1]

@@ -125,7 +125,7 @@ pub(crate) struct PairWriting {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Both(pub(crate) [String; 2]);
 
-/// What presses the bodies together, as it was written.
+/// The prescribed load or mean pressure, as it was written.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Load {
     /// Its key in a case.

@@ -56,11 +56,11 @@ pub struct Series<R: 'static> {
     pub is_dashed: bool,
     /// Whether it stands only beside the main curve of single contacts, such as a correlation or a share.
     pub is_beside: bool,
-    /// What its name says of its course over the mean pressure.
+    /// Its course over the mean pressure, as its name tells it.
     pub over_pressure: OverPressure,
 }
 
-/// What the name of a curve says of its course over the mean pressure.
+/// The part of the course of a curve over the mean pressure that its name tells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OverPressure {
     /// Nothing.

@@ -8,6 +8,9 @@ use super::schema::{Bounds, Fallback, Key, Kind, Section, keys};
 /// The table that a topography may contain, a topography again.
 const LAYERS: &str = "plus";
 
+/// The tables of the bodies, whose elastic constants a material may give.
+const BODIES: [&str; 2] = ["lower", "upper"];
+
 /// Returns the JSON schema (draft 7) of a case file. It has each key with its meaning, accepted values, default and example. Combinations of
 /// keys are left to [`Case::parse`](super::Case::parse).
 ///
@@ -49,7 +52,11 @@ fn table(path: &str) -> Value {
             }
         }
     }
-    json!({ "type": "object", "properties": properties, "required": required, "additionalProperties": false })
+    let mut schema = json!({ "type": "object", "properties": properties, "required": required, "additionalProperties": false });
+    if BODIES.contains(&path) {
+        schema["anyOf"] = json!([{ "required": ["material"] }, { "required": ["young", "poisson"] }]);
+    }
+    schema
 }
 
 /// Adds another schema for the values of a key, unless it is known.
