@@ -55,7 +55,7 @@ pub(crate) fn cells(grid: &Grid) -> String {
 /// The folder for the files of a command.
 pub(crate) struct Files {
     folder: PathBuf,
-    paper: Paper,
+    papers: Vec<Paper>,
     /// The file that was read.
     of: String,
 }
@@ -65,14 +65,14 @@ impl Files {
     ///
     /// # Errors
     /// It exists, and is not to be overwritten.
-    pub(crate) fn new(writing: &Writing, file: &Path, paper: Paper) -> Outcome<Option<Self>> {
+    pub(crate) fn new(writing: &Writing, file: &Path, papers: Vec<Paper>) -> Outcome<Option<Self>> {
         let Some(folder) = &writing.out else { return Ok(None) };
         if folder.exists() && !writing.overwrite {
             let message = format!("`{}` exists", folder.display());
             return Err(Failure::usage(message, Some("--overwrite replaces the files in it")));
         }
         let of = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Some(Self { folder: folder.clone(), paper, of }))
+        Ok(Some(Self { folder: folder.clone(), papers, of }))
     }
 
     /// The path of a file in the folder.
@@ -90,9 +90,12 @@ impl Files {
 
     /// Draws a figure.
     pub(crate) fn draw(&self, name: &str, title: &str, figure: &dyn Figure) -> Outcome {
-        let path = self.path(&format!("{name}.{}", self.paper.format.extension()));
         let caption = Caption { title: title.to_owned(), of: self.of.clone() };
-        Ok(draw::save(&path, figure, &caption, &self.paper)?)
+        for paper in &self.papers {
+            let path = self.path(&format!("{name}.{}", paper.format.extension()));
+            draw::save(&path, figure, &caption, paper)?;
+        }
+        Ok(())
     }
 }
 

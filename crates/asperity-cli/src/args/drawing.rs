@@ -8,9 +8,9 @@ use asperity_report::draw::{Format, Paper};
 /// The file type, resolution and width of figures.
 #[derive(Debug, Args)]
 pub(crate) struct Drawing {
-    /// File type: pixels, or vectors with selectable text
-    #[arg(long, default_value = "png", value_parser = choice::<Format>())]
-    format: Format,
+    /// File type, pixels or vectors with selectable text; several with commas: svg,pdf
+    #[arg(long, default_value = "png", value_delimiter = ',', value_parser = choice::<Format>())]
+    format: Vec<Format>,
     /// Dots per inch
     #[arg(long, value_name = "N", default_value_t = 300.0, value_parser = dpi)]
     dpi: f64,
@@ -33,20 +33,29 @@ pub(crate) struct RangedDrawing {
 }
 
 impl Drawing {
-    pub(crate) fn paper(&self) -> Paper {
-        Paper {
-            format: self.format,
+    /// Returns a paper for each file type.
+    pub(crate) fn papers(&self) -> Vec<Paper> {
+        let paper = |format: &Format| Paper {
+            format: *format,
             dpi: self.dpi,
             width: self.width,
             titled: !self.no_title,
             ..Paper::default()
-        }
+        };
+        self.format.iter().map(paper).collect()
     }
 }
 
 impl RangedDrawing {
-    pub(crate) fn paper(&self) -> Paper {
-        Paper { range: self.range.map(|range| range.0), ..self.drawing.paper() }
+    /// Returns a paper for each file type.
+    pub(crate) fn papers(&self) -> Vec<Paper> {
+        let range = self.range();
+        self.drawing.papers().into_iter().map(|paper| Paper { range, ..paper }).collect()
+    }
+
+    /// Returns the given range.
+    pub(crate) fn range(&self) -> Option<[f64; 2]> {
+        self.range.map(|range| range.0)
     }
 }
 

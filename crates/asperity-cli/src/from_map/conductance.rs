@@ -115,7 +115,7 @@ pub(crate) fn conductance(arguments: &Conductance) -> Outcome {
         let message = "--gas is given with --kind electrical: gas conducts heat, but no current";
         return Err(Failure::usage(message, None));
     }
-    let files = Files::new(&arguments.writing, &arguments.input.file, arguments.drawing.paper())?;
+    let files = Files::new(&arguments.writing, &arguments.input.file, arguments.drawing.papers())?;
     let contact = maps::read(&arguments.input)?;
     let gap = arguments.gap.as_ref().map(|path| maps::read_gap(path, &arguments.input, &contact));
     let gap = gap.transpose()?;

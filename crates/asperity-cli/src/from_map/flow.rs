@@ -60,7 +60,7 @@ pub(crate) struct Flow {
 }
 
 pub(crate) fn flow(arguments: &Flow) -> Outcome {
-    let files = Files::new(&arguments.writing, &arguments.input.file, arguments.drawing.paper())?;
+    let files = Files::new(&arguments.writing, &arguments.input.file, arguments.drawing.papers())?;
     let fluid = fluid(arguments)?;
     let gap = maps::read(&arguments.input)?;
     let (gap, grid) = (gap.heights(), gap.grid());

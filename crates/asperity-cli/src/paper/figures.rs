@@ -102,7 +102,7 @@ fn matrix(pair: &Pair, save: &Save) -> Outcome {
     let range = [&matrix, &first].map(|matrix| matrix.iter().copied());
     let [low, high] =
         range.into_iter().flatten().fold([f64::INFINITY, 0.0], |[low, high], v| [v.min(low), v.max(high)]);
-    let block = format!("one column overlaps: the first {MATRIX_SIDE} × {MATRIX_SIDE}, on the right");
+    let block = format!("one column overlaps: the first {MATRIX_SIDE} × {MATRIX_SIDE}, in the second map");
     let maps = vec![
         Map::matrix("all columns overlap", &matrix, axes, quantity())
             .with_block(MATRIX_SIDE, block)

@@ -37,16 +37,18 @@ const HARDNESS: Pascal = 3e9;
 /// Draws the paper's figures, and measures the cost of its strategy.
 pub(crate) fn paper(arguments: &Paper) -> Outcome {
     let folder = &arguments.out;
-    let sheet = arguments.drawing.paper();
-    refuse_existing(folder, sheet.format, arguments.overwrite)?;
+    let sheets = arguments.drawing.papers();
+    sheets.iter().try_for_each(|sheet| refuse_existing(folder, sheet.format, arguments.overwrite))?;
     std::fs::create_dir_all(folder)
         .map_err(|source| asperity::Error::File { path: folder.clone(), source })?;
     io::sweep(folder);
     let bar = progress(arguments.quiet);
-    figures::draw(folder, &sheet, &bar)?;
+    sheets.iter().try_for_each(|sheet| figures::draw(folder, sheet, &bar))?;
     let costs = Costs::measure(arguments.largest.into(), &bar)?;
     bar.finish_and_clear();
-    costs.draw(&folder.join("cost").with_extension(sheet.format.extension()), &sheet)?;
+    for sheet in &sheets {
+        costs.draw(&folder.join("cost").with_extension(sheet.format.extension()), sheet)?;
+    }
     io::replace(&folder.join("cost.csv"), costs.csv().as_bytes())?;
     print(&format!("{}\n{}\n{}", figures::matrix_sizes(), costs.table(), costs.verdict()))?;
     note(&format!("figures and cost.csv in {}", folder.display()));

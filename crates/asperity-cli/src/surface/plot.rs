@@ -47,7 +47,7 @@ pub(super) fn plot(arguments: &PlotSurface) -> Outcome {
     io::sweep(out);
     let name = arguments.input.file.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let sheet =
-        Sheet { folder: out.clone(), topography: &file.topography, name, paper: arguments.drawing.paper() };
+        Sheet { folder: out.clone(), topography: &file.topography, name, papers: arguments.drawing.papers() };
     if let Some(axis) = line_of(&file.topography) {
         let curves = json!({ "profile": sheet.profile(axis)?, "spectrum": sheet.spectrum_along(axis)?, "bearing": sheet.bearing()? });
         io::replace(&out.join("curves.json"), format!("{curves:#}\n").as_bytes())?;
@@ -80,7 +80,7 @@ struct Sheet<'a> {
     topography: &'a Topography,
     /// Name of the file.
     name: String,
-    paper: Paper,
+    papers: Vec<Paper>,
 }
 
 impl Sheet<'_> {
@@ -138,9 +138,12 @@ impl Sheet<'_> {
     }
 
     fn save(&self, name: &str, title: &str, figure: &dyn Figure) -> Outcome {
-        let path = self.folder.join(format!("{name}.{}", self.paper.format.extension()));
         let caption = Caption { title: title.to_owned(), of: self.name.clone() };
-        Ok(draw::save(&path, figure, &caption, &self.paper)?)
+        for paper in &self.papers {
+            let path = self.folder.join(format!("{name}.{}", paper.format.extension()));
+            draw::save(&path, figure, &caption, paper)?;
+        }
+        Ok(())
     }
 
     fn chart(&self, name: &str, title: &str, x: Axis, y: Axis, series: Vec<Series>) -> Outcome {

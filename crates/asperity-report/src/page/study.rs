@@ -60,9 +60,10 @@ pub fn write_study(study: &Study, table: &Table, path: &Path) -> asperity_base::
 fn page(study: &Study, table: &Table, directory: &Path) -> String {
     let quantities = explorer::quantities(table, &SHOWN);
     let has_chart = !quantities.is_empty() && table.axes().iter().any(|axis| measure(axis).is_some());
-    let sections: [Section; 2] = [
+    let sections: [Section; 3] = [
         ("curves", "Chart", has_chart.then(|| "<div id=\"explorer\"></div>".to_owned())),
-        ("cases", "Cases", Some(about(study, table) + &rows(table, &quantities, directory))),
+        ("plan", "Plan", Some(about(study, table))),
+        ("cases", "Cases", Some(rows(table, &quantities, directory))),
     ];
     let colours = json!({ "pressure": palette(Colours::Pressure) });
     let data =
