@@ -119,6 +119,7 @@ impl CoreResults {
         match kind {
             "pass" => self.results.fields_after(number.unwrap_or(0)),
             "point" => self.results.point_fields(number.unwrap_or(1)),
+            "increment" => self.results.increment_fields(number.unwrap_or(1)),
             "subsurface" => self.results.subsurface_fields(number),
             "plasticity" => self.results.plastic_fields(number),
             _ => self.results.static_fields(),

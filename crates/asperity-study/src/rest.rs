@@ -203,7 +203,8 @@ impl StaticProblem<'_> {
         let under_way = |writer: &Writer| writer.results().loading_under_way(&self.pair, stages.len());
         let left = self.writer.map(under_way).transpose()?.flatten();
         let done = left.as_ref().map_or(&[][..], |left| &left.increments);
-        let mut kept = self.writer.map(|writer| writer.increments(done)).transpose()?;
+        let every = case.increments_kept_every();
+        let mut kept = self.writer.map(|writer| writer.increments(done, every)).transpose()?;
         let done = done.last().map(|last| last.increment);
         let (mut observers, mut limits) = (self.observers(done)?, self.limits(done)?);
         let (boundary, outputs) = (self.boundary(), &mut outputs(&mut observers, &mut limits, &mut kept));
@@ -261,7 +262,7 @@ impl StaticProblem<'_> {
         let (bodies, path) =
             (elasto_plastic::bodies(self.case, spec, &self.pair)?, elasto_plastic::path(spec, stages));
         self.begin()?;
-        let mut kept = self.writer.map(|writer| writer.increments(&[])).transpose()?;
+        let mut kept = self.writer.map(|writer| writer.increments(&[], 0)).transpose()?;
         let (mut observers, mut limits) = (self.observers(None)?, self.limits(None)?);
         let outputs = &mut outputs(&mut observers, &mut limits, &mut kept);
         let (pair, boundary) = (&self.pair, self.boundary());

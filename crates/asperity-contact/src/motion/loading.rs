@@ -401,7 +401,7 @@ impl Increments {
             increment: increments.len() + 1,
             stage: next.stage + 1,
             fretting,
-            plastic_volume: area * flattening.whole(plastic).sum(),
+            plastic_volume: area * flattening.total(plastic).sum(),
             dissipation,
             adhesion,
             iterations: stats.iterations,
@@ -421,7 +421,7 @@ impl StagedLoading {
             increments, contact: solution, flattening, slip, dissipation_error, changed, ..
         } = state;
         let now = solution.normal().plastic_interference();
-        let plastic = flattening.whole(now);
+        let plastic = flattening.total(now);
         let sum = |value: fn(&IncrementRecord) -> f64| increments.iter().map(value).sum::<f64>();
         // Cycles that were not computed have taken energy, too, with the relative error of those that were.
         let computed = sum(|increment| increment.dissipation);

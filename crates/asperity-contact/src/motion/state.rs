@@ -93,7 +93,7 @@ impl Flattening {
     }
 
     /// Returns the total plastic interference, with `now` that of the present contact.
-    pub(super) fn whole(&self, now: Field) -> Field {
+    pub fn total(&self, now: Field) -> Field {
         match &self.kept {
             None => now,
             Some(kept) => kept + &now,

@@ -98,7 +98,7 @@ class ChartView {
         setCursor: [(u) => this.read(u, points)],
         setSelect: [(u) => this.zoom(u)],
         drawClear: [(u) => { if (chart.shaded) drawShaded(u, chart); }],
-        draw: [(u) => drawWords(u, chart, ink)],
+        draw: [(u) => { drawWords(u, chart, ink); if (this.marked) drawMark(u, this.marked, chart, ink); }],
       },
     };
     this.zoomed = false;
@@ -107,6 +107,12 @@ class ChartView {
     const canvas = this.host.querySelector("canvas");
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", `${chart.title}: ${chart.y.label} over ${chart.x.label}`);
+  }
+
+  /** Marks the place of a state on the curve; none for null. */
+  point(at) {
+    this.marked = at;
+    this.plot.redraw(false);
   }
 
   width() { return Math.max(200, this.place.clientWidth); }
@@ -327,6 +333,19 @@ function drawWords(u, chart, ink) {
     c.textAlign = right ? "right" : "left";
     c.fillText(words, px + (right ? -8 : 8) * ratio, py + (right ? -8 : 16) * ratio);
   }
+  c.restore();
+}
+
+/** A ring around a point. */
+function drawMark(u, [x, y], chart, ink) {
+  const c = u.ctx;
+  const ratio = devicePixelRatio || 1;
+  c.save();
+  c.strokeStyle = ink;
+  c.lineWidth = 2 * ratio;
+  c.beginPath();
+  c.arc(u.valToPos(plotted(x, chart.x), "x", true), u.valToPos(plotted(y, chart.y), "y", true), 7 * ratio, 0, 2 * Math.PI);
+  c.stroke();
   c.restore();
 }
 

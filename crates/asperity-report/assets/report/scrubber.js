@@ -17,6 +17,8 @@ class Scrubber {
       const nearer = Math.abs(step - middle) < Math.abs(best - middle);
       return cut(step) < cut(best) || (cut(step) === cut(best) && nearer) ? step : best;
     }, middle);
+    if (contact.begin !== undefined) this.step = contact.begin;
+    this.stepName = contact.steps || (contact.groups[0].label ? "position" : "point");
     this.build(place);
   }
 
@@ -41,7 +43,7 @@ class Scrubber {
     }
     const most = Math.max(...this.groups.map((g) => g.length)) - 1;
     if (most > 0) {
-      const [slider, label] = range(this.contact.groups[0].label ? "position" : "point", most, (k) => this.to(this.group, k));
+      const [slider, label] = range(this.stepName, most, (k) => this.to(this.group, k));
       this.positions = slider;
       this.play = element("button", { type: "button", onclick: () => this.toggle() }, "play");
       controls.append(label, this.play);
@@ -66,7 +68,7 @@ class Scrubber {
     }
     if (most > 0 || this.groups.length > 1) {
       this.map.canvas.tabIndex = 0;
-      views.before(element("p", { class: "remark" }, `Keys on the map: ← → ${this.contact.groups[0].label ? "position" : "point"}, ${this.groups.length > 1 ? "↑ ↓ pass, " : ""}Home and End, space plays. A click chooses the section.`));
+      views.before(element("p", { class: "remark" }, `Keys on the map: ← → ${this.stepName}, ${this.groups.length > 1 ? "↑ ↓ pass, " : ""}Home and End, space plays. A click chooses the section.`));
       this.map.canvas.addEventListener("keydown", (event) => this.key(event));
     }
   }
@@ -136,6 +138,7 @@ class Scrubber {
       lines: [{ from: [region[0][0], row], to: [region[0][1], row], colour: "#8a8f98" }],
       bar: layer.kind === "class" ? null : { range, unit: layer.unit, label: layer.title, kind: layer.kind },
     });
+    charts.filter((view) => view.chart.name === "force_distance").forEach((view) => view.point(frame.mark));
     if (this.places) this.places.show({ lower, upper, offset: frame.offset, length });
     if (this.section) this.section.show({ known: groups[this.group].known !== false, frame, changes, row, region: region[0], length });
   }

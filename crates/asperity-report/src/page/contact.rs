@@ -2,7 +2,7 @@
 
 use asperity_base::Field;
 use asperity_base::units::{Dimension, format};
-use asperity_contact::motion::{StepRecord, Strategy, SweepRecord};
+use asperity_contact::motion::{IncrementRecord, StepRecord, Strategy, SweepRecord};
 use asperity_study::io::fields::Fields;
 use asperity_study::{cap_name, pressure_name, temperature_name};
 use rayon::prelude::*;
@@ -42,6 +42,8 @@ struct Frame {
     approach: f64,
     /// Cells in contact at the edge of the lower body's map, where a periodic map is cut.
     seam: usize,
+    /// Its place on the force–distance curve, if there is one.
+    mark: Option<[f64; 2]>,
     fields: Vec<(&'static str, StoredArray)>,
 }
 
@@ -57,6 +59,14 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
         return of_motion(found, data, charts);
     }
     let groups = vec![json!({ "label": "" })];
+    if let Some(frames) = of_increments(found) {
+        let pull_off = least_load(&frames);
+        let html = SCRUBBER.to_owned() + &blocks(&frames);
+        data["contact"] = shown(&all_packed(frames), groups);
+        data["contact"]["begin"] = pull_off.into();
+        data["contact"]["steps"] = "increment".into();
+        return Some(html);
+    }
     if let Some((maps, block)) = found.take_maps() {
         let approach = found
             .kept(found.results.static_fields().map_err(Into::into).and_then(|f| figures::approach(&f)))?;
@@ -236,6 +246,7 @@ fn read_pass(
             across: step.offset_y.unwrap_or(0.0),
             approach: step.approach,
             seam,
+            mark: None,
             fields: maps,
         })
     };
@@ -310,10 +321,47 @@ fn of_sweep(found: &mut PageData) -> Vec<Frame> {
             across: 0.0,
             approach: point.approach,
             seam: 0,
+            mark: None,
             fields: maps,
         });
     }
     frames
+}
+
+/// The increments that are kept of bodies that attract each other, each with its place on the force–distance curve; `None` if none is.
+fn of_increments(found: &mut PageData) -> Option<Vec<Frame>> {
+    found.case.adhesion?;
+    let increments = found.increments.clone();
+    let kept: Vec<&IncrementRecord> =
+        increments.iter().filter(|each| found.results.increment_path(each.increment).exists()).collect();
+    let mut frames = Vec::new();
+    for index in evenly(kept.len(), MAX_BYTES >> 16) {
+        let increment = kept[index];
+        let opened = found.results.increment_fields(increment.increment);
+        let Some(fields) = found.fields(opened) else { continue };
+        let Some(maps) = found.kept(at_rest(&fields)) else { continue };
+        frames.push(Frame {
+            label: format!("increment {} of {}", increment.increment, increments.len()),
+            text: format!(
+                "distance {}, load {}, real contact {}",
+                format(-increment.approach, Dimension::Length),
+                format(increment.load, Dimension::Force),
+                format(increment.contact_area, Dimension::Area)
+            ),
+            approach: increment.approach,
+            mark: Some([-increment.approach, increment.load]),
+            fields: maps,
+            ..Frame::at_rest()
+        });
+    }
+    (!frames.is_empty()).then_some(frames)
+}
+
+/// The frame with the least load.
+fn least_load(frames: &[Frame]) -> usize {
+    let load = |frame: &Frame| frame.mark.map_or(f64::INFINITY, |[_, load]| load);
+    let frames = frames.iter().enumerate();
+    frames.min_by(|one, other| load(one.1).total_cmp(&load(other.1))).map_or(0, |(index, _)| index)
 }
 
 fn of_rest(found: &mut PageData) -> Option<Vec<Frame>> {
@@ -385,6 +433,7 @@ impl Frame {
             across: 0.0,
             approach: 0.0,
             seam: 0,
+            mark: None,
             fields: Vec::new(),
         }
     }
@@ -396,6 +445,7 @@ impl Frame {
             "text": escaped(&minus(&self.text)),
             "offset": self.offset,
             "seam": self.seam,
+            "mark": self.mark,
             "across": self.across,
             "approach": Some(self.approach).filter(|approach| approach.is_finite()),
             "together": minus(&format(self.approach, Dimension::Length)),
@@ -459,7 +509,7 @@ fn shown(frames: &[PageFrame], groups: Vec<Value>) -> Value {
         layers.push(json!({
             "name": layer.name,
             "title": layer.title,
-            "caption": captions::of(layer.name),
+            "caption": if pulls { Some("Pressure on each cell; tension is below 0.") } else { captions::of(layer.name) },
             "kind": kind,
             "classes": classes,
             // Each pass has its own, so that a late pass of low pressures shows them.

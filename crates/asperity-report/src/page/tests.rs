@@ -134,6 +134,19 @@ fn bodies_that_attract_each_other_have_a_section_with_their_curve() {
     let curve = charts.iter().find(|chart| chart["name"] == "force_distance").unwrap();
     assert_eq!(curve["shaded"]["name"], "hysteresis");
     assert_eq!(curve["shaded"]["areas"].as_array().unwrap().len(), 1);
+    // The increments that are kept have their place on the curve.
+    assert_eq!(data["contact"]["steps"], "increment");
+    let frames = data["contact"]["frames"].as_array().unwrap();
+    assert!(frames.len() > 1, "{}", frames.len());
+    for frame in frames {
+        let [distance, load] = [0, 1].map(|axis| frame["mark"][axis].as_f64().unwrap());
+        let series = curve["series"].as_array().unwrap();
+        let on_it = series.iter().any(|series| {
+            let points = series["x"].as_array().unwrap().iter().zip(series["y"].as_array().unwrap());
+            points.into_iter().any(|(x, y)| (x.as_f64(), y.as_f64()) == (Some(distance), Some(load)))
+        });
+        assert!(on_it, "{distance} {load}");
+    }
     let layer = &data["contact"]["layers"][0];
     assert_eq!((&layer["name"], &layer["kind"]), (&"pressure".into(), &"diverging".into()));
     let [low, high] = [0, 1].map(|end| layer["ranges"][0][end].as_f64().unwrap());

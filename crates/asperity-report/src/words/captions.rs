@@ -14,7 +14,7 @@ const CAPTIONS: [(&str, &str); 34] = [
     ),
     (
         "force_distance",
-        "Load over the distance of the bodies, together and apart; a pull is below 0. The shaded area is energy lost.",
+        "Load over the distance of the bodies, together and apart; a pull is below 0. The shaded area is energy lost, the ring the state that the maps show.",
     ),
     (
         "fretting",

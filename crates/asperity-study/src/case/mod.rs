@@ -331,6 +331,12 @@ impl From<&Strategy> for StrategyKind {
 pub(crate) const MAX_CASE_BYTES: u64 = 4 << 20;
 
 impl Case {
+    /// Interval of the increments of a loading whose fields are kept, 0 for none: those of bodies that attract each other, whose way
+    /// together and apart is the result.
+    pub(crate) fn increments_kept_every(&self) -> usize {
+        if self.adhesion.is_some() && !self.history.is_empty() { self.output.pressure_every } else { 0 }
+    }
+
     /// Whether a body is coated.
     pub fn is_coated(&self) -> bool {
         [&self.lower, &self.upper].into_iter().any(|body| body.material.coating.is_some())

@@ -168,6 +168,12 @@ fn resumable(results: &Results, case: &Value) -> Result<ExistingResults> {
     ] {
         if let Some(state) = results.last_state(rows, first, &table)? {
             whole(&results.state_path(state), &identity, None)?;
+            if first == 1 && case.get("adhesion").is_some_and(Value::is_object) {
+                let every = kept_every(case);
+                for increment in (1..=state).filter(|increment| is_nth(*increment, every)) {
+                    whole(&results.increment_path(increment), &identity, None)?;
+                }
+            }
             return Ok(ExistingResults::Steps);
         }
     }
@@ -236,11 +242,16 @@ fn kept_points(
     if let Some(done) = results.last_state(points.len(), 1, &results.sweep_path())? {
         same_rows(&results.state_path(done), &tables::digest("", &points[..done]), &results.sweep_path())?;
     }
-    let every = case.pointer("/output/pressure_every").and_then(Value::as_u64).unwrap_or(0) as usize;
+    let every = kept_every(case);
     for point in points.iter().map(|point| point.point).filter(|point| is_nth(*point, every)) {
         whole(&results.point_path(point), identity, None)?;
     }
     Ok(ExistingResults::Steps)
+}
+
+/// Interval of the steps of a case whose fields are kept.
+fn kept_every(case: &Value) -> usize {
+    case.pointer("/output/pressure_every").and_then(Value::as_u64).unwrap_or(0) as usize
 }
 
 /// Returns an error unless `path` holds the undamaged fields of this run; for a motion, those of this pass.

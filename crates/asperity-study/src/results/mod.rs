@@ -16,6 +16,7 @@
 //!     limits.csv           a row per limit of the model that a step exceeds, if any
 //!     sweep.csv            a load sweep: a row per point; `fields.h5` is that of the last
 //!     fields/point-0001.h5 the pressure and the gap of the points kept
+//!     fields/increment-0001.h5     the same of the increments kept, of bodies that attract each other
 //!     subsurface.h5        the stress under its surface, if requested
 //!     plasticity.h5        plastic state of elasto-plastic bodies
 //!     *.vti                beside the fields, for ParaView, if requested
@@ -165,6 +166,14 @@ impl Results {
     /// [`Error::File`].
     pub fn fields_after(&self, passes: usize) -> Result<Fields> {
         Fields::open(&self.fields_path(passes))
+    }
+
+    /// Opens the fields of an increment that is kept.
+    ///
+    /// # Errors
+    /// [`Error::File`].
+    pub fn increment_fields(&self, increment: usize) -> Result<Fields> {
+        Fields::open(&self.increment_path(increment))
     }
 
     /// Opens the fields of a static contact.
@@ -384,6 +393,11 @@ impl Results {
     pub(crate) fn observed<T: DeserializeOwned>(&self, name: &str) -> Result<Vec<T>> {
         let path = self.observer_table(name);
         if path.exists() { tables::read_growing(&path) } else { Ok(Vec::new()) }
+    }
+
+    /// The file of the fields of an increment that is kept.
+    pub fn increment_path(&self, increment: usize) -> PathBuf {
+        self.fields_folder().join(format!("increment-{increment:04}.h5"))
     }
 
     pub(super) fn point_path(&self, point: usize) -> PathBuf {

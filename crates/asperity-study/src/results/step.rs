@@ -4,7 +4,7 @@
 //! done once its row is written, and the state of the step before is then removed. The state after the last step is needed
 //! only for a motion, which may be extended by more passes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::bodies::{add_bodies, add_volumes, set_caps};
 use super::state::{ROWS, increment, pass, update};
@@ -17,8 +17,9 @@ use asperity_base::error::Result;
 use asperity_base::grid::{CellValues, Field};
 use asperity_base::record::Record;
 use asperity_contact::motion::{
-    IncrementRecord, LoadedContact, Output, PassReport, Step, StepRecord, SweepRecord, UpdateRecord,
+    IncrementRecord, Output, PassReport, Step, StepRecord, SweepRecord, UpdateRecord,
 };
+use asperity_contact::solver::Solution;
 use asperity_contact::subsurface::Tractions;
 use asperity_contact::with::plasticity::Keep;
 
@@ -32,7 +33,7 @@ pub struct StepWriter {
     digest: String,
     /// The table of the positions of the passes of a motion.
     positions: Option<GrowingTable>,
-    /// Interval of the points of a sweep, or of the positions of a pass, whose fields are kept; 0 for none.
+    /// Interval of the increments, of the points of a sweep, or of the positions of a pass, whose fields are kept; 0 for none.
     fields_every: usize,
     /// The plan of the stress under the surface in each pass.
     plan: Option<Plan>,
@@ -45,6 +46,12 @@ impl Output for StepWriter {
         let number = step.number();
         match step {
             Step::Increment { state, .. } => {
+                if is_nth(number, self.fields_every) {
+                    let normal = state.contact.normal();
+                    let plastic = state.flattening.total(normal.plastic_interference());
+                    let path = self.results.increment_path(number);
+                    self.write_contact("increment", number, &path, normal, &plastic, true)?;
+                }
                 let file = self.state(step, |file| increment::add(file, state));
                 self.add(number, file, &[], &state.increments[number - 1..])
             }
@@ -55,7 +62,9 @@ impl Output for StepWriter {
             }
             Step::Point { record, contact, .. } => {
                 if is_nth(number, self.fields_every) {
-                    self.write_point(number, contact)?;
+                    let path = self.results.point_path(number);
+                    let (normal, attracts) = (contact.solution.normal(), contact.record.adhesion.is_some());
+                    self.write_contact("point", number, &path, normal, &contact.plastic, attracts)?;
                 }
                 let file = self.state(step, |_| ());
                 self.add(number, file, &[], std::slice::from_ref(*record))
@@ -75,12 +84,14 @@ impl Output for StepWriter {
 }
 
 impl Writer {
-    /// Creates the output for the increments of a loading, after those that are `done`.
+    /// Creates the output for the increments of a loading, after those that are `done`, with the fields of every
+    /// `fields_every`-th (0 for none).
     ///
     /// # Errors
     /// [`asperity_base::Error::File`].
-    pub fn increments(&self, done: &[IncrementRecord]) -> Result<StepWriter> {
-        self.steps(self.results.increments_path(), done.len(), tables::digest("", done))
+    pub fn increments(&self, done: &[IncrementRecord], fields_every: usize) -> Result<StepWriter> {
+        let writer = self.steps(self.results.increments_path(), done.len(), tables::digest("", done))?;
+        Ok(StepWriter { fields_every, ..writer })
     }
 
     /// Creates the output for the updates of a contact that slides in place, after those that are `done`.
@@ -174,22 +185,29 @@ impl StepWriter {
         }
     }
 
-    /// Writes the fields of a point of a sweep.
-    fn write_point(&self, point: usize, contact: &LoadedContact) -> Result<()> {
-        let solution = contact.solution.normal();
-        let mut file = FieldFile::of_run(&self.identity, &self.results.point_path(point));
-        file.set("point", point).set("approach", solution.approach);
+    /// Writes the fields of a point of a sweep or of an increment, with its number under the name of its kind.
+    fn write_contact(
+        &self,
+        kind: &str,
+        number: usize,
+        path: &Path,
+        solution: &Solution,
+        plastic: &Field,
+        attracts: bool,
+    ) -> Result<()> {
+        let mut file = FieldFile::of_run(&self.identity, path);
+        file.set(kind, number).set("approach", solution.approach);
         let mut add = |name: &str, unit: &str, field: &Field| {
             file.add_field(name, unit, &solution.grid, [0.0, 0.0], field);
         };
         add("pressure", "Pa", &solution.pressure);
         // The pressure alone does not say which cells are in contact.
-        if contact.record.adhesion.is_some() {
+        if attracts {
             add("contact", "1", &solution.contact_field());
         }
         add("gap", "m", &solution.gap());
         if solution.bounds.upper().min().is_finite() {
-            add("plastic", "m", &contact.plastic);
+            add("plastic", "m", plastic);
         }
         file.write()
     }

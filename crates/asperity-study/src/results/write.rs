@@ -161,7 +161,10 @@ impl Writer {
         let finished = self.results.passes()?.len();
         let passes = (0..=finished).filter(|_| finished > 0).map(|pass| self.results.fields_path(pass));
         let points = self.results.sweep()?.into_iter().map(|point| self.results.point_path(point.point));
-        let all = passes.chain(points).chain([self.results.static_path()]).filter(|path| path.exists());
+        let increments = self.results.increments()?.into_iter();
+        let increments = increments.map(|increment| self.results.increment_path(increment.increment));
+        let at_rest = points.chain(increments).chain([self.results.static_path()]);
+        let all = passes.chain(at_rest).filter(|path| path.exists());
         for path in all.filter(|path| !path.with_extension("vti").exists()) {
             vti::write_fields(&path)?;
         }
