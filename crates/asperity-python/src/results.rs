@@ -77,7 +77,7 @@ impl CoreResults {
         record(py, &ok(self.results.sweep(), py)?)
     }
 
-    /// Returns the names of the fields of a kind: "contact", "pass", "point", "subsurface", "plasticity".
+    /// Returns the names of the fields of a kind: "contact", "pass", "point", "increment", "subsurface", "plasticity".
     fn names(&self, py: Python<'_>, kind: &str, number: Option<usize>) -> PyResult<Vec<String>> {
         ok(self.fields(kind, number).and_then(|fields| fields.names()), py)
     }

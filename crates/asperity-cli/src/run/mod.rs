@@ -77,8 +77,9 @@ pub(crate) fn compute(
         report_warning(warning);
     }
     let tell = |text: &str| if is_quiet { Ok(()) } else { print(text) };
-    let printed = printed.and_then(|()| tell(&record::text(&case, &summary)));
     let results = writer.results();
+    let found = results.found()?;
+    let printed = printed.and_then(|()| tell(&record::text(&case, &summary, &found)));
     let (wanted, stopped) = (figures::FigureOptions::default(), || stop.asked());
     let (sheet, seen) = page::gathered(results, &wanted, &stopped);
     let write = || page::write_with(results, seen, &page::of(results));

@@ -6,7 +6,7 @@ use asperity::units::{Dimension, format, format_number};
 use asperity::with;
 use asperity::with::adhesion::AdhesionSummary;
 use asperity::with::views::Answer;
-use asperity::with::{BodyLaw, BodyLaws, Capability, Listed, Reported, Row};
+use asperity::with::{BodyLaw, BodyLaws, Capability, Listed, Observations, Reported, Row};
 use asperity::{each_capability, each_law};
 
 use super::rows::planes;
@@ -15,7 +15,9 @@ use asperity_report::words::closed_form;
 
 /// Describes a static contact and the largest stress below the surface, with a line for each number. The rows of
 /// passes and points are printed during the run.
-pub fn text(case: &Case, summary: &Summary) -> String {
+///
+/// The rows of the capabilities are those of all contacts that were `found`, or those of the summary.
+pub fn text(case: &Case, summary: &Summary, found: &Observations) -> String {
     let contact = match &summary.outcome {
         Outcome::Static(record) => static_table(case, record),
         Outcome::Passes(passes) => changes(passes),
@@ -24,7 +26,7 @@ pub fn text(case: &Case, summary: &Summary) -> String {
     let theory = summary.closed_form.as_ref().map_or(String::new(), theory_lines);
     let plastic = summary.plasticity.as_ref().map_or(String::new(), plastic_line);
     let adhesion = summary.adhesion.as_ref().map_or(String::new(), adhesion_lines);
-    answers(case, summary)
+    answers(case, found)
         + &adhesion
         + &contact
         + &theory
@@ -32,26 +34,39 @@ pub fn text(case: &Case, summary: &Summary) -> String {
         + &summary.subsurface.iter().map(stress_line).collect::<String>()
 }
 
-/// Describes what the case asks for beside the contact.
-fn answers(case: &Case, summary: &Summary) -> String {
+/// Describes what the case asks for beside the contact: the answers from several contacts, or the numbers of a single one.
+fn answers(case: &Case, found: &Observations) -> String {
     let mut text = String::new();
     each_capability!(C => if let Some(asked) = C::of(&case.with) {
-        let rows = C::rows(&summary.found);
-        // A motion has the mean of each pass, of which the last one is shown.
-        let of_last = rows.iter().filter(|row| row.pass() == rows.last().and_then(|last| last.pass()));
-        for numbers in of_last.flat_map(|row| asked.numbers(row)).filter(|numbers| !numbers.is_detail) {
-            text += &line(&numbers.name, &numbers.value);
+        let rows = C::rows(found);
+        let last = rows.last().and_then(|row| row.pass());
+        let rows: Vec<_> = rows.iter().filter(|row| row.pass() == last).cloned().collect();
+        let is_alone = C::summary(&rows).len() == rows.len();
+        if is_alone {
+            for numbers in rows.iter().flat_map(|row| asked.numbers(row)).filter(|numbers| !numbers.is_detail) {
+                text += &line(&numbers.name, &numbers.value);
+            }
+        } else {
+            asked.answers(&rows).iter().for_each(|answer| text += &told(answer));
         }
     });
     text
 }
 
+/// Writes an answer as a line.
+fn told(answer: &Answer) -> String {
+    line(&answer.name, &format!("{}; {}", answer.value, begun_small(answer.about.trim_end_matches('.'))))
+}
+
+/// Returns a sentence that goes on from words before it.
+fn begun_small(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    let first = letters.next().map(|first| first.to_lowercase().to_string()).unwrap_or_default();
+    first + letters.as_str()
+}
+
 /// Describes what passes have done to the bodies.
 fn changes(passes: &[PassRecord]) -> String {
-    let told = |answer: &Answer| {
-        let about = answer.about.trim_end_matches('.').replacen("Of", "of", 1);
-        line(&answer.name, &format!("{}; {about}", answer.value))
-    };
     with::after_passes(passes).iter().map(told).collect()
 }
 
