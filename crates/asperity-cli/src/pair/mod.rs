@@ -47,6 +47,8 @@ fn compute(
     let surfaces = surfaces.map(|(body, file)| FileSurface::read(body, file, reading));
     let [lower, upper] = surfaces;
     let (lower, upper) = (lower?, upper?);
+    lower.meets(&upper)?;
+    upper.meets(&lower)?;
     let body = |index: usize, surface: &FileSurface| DraftBody {
         material: asked.material.0[index].clone(),
         hardness: asked.hardness.as_ref().map(|hardness| hardness.0[index].clone()),

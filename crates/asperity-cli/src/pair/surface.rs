@@ -69,6 +69,29 @@ impl FileSurface {
         one.shape == two.shape && alike(one.pitch[0], two.pitch[0]) && alike(one.pitch[1], two.pitch[1])
     }
 
+    /// Returns an error if it is too small for the cells of the other surface, to which it would be brought.
+    pub(super) fn meets(&self, other: &Self) -> Outcome {
+        /// Cells along an axis of a contact, at least.
+        const LEAST: f64 = 4.0;
+        let extent = self.grid.extent();
+        match (0..2).find(|axis| extent[*axis] < LEAST * other.grid.pitch[*axis]) {
+            None => Ok(()),
+            Some(axis) => {
+                let length = |value| units::format(value, Dimension::Length);
+                let message = format!(
+                    "`{}` is {} wide along {}, which is less than {LEAST} cells of `{}`, of {}",
+                    self.file.display(),
+                    length(extent[axis]),
+                    ["x", "y"][axis],
+                    other.file.display(),
+                    length(other.grid.pitch[axis])
+                );
+                let hint = "the surfaces have to be measured on like scales; a line profile has no area";
+                Err(Failure::usage(message, Some(hint)))
+            }
+        }
+    }
+
     /// Returns the keys of its table in a case in this folder, each with its value as TOML.
     pub(super) fn keys(&self, folder: &Path) -> Vec<(&'static str, String)> {
         let file = seen_from(folder, &self.file).to_string_lossy().replace('\\', "/");

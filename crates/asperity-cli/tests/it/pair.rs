@@ -69,6 +69,10 @@ fn mistakes_name_the_argument_and_leave_nothing() {
     let at = |arguments: &str| asperity(&folder, arguments);
     for (arguments, part) in [
         ("contact disc.x3p plate.npy --load 1mN --material steel", "--pitch"),
+        (
+            "contact disc.x3p plate.npy --pitch 10nm --load 1mN --material steel",
+            "less than 4 cells of `disc.x3p`",
+        ),
         ("contact disc.x3p nothing.x3p --load 1mN --material steel", "nothing.x3p"),
         ("contact disc.x3p plate.x3p --load 1um --material steel", "a force such as 0.5N"),
         ("contact disc.x3p plate.x3p --load 1mN --material stele", "no material `stele`"),
