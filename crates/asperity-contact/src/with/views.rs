@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::motion::PassRecord;
-use crate::units::Metre;
+use crate::units::{Metre, Pascal};
 
 /// A number, or a few that belong together, in words.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,6 +69,14 @@ pub enum OverPressure {
     End,
     /// The exponent of the power of the pressure that fits it best.
     Exponent,
+}
+
+/// Returns the rows that show how something depends on the mean pressure: all of them if it only rises or only falls from row to row, else the
+/// last one, because a loading history has other states at the same pressure.
+pub fn over_pressure<'a, R>(rows: &'a [R], pressure: impl Fn(&R) -> Pascal) -> &'a [R] {
+    let rises = rows.is_sorted_by(|one, next| pressure(one) <= pressure(next));
+    let falls = rows.is_sorted_by(|one, next| pressure(one) >= pressure(next));
+    if rises || falls { rows } else { &rows[rows.len() - 1..] }
 }
 
 /// Returns the exponent of the power of the pressure that fits values best, by least squares of their logarithms; `None` for values at fewer
@@ -194,6 +202,13 @@ pub struct Answer {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_history_is_told_by_its_last_state() {
+        let shown = |pressures: &[f64]| over_pressure(pressures, |pressure| *pressure).len();
+        assert_eq!([shown(&[1.0, 2.0, 2.0, 3.0]), shown(&[3.0, 1.0]), shown(&[])], [4, 2, 0]);
+        assert_eq!(over_pressure(&[1.0, 3.0, 2.0], |pressure| *pressure), [2.0]);
+    }
 
     #[test]
     fn a_power_of_the_pressure_is_found_from_points_that_say_enough() {

@@ -3,7 +3,7 @@
 use super::{ConductanceRecord, Joint, Kind, MAX_CORRELATED_FRACTION};
 use crate::units::{Dimension, format, format_number};
 use crate::with::Surroundings;
-use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Scale, Series, exponent};
+use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Scale, Series, exponent, over_pressure};
 use asperity_base::Choice;
 
 /// Joint conductance, with that of the spots among gas, and that of clean spots by the correlation.
@@ -72,7 +72,7 @@ pub(super) fn describe(joint: &Joint, surroundings: &Surroundings) -> String {
 
 pub(super) fn answers(rows: &[ConductanceRecord]) -> Vec<Answer> {
     let rows = match rows.last().and_then(|last| last.pass) {
-        None => rows.to_vec(),
+        None => over_pressure(rows, |row| row.mean_pressure).to_vec(),
         Some(_) => ConductanceRecord::means(rows),
     };
     let pressure = |row: &ConductanceRecord| row.mean_pressure;
@@ -92,7 +92,7 @@ pub(super) fn answers(rows: &[ConductanceRecord]) -> Vec<Answer> {
     let whole = whole.first().map_or(String::new(), |line| format!(" ({})", line.value));
     let points = rows.iter().filter_map(|row| Some([row.mean_pressure, row.quantities.joint_conductance?]));
     let power = exponent(points);
-    let grows = power.map(|power| format!("It grows as the power {power:.2} of the pressure."));
+    let grows = power.map(|power| format!("It grows about as the power {power:.2} of the pressure."));
     vec![Answer {
         name,
         about: [format!("At {at}."), grows.clone().unwrap_or_default()].join(" ").trim_end().to_owned(),

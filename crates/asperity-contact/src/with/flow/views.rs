@@ -4,7 +4,7 @@ use super::{Along, FlowRecord, Leakage};
 use crate::surface::Axis;
 use crate::units::{Dimension, Metre, format, format_number};
 use crate::with::Surroundings;
-use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Scale, Series};
+use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Scale, Series, over_pressure};
 use asperity_base::Choice;
 
 /// Leakage along both axes.
@@ -96,7 +96,8 @@ pub(super) fn answers(leakage: &Leakage, rows: &[FlowRecord]) -> Vec<Answer> {
         if last.is_some() {
             return of_pass(axis, rows.iter().filter(|row| row.pass == last && row.along == axis));
         }
-        let mut rows: Vec<&FlowRecord> = rows.iter().filter(|row| row.along == axis).collect();
+        let rows: Vec<&FlowRecord> = rows.iter().filter(|row| row.along == axis).collect();
+        let mut rows = over_pressure(&rows, |row| row.mean_pressure).to_vec();
         rows.sort_by(|one, other| one.mean_pressure.total_cmp(&other.mean_pressure));
         answer(leakage, axis, &rows)
     };
@@ -115,7 +116,6 @@ fn answer(leakage: &Leakage, axis: Axis, rows: &[&FlowRecord]) -> Option<Answer>
     let axis = axis.word();
     let name = format!("leakage along {axis}").into();
     let open = rows.iter().rfind(|row| row.leakage > 0.0);
-    // The gap may close and open again over the increments of a loading: one pressure tells nothing then.
     let closed =
         rows.iter().skip_while(|row| open.is_some_and(|open| row.mean_pressure <= open.mean_pressure));
     let closed = closed.copied().next().filter(|_| most.mean_pressure > least.mean_pressure);
@@ -228,4 +228,91 @@ pub fn leaks(
     let within = format_number((1000.0 * estimate).ceil() / 10.0);
     let constriction = format!("gap {}{place}; permeability within {within} %", length(critical_gap));
     vec![Line::new(name, value), Line::new("constriction", constriction)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::with::Capability;
+
+    const LIQUID: Leakage = Leakage {
+        viscosity: 1e-3,
+        pressure: 1e5,
+        along: Along::Both,
+        ends: None,
+        gas: false,
+        outlet: None,
+        density: None,
+        every: 1,
+    };
+
+    /// A contact of 2 mm × 1 mm with this mean pressure and leakage along x.
+    fn row(pass: Option<usize>, mean_pressure: f64, leakage: f64) -> FlowRecord {
+        FlowRecord {
+            pass,
+            step: 1,
+            along: Axis::X,
+            length: 2e-3,
+            load: mean_pressure * 2e-6,
+            mean_pressure,
+            contact_area: 1e-9,
+            mean_gap: 1e-7,
+            permeability: 1e-22,
+            permeability_across: None,
+            hydraulic_gap: 1e-8,
+            flow_factor: 0.1,
+            leakage,
+            critical_gap: 1e-8,
+            critical_x: None,
+            critical_y: None,
+            critical_cells: 1,
+            flowing_share: 0.5,
+            trapped_volume: 0.0,
+            effective_medium: 1e-22,
+            estimate: 0.01,
+            residual: 1e-12,
+        }
+    }
+
+    fn told(leakage: &Leakage, rows: &[FlowRecord]) -> (String, String) {
+        let [answer] = &leakage.answers(rows)[..] else { panic!("one axis") };
+        (answer.value.clone(), answer.sentence.clone())
+    }
+
+    #[test]
+    fn a_sweep_is_told_by_the_pressure_that_closes_the_gap() {
+        let sweep = [row(None, 1e7, 2e-15), row(None, 2e7, 0.0), row(None, 5e6, 3e-14), row(None, 3e7, 0.0)];
+        let mut rising = sweep.to_vec();
+        rising.sort_by(|one, other| one.mean_pressure.total_cmp(&other.mean_pressure));
+        // 2e-15 m³/s over a width of 1 mm are 7.2 µl/h per metre.
+        let closed =
+            "Along x the gap is closed from 20 MPa; at 10 MPa 2000 µm³/s leak (7.2 µl/h per metre of seal).";
+        assert_eq!(told(&LIQUID, &rising), ("closed from 20 MPa".to_owned(), closed.to_owned()));
+        // A history says what it ends with.
+        assert_eq!(told(&LIQUID, &sweep).0, "none");
+        let open = [row(None, 5e6, 3e-14), row(None, 1e7, 2e-15)];
+        assert_eq!(told(&LIQUID, &open).0, "2000 µm³/s");
+        let closed = [row(None, 5e6, 0.0)];
+        assert_eq!(told(&LIQUID, &closed).1, "Along x no path leads through the gap.");
+    }
+
+    #[test]
+    fn the_units_are_those_of_the_trade() {
+        let known = Leakage { density: Some(870.0), ..LIQUID };
+        // 2e-12 m²/s of 870 kg/m³.
+        assert_eq!(
+            per_metre(&known, &row(None, 1e7, 2e-15)).unwrap(),
+            "7.2 µl/h, 1.74 µg/s per metre of seal"
+        );
+        let gas = Leakage { gas: true, outlet: Some(1e5), ..LIQUID };
+        // 1 Pa m³/s is 10 mbar l/s.
+        assert_eq!(per_metre(&gas, &row(None, 1e7, 2e-9)).unwrap(), "2 mbar l/s per metre of seal");
+        assert_eq!(per_metre(&LIQUID, &row(None, 0.0, 1e-12)), None);
+    }
+
+    #[test]
+    fn a_pass_is_told_by_its_mean() {
+        let rows = [row(Some(1), 1e7, 9e-15), row(Some(2), 2e7, 1e-15), row(Some(2), 1e7, 3e-15)];
+        assert_eq!(told(&LIQUID, &rows).0, "2000 µm³/s");
+    }
 }
