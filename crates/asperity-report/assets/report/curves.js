@@ -327,11 +327,19 @@ function drawWords(u, chart, ink) {
   c.save();
   c.fillStyle = ink;
   c.font = `${11 * ratio}px system-ui, sans-serif`;
+  const line = 13 * ratio;
+  const placed = [];
   for (const [[x, y], words] of chart.words) {
     const [px, py] = [u.valToPos(plotted(x, chart.x), "x", true), u.valToPos(plotted(y, chart.y), "y", true)];
     const right = px > u.bbox.left + u.bbox.width / 2;
     c.textAlign = right ? "right" : "left";
-    c.fillText(words, px + (right ? -8 : 8) * ratio, py + (right ? -8 : 16) * ratio);
+    const at = [px + (right ? -8 : 8) * ratio, py + (right ? -8 : 16) * ratio];
+    const wide = c.measureText(words).width;
+    const left = right ? at[0] - wide : at[0];
+    // Words of neighbours stand below each other.
+    while (placed.some(([l, w, b]) => left < l + w && l < left + wide && Math.abs(b - at[1]) < line)) at[1] += line;
+    placed.push([left, wide, at[1]]);
+    c.fillText(words, ...at);
   }
   c.restore();
 }

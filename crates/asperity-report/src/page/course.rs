@@ -16,14 +16,23 @@ pub(super) fn running_in(found: &mut PageData, charts: &mut Vec<Value>) -> Optio
             figures::of_motion(&found.passes, &found.steps, sq)
         }
         (_, [_, _, ..]) => figures::of_sliding(&found.updates),
+        _ if found.increments.len() > 1 => figures::of_loading(&found.increments),
         _ => return None,
     };
     curves.retain(|curves| OVER_DISTANCE.contains(&curves.name));
     Some(curves::html(curves, charts)).filter(|html| !html.is_empty())
 }
 
-/// Names of the curves over the sliding distance.
-const OVER_DISTANCE: [&str; 2] = ["running-in", "sliding"];
+/// Names of the curves over the sliding distance and over the cycles of slip.
+const OVER_DISTANCE: [&str; 3] = ["running-in", "sliding", "fretting"];
+
+/// The section of a loading in increments: the force over the displacement; none of others.
+pub(super) fn loading(found: &PageData, charts: &mut Vec<Value>) -> Option<String> {
+    let is_loading = found.increments.len() > 1 && figures::of_force_distance(&found.increments).is_none();
+    let mut curves = if is_loading { figures::of_loading(&found.increments) } else { Vec::new() };
+    curves.retain(|curves| !OVER_DISTANCE.contains(&curves.name));
+    Some(curves::first(curves, charts)).filter(|html| !html.is_empty())
+}
 
 /// Sq of both bodies before the first pass.
 fn roughness_before(found: &mut PageData) -> [f64; 2] {
@@ -53,10 +62,6 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
         }
         html += &curves::html(curves, charts);
         data["passes"] = of_passes(found);
-    }
-    // The section on adhesion has the force–distance curve.
-    if found.increments.len() > 1 && figures::of_force_distance(&found.increments).is_none() {
-        html += &curves::html(figures::of_loading(&found.increments), charts);
     }
     if !found.points.is_empty() {
         html += &curves::html(figures::of_sweep(&found.points, &found.case), charts);
