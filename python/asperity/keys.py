@@ -381,37 +381,6 @@ class Thermal(TypedDict, total=False):
     density: Quantity
 
 
-class Conductance(TypedDict, total=False):
-    """Keys of ``conductance``: thermal or electrical conductance of the contacts.
-
-    Attributes
-    ----------
-    kind : {"thermal", "electrical"}
-        Whether heat or current passes: bodies need `conductivity` or `resistivity`. By default `"thermal"`.
-    film : float or str
-        Resistance of a film on the spots, of an area; resistance of an area ≥ 0, such as "1e-8 m2 K/W"; "1e-12 ohm m2"
-        with `kind = "electrical"`. Without it: none.
-    gas : float or str
-        Thermal conductivity of a gas in the gap; thermal conductivity > 0. Without it: none.
-    jump : float or str
-        Temperature jump distance of the gas at both surfaces together, which adds to the gap; length ≥ 0. By default
-        `0.0`.
-    drop : float or str
-        Difference between the bodies; it scales flux and power, nothing else; temperature difference > 0, such as "10
-        K"; "0.1 V" with `kind = "electrical"`. Without it: 1 K, or 1 V.
-    every : int
-        Interval of the positions of a pass, or of the increments, updates or points, whose conductance is computed; 0:
-        once a pass, where the left edges are flush, or for the last contact alone; whole number ≥ 0. By default `1`.
-    """
-
-    kind: Literal["thermal", "electrical"]
-    film: Quantity
-    gas: Quantity
-    jump: Quantity
-    drop: Quantity
-    every: int
-
-
 class _RequiredFlow(TypedDict):
     viscosity: Quantity
 
@@ -452,13 +421,44 @@ class Flow(_RequiredFlow, total=False):
     every: int
 
 
+class Conductance(TypedDict, total=False):
+    """Keys of ``conductance``: thermal or electrical conductance of the contacts.
+
+    Attributes
+    ----------
+    kind : {"thermal", "electrical"}
+        Whether heat or current passes: bodies need `conductivity` or `resistivity`. By default `"thermal"`.
+    film : float or str
+        Resistance of a film on the spots, of an area; resistance of an area ≥ 0, such as "1e-8 m2 K/W"; "1e-12 ohm m2"
+        with `kind = "electrical"`. Without it: none.
+    gas : float or str
+        Thermal conductivity of a gas in the gap; thermal conductivity > 0. Without it: none.
+    jump : float or str
+        Temperature jump distance of the gas at both surfaces together, which adds to the gap; length ≥ 0. By default
+        `0.0`.
+    drop : float or str
+        Difference between the bodies; it scales flux and power, nothing else; temperature difference > 0, such as "10
+        K"; "0.1 V" with `kind = "electrical"`. Without it: 1 K, or 1 V.
+    every : int
+        Interval of the positions of a pass, or of the increments, updates or points, whose conductance is computed; 0:
+        once a pass, where the left edges are flush, or for the last contact alone; whole number ≥ 0. By default `1`.
+    """
+
+    kind: Literal["thermal", "electrical"]
+    film: Quantity
+    gas: Quantity
+    jump: Quantity
+    drop: Quantity
+    every: int
+
+
 class Capabilities(TypedDict, total=False):
     """Keywords of the capabilities."""
 
-    conductance: Annotated[Conductance | None, "",
-        "Thermal or electrical conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`."]
     flow: Annotated[Flow | None, "",
         "Flow of a fluid through the gap: `viscosity`, `pressure`, `along`, `ends`, `gas`, `outlet`, `density`, `every`."]
+    conductance: Annotated[Conductance | None, "",
+        "Thermal or electrical conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`."]
 
 
 def __dir__() -> list[str]:

@@ -7,8 +7,8 @@
 //!
 //! | module | table of the case | computes |
 //! |---|---|---|
+//! | [`flow`] | `[flow]` | the leakage of a fluid through the gap |
 //! | [`conductance`] | `[conductance]` | heat or current through a contact |
-//! | [`flow`] | `[flow]` | the leakage of a fluid through its gap |
 //!
 //! A [`BodyLaw`] is a folder, too: what contacts do to a body. [`each_law!`](crate::each_law) walks their list.
 //!
@@ -98,7 +98,7 @@ macro_rules! capabilities {
             ///
             /// let mut names = Vec::new();
             /// each_capability!(C => names.push(C::NAME));
-            /// assert_eq!(names, ["conductance", "flow"]);
+            /// assert_eq!(names, ["flow", "conductance"]);
             /// ```
             each_capability
             $($(#[doc = $text])+ $name::$table;)+
@@ -128,10 +128,10 @@ macro_rules! capabilities {
 }
 
 capabilities! { $;
-    /// Heat or current through each contact.
-    conductance::Joint;
     /// A fluid through the gap of each contact.
     flow::Leakage;
+    /// Heat or current through each contact.
+    conductance::Joint;
 }
 
 list! { $;
