@@ -4,12 +4,12 @@ use std::fmt::Write;
 
 use asperity_base::units::{CELSIUS, Dimension, format, format_number};
 use asperity_contact::motion::{IncrementRecord, PassRecord, StaticRecord, SweepRecord};
-use asperity_study::{Outcome, column};
+use asperity_study::{Outcome, SubsurfaceRecord, column};
 
 use super::answers;
 use super::found::PageData;
 use super::html::{escaped, minus};
-use super::verdict::{differ, shaken_down, share_of_overlap};
+use super::verdict::{differ, largest_temperature, shaken_down, share_of_overlap};
 use crate::words::numbers::change;
 
 /// Cards on a page, at most.
@@ -134,13 +134,12 @@ fn of_passes(found: &PageData, first: &PassRecord, last: &PassRecord) -> Vec<Car
         let all = "Volume that plastic flow has levelled in both bodies, all passes together.";
         cards.push(Card::new("plastic volume", format(plastic, Dimension::Volume), all));
     }
-    if let Some(running) = last.running.filter(|running| running.max_flash_temperature.is_finite()) {
-        let kelvin = running.max_flash_temperature - CELSIUS;
-        cards.push(Card::of(
-            "largest temperature",
-            "max_flash_temperature",
-            format!("{} °C", format_number(kelvin)),
-        ));
+    if let Some(temperature) = largest_temperature(found, last) {
+        let celsius = format!("{} °C", format_number(temperature - CELSIUS));
+        cards.push(Card::new("largest temperature", celsius, "Of the surfaces in the last pass."));
+    }
+    if let Some(stress) = found.summary.as_ref().and_then(|summary| summary.subsurface.last()) {
+        cards.push(of_stress(stress));
     }
     if let Some(adhesion) = last.adhesion.filter(|adhesion| adhesion.adhesive_drag > 0.0) {
         cards.push(Card::of("drag", "adhesive_drag", format(adhesion.adhesive_drag, Dimension::Force)));
@@ -199,6 +198,12 @@ fn of_points(points: &[SweepRecord]) -> Vec<Card> {
     cards
 }
 
+fn of_stress(stress: &SubsurfaceRecord) -> Card {
+    let depth = format(stress.position[2], Dimension::Length);
+    let stress = format(stress.max_von_mises, Dimension::Pressure);
+    Card::new("largest von Mises stress", stress, format!("{depth} below the surface."))
+}
+
 /// Bodies that are apart in the end: what they were on the way.
 fn of_separated(found: &PageData, record: &StaticRecord) -> Vec<Card> {
     let most = |value: fn(&IncrementRecord) -> f64| found.increments.iter().map(value).fold(0.0, f64::max);
@@ -242,9 +247,7 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> Vec<Card> {
     }
     cards.push(Card::of("approach", "approach", format(record.approach, Dimension::Length)));
     if let Some(stress) = found.summary.as_ref().and_then(|summary| summary.subsurface.first()) {
-        let depth = format(stress.position[2], Dimension::Length);
-        let stress = format(stress.max_von_mises, Dimension::Pressure);
-        cards.push(Card::new("largest von Mises stress", stress, format!("{depth} below the surface.")));
+        cards.push(of_stress(stress));
     }
     if let Some(shear) = &record.shear {
         let stick = format_number(100.0 * shear.stick_area / record.contact_area);

@@ -1,6 +1,6 @@
 //! The result in a sentence or two.
 
-use asperity_base::units::{CELSIUS, Dimension, format, format_number};
+use asperity_base::units::{CELSIUS, Dimension, Kelvin, format, format_number};
 use asperity_contact::motion::{PassRecord, PlasticRecord, Regime, StaticRecord, SweepRecord};
 use asperity_study::{Outcome, SubsurfaceRecord};
 
@@ -50,9 +50,8 @@ fn of_passes(found: &PageData, last: &PassRecord) -> String {
     }
     text += &format!(" and the largest pressure {}", format(last.max_pressure, Dimension::Pressure));
     text += ". ";
-    if let Some(running) = last.running.filter(|running| running.max_flash_temperature.is_finite()) {
-        let celsius = format_number(running.max_flash_temperature - CELSIUS);
-        text += &format!("The surfaces reach {celsius} °C. ");
+    if let Some(temperature) = largest_temperature(found, last) {
+        text += &format!("The surfaces reach {} °C. ", format_number(temperature - CELSIUS));
     }
     if let Some(stress) = found.summary.as_ref().and_then(|summary| summary.subsurface.last()) {
         text += &format!("{} ", of_stress(stress));
@@ -84,6 +83,14 @@ fn of_roughness(found: &PageData, last: &PassRecord) -> String {
 /// Whether two lengths differ by more than their rounding.
 pub(super) fn differ(one: f64, other: f64) -> bool {
     (one - other).abs() > 1e-6 * one.abs().max(other.abs())
+}
+
+/// The largest temperature of the surfaces in a pass, if it is known.
+pub(super) fn largest_temperature(found: &PageData, pass: &PassRecord) -> Option<Kelvin> {
+    let steps = found.steps.iter().filter(|step| step.pass == pass.pass);
+    let of_steps = steps.filter_map(|step| Some(step.heat?.max_flash_temperature));
+    let of_pass = pass.running.map(|running| running.max_flash_temperature);
+    of_steps.chain(of_pass).filter(|temperature| temperature.is_finite()).reduce(f64::max)
 }
 
 /// The mean area of contact over that of the overlap, in per cent; none without load.
