@@ -187,13 +187,20 @@ class Material(Comparable):
             warn([f"young = {young} is {_core.format(self.young, 'pressure')}, softer than any rubber: {advice}"])
 
     def __repr__(self) -> str:
-        parts = [f"young={written(self.young, 'pressure')}", f"poisson={self.poisson!r}"]
-        if self.name is not None:
-            parts.insert(0, repr(self.name))
+        named = {} if self.name is None else materials()[self.name]
+        if named:
+            parts = [repr(self.name)]
+            if self.poisson != named["poisson"]:
+                parts.append(f"poisson={self.poisson!r}")
+        else:
+            parts = [f"young={written(self.young, 'pressure')}", f"poisson={self.poisson!r}"]
+        usual = None if self.plasticity is not None else named.get("hardness")
         if isinstance(self.hardness, np.ndarray):
             parts.append(f"hardness=<{' × '.join(map(str, self.hardness.shape))} values>")
-        elif math.isfinite(self.hardness):
+        elif math.isfinite(self.hardness) and self.hardness != usual:
             parts.append(f"hardness={written(self.hardness, 'pressure')}")
+        elif usual is not None and math.isinf(self.hardness):
+            parts.append("hardness='inf'")
         if self.coating is not None:
             parts.append(f"coating={self.coating!r}")
         if self.plasticity is not None:

@@ -16,7 +16,9 @@ def test_a_name_stands_for_the_constants() -> None:
     steel = asp.Material("steel")
     known = asp.materials()["steel"]
     assert (steel.young, steel.poisson, steel.hardness) == (known["young"], known["poisson"], math.inf)
-    assert repr(steel).startswith("Material('steel', young='210 GPa'")
+    for text in ("Material('steel')", "Material('bearing-steel', hardness='inf')", "Material('bearing-steel', poisson=0.29, hardness='5 GPa')"):
+        assert repr(eval(f"asp.{text}")) == text
+    assert repr(asp.Material("bearing-steel", plasticity=asp.Plasticity("1.5 GPa"))).startswith("Material('bearing-steel', plasticity=")
     bearing = asp.Material("bearing-steel")
     assert bearing.hardness == asp.materials()["bearing-steel"]["hardness"]
     assert asp.Material("bearing-steel", hardness=math.inf).hardness == math.inf
