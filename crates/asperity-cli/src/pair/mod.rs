@@ -7,11 +7,11 @@ mod surface;
 use std::path::{Path, PathBuf};
 
 use asperity::study::{Existing, SurfaceInput, bodies};
-use asperity::{Error, io};
+use asperity::{Error, io, units};
 
 use crate::args::{Bodies, Contact, PairWriting, ReadingArguments, Slide};
 use crate::report::{Failure, Outcome, note};
-use crate::{place, run};
+use crate::{machine, place, run};
 use asperity_report::page;
 use draft::{Draft, DraftBody};
 pub(crate) use init::init;
@@ -89,15 +89,26 @@ fn compute(
     }
 }
 
-/// Prints what was done to the surfaces, a line for each.
-fn prepared(case: &Path, surfaces: [&FileSurface; 2], is_quiet: bool) -> Outcome {
+/// Time of a run from which on it is told, s.
+const LONG: f64 = 60.0;
+
+/// Prints what was done to the surfaces, a line for each, and how long a long run takes.
+fn prepared(path: &Path, surfaces: [&FileSurface; 2], is_quiet: bool) -> Outcome {
     if is_quiet {
         return Ok(());
     }
-    let case = place::case(case, "run")?;
+    let case = place::case(path, "run")?;
     let bodies = bodies(&case, SurfaceInput::default())?;
     for (surface, body) in surfaces.into_iter().zip([&bodies.lower, &bodies.upper]) {
         note(&surface.story(body.topography.grid()));
+    }
+    let [solving, drawing] = machine::demand(&case)?.times();
+    if solving + drawing > LONG {
+        let time = units::format_time(solving + drawing);
+        note(&format!(
+            "this takes about {time}; after Ctrl-C `asperity run {} --resume` goes on",
+            place::shown(path)
+        ));
     }
     Ok(())
 }
