@@ -73,7 +73,7 @@ pub enum OverPressure {
 
 /// Returns the rows that show how something depends on the mean pressure: all of them if it only rises or only falls from row to row, else the
 /// last one, because a loading history has other states at the same pressure.
-pub fn over_pressure<'a, R>(rows: &'a [R], pressure: impl Fn(&R) -> Pascal) -> &'a [R] {
+pub fn over_pressure<R>(rows: &[R], pressure: impl Fn(&R) -> Pascal) -> &[R] {
     let rises = rows.is_sorted_by(|one, next| pressure(one) <= pressure(next));
     let falls = rows.is_sorted_by(|one, next| pressure(one) >= pressure(next));
     if rises || falls { rows } else { &rows[rows.len() - 1..] }
