@@ -6,7 +6,7 @@ mod surface;
 
 use std::path::{Path, PathBuf};
 
-use asperity::study::{Existing, SurfaceInput, bodies};
+use asperity::study::{Existing, SurfaceInput, grids};
 use asperity::{Error, io, units};
 
 use crate::args::{Bodies, Contact, PairWriting, ReadingArguments, Slide};
@@ -64,15 +64,20 @@ fn compute(
     };
     let failed = |source| Error::File { path: directory.clone(), source };
     let is_new = !directory.exists();
+    let before = [&case, &directory.join("case.json")].map(|path| std::fs::read(path).ok());
     std::fs::create_dir_all(&directory).map_err(failed)?;
     io::replace(&case, draft.text().as_bytes())?;
     let outcome = prepared(&case, [&lower, &upper], writing.quiet).and_then(|()| {
         let existing = if writing.overwrite { Existing::Overwrite } else { Existing::Keep };
         run::compute(&case, &directory, existing, None, writing.quiet)
     });
-    if outcome.is_err() && !directory.join("case.json").exists() {
-        // Nothing has been computed: the next try begins with other arguments.
-        let _ = std::fs::remove_file(&case);
+    let [case_before, results_before] = before;
+    if outcome.is_err() && std::fs::read(directory.join("case.json")).ok() == results_before {
+        // Nothing has been computed: the next try begins with other arguments, and the case of results that stay is theirs.
+        let _ = match case_before {
+            Some(text) => io::replace(&case, &text),
+            None => std::fs::remove_file(&case).map_err(failed),
+        };
         if is_new {
             let _ = std::fs::remove_file(directory.join(".lock"));
             let _ = std::fs::remove_dir(&directory);
@@ -98,10 +103,8 @@ fn prepared(path: &Path, surfaces: [&FileSurface; 2], is_quiet: bool) -> Outcome
         return Ok(());
     }
     let case = place::case(path, "run")?;
-    let bodies = bodies(&case, SurfaceInput::default())?;
-    for (surface, body) in surfaces.into_iter().zip([&bodies.lower, &bodies.upper]) {
-        note(&surface.story(body.topography.grid()));
-    }
+    let grids = grids(&case, &SurfaceInput::default())?;
+    surfaces.into_iter().zip(&grids).for_each(|(surface, grid)| note(&surface.story(grid)));
     let [solving, drawing] = machine::demand(&case)?.times();
     if solving + drawing > LONG {
         let time = units::format_time(solving + drawing);

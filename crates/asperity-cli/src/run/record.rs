@@ -6,7 +6,7 @@ use asperity::units::{Dimension, format, format_number};
 use asperity::with;
 use asperity::with::adhesion::AdhesionSummary;
 use asperity::with::views::Answer;
-use asperity::with::{BodyLaw, BodyLaws, Capability, Listed, Observations, Reported, Row};
+use asperity::with::{BodyLaw, BodyLaws, Capability, Listed, Observations, Reported, answering};
 use asperity::{each_capability, each_law};
 
 use super::rows::planes;
@@ -26,7 +26,7 @@ pub fn text(case: &Case, summary: &Summary, found: &Observations) -> String {
     let theory = summary.closed_form.as_ref().map_or(String::new(), theory_lines);
     let plastic = summary.plasticity.as_ref().map_or(String::new(), plastic_line);
     let adhesion = summary.adhesion.as_ref().map_or(String::new(), adhesion_lines);
-    answers(case, found)
+    answers(case, found, matches!(summary.outcome, Outcome::Sweep(_)))
         + &adhesion
         + &contact
         + &theory
@@ -35,12 +35,10 @@ pub fn text(case: &Case, summary: &Summary, found: &Observations) -> String {
 }
 
 /// Describes what the case asks for beside the contact: the answers from several contacts, or the numbers of a single one.
-fn answers(case: &Case, found: &Observations) -> String {
+fn answers(case: &Case, found: &Observations, is_sweep: bool) -> String {
     let mut text = String::new();
     each_capability!(C => if let Some(asked) = C::of(&case.with) {
-        let rows = C::rows(found);
-        let last = rows.last().and_then(|row| row.pass());
-        let rows: Vec<_> = rows.iter().filter(|row| row.pass() == last).cloned().collect();
+        let rows = answering::<C>(C::rows(found), is_sweep);
         let is_alone = C::summary(&rows).len() == rows.len();
         if is_alone {
             for numbers in rows.iter().flat_map(|row| asked.numbers(row)).filter(|numbers| !numbers.is_detail) {

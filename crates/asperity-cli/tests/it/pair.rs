@@ -88,6 +88,13 @@ fn mistakes_name_the_argument_and_leave_nothing() {
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     let left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left.len(), 3, "{left:?}");
+    // Results that stay keep their case.
+    ok(&at("contact disc.x3p plate.x3p --load 1mN --material bearing-steel --out kept"));
+    let case = || fs::read_to_string(folder.path().join("kept/case.toml")).unwrap();
+    let before = case();
+    let output = at("contact disc.x3p plate.x3p --load 1kN --material bearing-steel --out kept --overwrite");
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert_eq!(case(), before);
 }
 
 #[test]

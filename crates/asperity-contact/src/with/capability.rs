@@ -60,7 +60,7 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
     /// Describes what is asked for, for `asperity check`.
     fn describe(&self, surroundings: &Surroundings) -> String;
 
-    /// Returns the answers to the question of the user from the rows of all contacts at rest, or from those of the last pass.
+    /// Returns the answers to the question of the user from the rows that [`answering`] selects.
     fn answers(&self, rows: &[Self::Row]) -> Vec<Answer>;
 
     /// Returns the numbers of a row.
@@ -79,6 +79,16 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
 
     /// Memory of the computation from a contact, bytes.
     fn memory(shape: [usize; 2]) -> f64;
+}
+
+/// Returns the rows that answer the question of the user: those of all points of a sweep, of all positions of the last pass of a motion, else
+/// of the last contact, because a loading history has other states at the same pressure.
+pub fn answering<C: Capability>(rows: &[C::Row], is_sweep: bool) -> Vec<C::Row> {
+    match rows.last().and_then(Row::pass) {
+        _ if is_sweep => rows.to_vec(),
+        Some(pass) => rows.iter().filter(|row| row.pass() == Some(pass)).cloned().collect(),
+        None => C::summary(rows),
+    }
 }
 
 /// A capability with its rows among those of all capabilities.

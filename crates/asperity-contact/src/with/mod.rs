@@ -29,6 +29,7 @@ pub mod wear;
 
 pub use capability::{
     BodyConstants, Capability, Given, NamedField, Observer, Place, Reported, Row, Rule, Surroundings,
+    answering,
 };
 pub use law::{BodyLaw, Circumstances, LawRule, Slip, Timeless};
 

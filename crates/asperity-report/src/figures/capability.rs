@@ -3,7 +3,9 @@
 use asperity_base::units::{Dimension, format};
 use asperity_base::{Field, Grid};
 use asperity_contact::each_capability;
-use asperity_contact::with::views::{Curve, Map as MapOf, OverPressure, Scale, Series as SeriesOf, exponent};
+use asperity_contact::with::views::{
+    Curve, Map as MapOf, OverPressure, Scale, Series as SeriesOf, closing, exponent, over_pressure,
+};
 use asperity_contact::with::{Capability, Listed, Row};
 use asperity_study::Results;
 use asperity_study::io::fields::Fields;
@@ -189,18 +191,13 @@ impl Order {
 
     /// Describes the course of a curve over the pressure, after its name.
     fn course<R: Row>(&self, series: &SeriesOf<R>, rows: &[&R]) -> String {
-        let value = |row: &&&R| (series.value)(row).unwrap_or(0.0);
+        let point = |row: &&R| [row.mean_pressure(), (series.value)(row).unwrap_or(0.0)];
         match series.over_pressure {
-            OverPressure::End if self.by_pressure => {
-                let open = rows.iter().filter(|row| value(row) > 0.0).map(|row| row.mean_pressure());
-                let open = open.fold(0.0, f64::max);
-                let closed = rows.iter().map(|row| row.mean_pressure()).filter(|pressure| *pressure > open);
-                closed.reduce(f64::min).map_or(String::new(), |pressure| {
-                    format!(", closed from {}", format(pressure, Dimension::Pressure))
-                })
-            }
+            OverPressure::End if self.by_pressure => closing(rows.iter().map(point))
+                .map_or(String::new(), |end| format!(", closed from {}", format(end, Dimension::Pressure))),
             OverPressure::Exponent if self.by_pressure => {
-                let power = exponent(rows.iter().map(|row| [row.mean_pressure(), value(&row)]));
+                // A loading history has no one value at a pressure.
+                let power = exponent(over_pressure(rows, |row| row.mean_pressure()).iter().map(point));
                 power.map_or(String::new(), |power| format!(", as the power {power:.2} of the pressure"))
             }
             _ => String::new(),

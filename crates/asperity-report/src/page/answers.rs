@@ -2,7 +2,7 @@
 
 use asperity_contact::each_capability;
 use asperity_contact::with::views::Answer;
-use asperity_contact::with::{self, Capability, Listed, Row, adhesion};
+use asperity_contact::with::{self, Capability, Listed, adhesion, answering};
 use asperity_study::Outcome;
 
 use super::found::PageData;
@@ -12,9 +12,7 @@ pub(super) fn all(found: &PageData) -> Vec<Answer> {
     let mut answers = Vec::new();
     each_capability!(C => if let Some(asked) = C::of(&found.case.with) {
         let rows = found.results.rows::<C>().unwrap_or_default();
-        let last = rows.last().and_then(Row::pass);
-        let rows: Vec<_> = rows.into_iter().filter(|row| row.pass() == last).collect();
-        answers.extend(asked.answers(&rows));
+        answers.extend(asked.answers(&answering::<C>(&rows, !found.points.is_empty())));
     });
     let outcome = found.summary.as_ref().map(|summary| &summary.outcome);
     if let Some(Outcome::Static(record)) = outcome {

@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use asperity_base::units::{CELSIUS, Dimension, format, format_number};
 use asperity_contact::motion::{IncrementRecord, PassRecord, StaticRecord, SweepRecord};
+use asperity_contact::with::views::Answer;
 use asperity_study::{Outcome, SubsurfaceRecord, column};
 
-use super::answers;
 use super::found::PageData;
 use super::html::{escaped, minus};
 use super::verdict::{differ, largest_temperature, shaken_down, share_of_overlap};
@@ -35,8 +35,8 @@ impl Card {
 }
 
 /// The cards of a run; nothing where nothing is finished.
-pub(super) fn html(found: &PageData) -> String {
-    let answers = answers::all(found).into_iter();
+pub(super) fn html(found: &PageData, answers: Vec<Answer>) -> String {
+    let answers = answers.into_iter();
     let mut cards: Vec<Card> =
         answers.map(|answer| Card::new(&answer.name, answer.value, answer.about)).collect();
     cards.extend(match (&found.passes[..], &found.points[..]) {

@@ -2,7 +2,7 @@
 
 use super::found::PageData;
 use super::html::{escaped, minus, with_code};
-use super::{cards, verdict};
+use super::{answers, cards, verdict};
 
 /// The title of the case.
 pub(super) fn title(found: &PageData) -> String {
@@ -14,11 +14,12 @@ pub(super) fn title(found: &PageData) -> String {
 
 /// Everything above the sections: the result in a sentence, its main numbers, what to be wary of.
 pub(super) fn html(found: &PageData) -> String {
+    let answers = answers::all(found);
     let mut html = format!(
         "<h1>{}</h1><p class=\"verdict\">{}</p>{}",
         escaped(&title(found)),
-        escaped(&minus(&verdict::sentence(found))),
-        cards::html(found)
+        escaped(&minus(&verdict::sentence(found, &answers))),
+        cards::html(found, answers)
     );
     html += &unfinished(found);
     let warnings: Vec<String> = warnings(found).iter().map(|warning| with_code(warning)).collect();

@@ -2,16 +2,16 @@
 
 use asperity_base::units::{CELSIUS, Dimension, Kelvin, format, format_number};
 use asperity_contact::motion::{PassRecord, PlasticRecord, Regime, StaticRecord, SweepRecord};
+use asperity_contact::with::views::Answer;
 use asperity_study::{Outcome, SubsurfaceRecord};
 
-use super::answers;
 use super::found::PageData;
 use crate::words::closed_form;
 use crate::words::numbers::change;
 
 /// The outcome of a run, or what there is of it so far.
-pub(super) fn sentence(found: &PageData) -> String {
-    let answers = answers::all(found).into_iter().map(|answer| answer.sentence);
+pub(super) fn sentence(found: &PageData, answers: &[Answer]) -> String {
+    let answers = answers.iter().map(|answer| answer.sentence.clone());
     answers.chain([of_contact(found)]).collect::<Vec<_>>().join(" ")
 }
 

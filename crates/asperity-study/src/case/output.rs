@@ -9,8 +9,8 @@ use asperity_derive::Table;
 #[table("output", default)]
 #[non_exhaustive]
 pub struct Output {
-    /// Stores the pressure of every n-th position of a pass, or pressure and gap of every n-th point of a sweep and of every n-th increment
-    /// of bodies that attract each other, from the first on; 0: none.
+    /// Interval of the steps whose fields are stored, from the first one on; 0: none. A position of a pass has its pressure, a point of a
+    /// sweep and an increment of bodies that attract each other have pressure and gap.
     #[key(count = 0, default = 8, example = "4")]
     pub pressure_every: usize,
     /// Part of a body's length, at its free ends, that the columns `…_interior` of the tables leave out.

@@ -3,7 +3,7 @@
 use super::{ConductanceRecord, Joint, Kind, MAX_CORRELATED_FRACTION};
 use crate::units::{Dimension, format, format_number};
 use crate::with::Surroundings;
-use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Scale, Series, exponent, over_pressure};
+use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Scale, Series, exponent};
 use asperity_base::Choice;
 
 /// Joint conductance, with that of the spots among gas, and that of clean spots by the correlation.
@@ -72,7 +72,7 @@ pub(super) fn describe(joint: &Joint, surroundings: &Surroundings) -> String {
 
 pub(super) fn answers(rows: &[ConductanceRecord]) -> Vec<Answer> {
     let rows = match rows.last().and_then(|last| last.pass) {
-        None => over_pressure(rows, |row| row.mean_pressure).to_vec(),
+        None => rows.to_vec(),
         Some(_) => ConductanceRecord::means(rows),
     };
     let pressure = |row: &ConductanceRecord| row.mean_pressure;

@@ -4,7 +4,7 @@ use super::{Along, FlowRecord, Leakage};
 use crate::surface::Axis;
 use crate::units::{Dimension, Metre, format, format_number};
 use crate::with::Surroundings;
-use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Scale, Series, over_pressure};
+use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Scale, Series, closing};
 use asperity_base::Choice;
 
 /// Leakage along both axes.
@@ -96,8 +96,7 @@ pub(super) fn answers(leakage: &Leakage, rows: &[FlowRecord]) -> Vec<Answer> {
         if last.is_some() {
             return of_pass(axis, rows.iter().filter(|row| row.pass == last && row.along == axis));
         }
-        let rows: Vec<&FlowRecord> = rows.iter().filter(|row| row.along == axis).collect();
-        let mut rows = over_pressure(&rows, |row| row.mean_pressure).to_vec();
+        let mut rows: Vec<&FlowRecord> = rows.iter().filter(|row| row.along == axis).collect();
         rows.sort_by(|one, other| one.mean_pressure.total_cmp(&other.mean_pressure));
         answer(leakage, axis, &rows)
     };
@@ -116,9 +115,8 @@ fn answer(leakage: &Leakage, axis: Axis, rows: &[&FlowRecord]) -> Option<Answer>
     let axis = axis.word();
     let name = format!("leakage along {axis}").into();
     let open = rows.iter().rfind(|row| row.leakage > 0.0);
-    let closed =
-        rows.iter().skip_while(|row| open.is_some_and(|open| row.mean_pressure <= open.mean_pressure));
-    let closed = closed.copied().next().filter(|_| most.mean_pressure > least.mean_pressure);
+    let closed = closing(rows.iter().map(|row| [row.mean_pressure, row.leakage]));
+    let closed = closed.filter(|_| most.mean_pressure > least.mean_pressure);
     Some(match (open, closed) {
         (None, _) => Answer {
             name,
@@ -128,11 +126,11 @@ fn answer(leakage: &Leakage, axis: Axis, rows: &[&FlowRecord]) -> Option<Answer>
         },
         (Some(open), Some(closed)) => Answer {
             name,
-            value: format!("closed from {}", pressure(closed)),
+            value: format!("closed from {}", format(closed, Dimension::Pressure)),
             about: format!("At {} {} leak{}.", pressure(open), flow(open), in_trade(open)),
             sentence: format!(
                 "Along {axis} the gap is closed from {}; at {} {} leak{}.",
-                pressure(closed),
+                format(closed, Dimension::Pressure),
                 pressure(open),
                 flow(open),
                 in_trade(open)
@@ -233,7 +231,7 @@ pub fn leaks(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::with::Capability;
+    use crate::with::{Capability, answering};
 
     const LIQUID: Leakage = Leakage {
         viscosity: 1e-3,
@@ -250,7 +248,7 @@ mod tests {
     fn row(pass: Option<usize>, mean_pressure: f64, leakage: f64) -> FlowRecord {
         FlowRecord {
             pass,
-            step: 1,
+            step: (1e-6 * mean_pressure) as usize,
             along: Axis::X,
             length: 2e-3,
             load: mean_pressure * 2e-6,
@@ -282,14 +280,17 @@ mod tests {
     #[test]
     fn a_sweep_is_told_by_the_pressure_that_closes_the_gap() {
         let sweep = [row(None, 1e7, 2e-15), row(None, 2e7, 0.0), row(None, 5e6, 3e-14), row(None, 3e7, 0.0)];
-        let mut rising = sweep.to_vec();
-        rising.sort_by(|one, other| one.mean_pressure.total_cmp(&other.mean_pressure));
         // 2e-15 m³/s over a width of 1 mm are 7.2 µl/h per metre.
         let closed =
             "Along x the gap is closed from 20 MPa; at 10 MPa 2000 µm³/s leak (7.2 µl/h per metre of seal).";
-        assert_eq!(told(&LIQUID, &rising), ("closed from 20 MPa".to_owned(), closed.to_owned()));
+        assert_eq!(
+            told(&LIQUID, &answering::<Leakage>(&sweep, true)),
+            ("closed from 20 MPa".to_owned(), closed.to_owned())
+        );
         // A history says what it ends with.
-        assert_eq!(told(&LIQUID, &sweep).0, "none");
+        assert_eq!(told(&LIQUID, &answering::<Leakage>(&sweep, false)).0, "none");
+        let unloaded = [row(None, 2e7, 0.0), row(None, 1e7, 2e-15)];
+        assert_eq!(told(&LIQUID, &answering::<Leakage>(&unloaded, false)).0, "2000 µm³/s");
         let open = [row(None, 5e6, 3e-14), row(None, 1e7, 2e-15)];
         assert_eq!(told(&LIQUID, &open).0, "2000 µm³/s");
         let closed = [row(None, 5e6, 0.0)];
