@@ -16,7 +16,7 @@ use crate::tables::{self, GrowingTable};
 use asperity_base::error::{Error, Result};
 use asperity_base::math::parallel;
 use asperity_contact::each_capability;
-use asperity_contact::motion::{ObservedContact, Output, Pair, Position, Step, SweepRecord};
+use asperity_contact::motion::{ObservedContact, Output, Pair, Position, Step, StepRow, SweepRecord};
 use asperity_contact::solver::Solution;
 use asperity_contact::with::{Capability, Given, Listed, Observations, Observer, Place, Reported};
 
@@ -85,14 +85,14 @@ impl<C: Reported> Observed<C> {
     /// Adds the fields of a contact to the file of its step, which begins with the first ones.
     fn keep(&mut self, step: &Step<'_>, contact: &ObservedContact<'_>, place: Place, fields: &[NamedField]) {
         let Some(files) = &mut self.files else { return };
-        let is_of_course = matches!(step, Step::Pass(_) | Step::Point { .. });
+        let is_of_course = matches!(step.row, StepRow::Pass(_) | StepRow::Point(_));
         if !is_of_course || !is_nth(place.step, files.kept_every) {
             return;
         }
-        let (identity, path) = (&files.identity, files.results.observer_fields(C::NAME, step.number()));
+        let (identity, path) = (&files.identity, files.results.observer_fields(C::NAME, step.number));
         let file = files.of_step.get_or_insert_with(|| {
             let mut file = FieldFile::of_run(identity, &path);
-            file.set(if place.pass.is_some() { "pass" } else { "point" }, step.number());
+            file.set(if place.pass.is_some() { "pass" } else { "point" }, step.number);
             file
         });
         for NamedField { name, values, unit } in fields {
@@ -257,17 +257,14 @@ impl Observers {
 
 impl Output for Observers {
     fn step(&mut self, step: &Step<'_>) -> Result<()> {
-        let (number, flush) = (step.number(), self.flush);
+        let (number, flush) = (step.number, self.flush);
         let mut contacts = step.contacts().map(|contact| {
             let (place, is_main) = match step.pass() {
                 Some(_) => {
                     let place = Place { pass: Some(number), step: contact.index + 1 };
                     (place, Some(contact.index) == flush)
                 }
-                None => {
-                    let ends_loading = matches!(step, Step::Plastic { is_last_load: true, .. });
-                    (Place { pass: None, step: number }, ends_loading || step.is_last())
-                }
+                None => (Place { pass: None, step: number }, step.ends_loading || step.is_last()),
             };
             Seen { contact, place, is_main }
         });

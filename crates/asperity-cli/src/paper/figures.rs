@@ -168,7 +168,7 @@ struct PassCollector(Vec<Pass>);
 
 impl Output for PassCollector {
     fn step(&mut self, step: &Step<'_>) -> Result<()> {
-        let Step::Pass(report) = step else { return Ok(()) };
+        let Some(report) = step.pass() else { return Ok(()) };
         self.0.push(Pass { contacts: report.contacts.to_vec(), pair: report.pair.clone() });
         Ok(())
     }

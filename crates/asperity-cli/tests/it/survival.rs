@@ -261,7 +261,9 @@ fn threads_are_as_many_as_there_is_use_for_and_room() {
     assert!(stderr(&output).starts_with("note: --threads 300 is more than the "), "{}", stderr(&output));
     if cfg!(target_os = "linux") {
         let limited = |threads: usize| {
-            limited(&folder, "-v 500000", &format!("run case.toml --out out --overwrite --threads {threads}"))
+            // Stacks this large run out before anything else does.
+            let limit = "-v 500000; export RUST_MIN_STACK=67108864";
+            limited(&folder, limit, &format!("run case.toml --out out --overwrite --threads {threads}"))
         };
         let output = limited(1000);
         assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));

@@ -1,13 +1,18 @@
 //! The loop shared by all computations of more than one step.
 
+use std::any::Any;
+
 use crate::error::{Error, Result};
-use crate::motion::record::{IncrementRecord, SweepRecord};
+use crate::grid::Field;
+use crate::motion::pair::Pair;
+use crate::motion::record::{IncrementRecord, PassRecord, SweepRecord, UpdateRecord};
 use crate::motion::report::PassReport;
-use crate::motion::state::{LoadedContact, LoadingState, SlidingState};
+use crate::motion::state::Flattening;
+use crate::motion::store::CourseState;
 use crate::motion::watch::{Progress, Watch};
 use crate::motion::worn_away;
-use crate::solver::{Equilibrium, Solution};
-use crate::units::Newton;
+use crate::solver::Solution;
+use crate::units::{Metre, Newton};
 
 /// A computation in steps: increments of a loading, updates of a contact that slides in place, points of a load sweep, or
 /// passes of a motion.
@@ -28,46 +33,40 @@ pub(super) trait Course {
     fn take(&mut self, solved: Self::Solved);
 }
 
-/// Report of a step before it is committed.
-pub enum Step<'a> {
+/// A solved step of a course, before it is committed.
+#[derive(Clone, Copy)]
+pub struct Step<'a> {
+    /// Its number, from 1; the initial contact of sliding in place is update 0.
+    pub number: usize,
+    /// Number of the last step; `None` for the passes of a motion, which may be given more later.
+    pub of: Option<usize>,
+    /// Its row.
+    pub row: StepRow<'a>,
+    /// The contact of a course that does not move; `None` for a pass, and while elasto-plastic bodies are unloaded at the end.
+    pub contact: Option<&'a Solution>,
+    /// The plastic interference of earlier contacts of a loading.
+    pub flattening: Option<&'a Flattening>,
+    /// Whether no loading follows, but unloading may.
+    pub ends_loading: bool,
+    /// The bodies after the step, if it may have changed them.
+    pub changed: Option<&'a Pair>,
+    /// The state from which the next step begins; `None` if the course cannot be resumed.
+    pub state: Option<&'a dyn CourseState>,
+    /// More of a pass of a motion.
+    pub(super) pass: Option<PassReport<'a>>,
+}
+
+/// The row of a step.
+#[derive(Clone, Copy)]
+pub enum StepRow<'a> {
     /// An increment of a loading.
-    Increment {
-        /// The loading after it.
-        state: &'a LoadingState,
-        /// Total number of increments.
-        of: usize,
-    },
-    /// An increment of a loading of elasto-plastic bodies.
-    Plastic {
-        /// The record of the increment.
-        record: &'a IncrementRecord,
-        /// The contact at its end; `None` while the bodies are unloaded at the end of their path.
-        contact: Option<&'a Equilibrium>,
-        /// Whether no loading follows, but unloading may.
-        is_last_load: bool,
-        /// Total number of increments, unloading included.
-        of: usize,
-    },
+    Increment(&'a IncrementRecord),
     /// An update of a contact that slides in place.
-    Update {
-        /// The contact after it.
-        state: &'a SlidingState,
-        /// The solution at its end.
-        solution: &'a Solution,
-        /// Total number of updates, without the initial contact.
-        of: usize,
-    },
+    Update(&'a UpdateRecord),
     /// A point of a load sweep.
-    Point {
-        /// The record of the point.
-        record: &'a SweepRecord,
-        /// The contact at the point.
-        contact: &'a LoadedContact,
-        /// Total number of points.
-        of: usize,
-    },
+    Point(&'a SweepRecord),
     /// A pass of a motion.
-    Pass(PassReport<'a>),
+    Pass(&'a PassRecord),
 }
 
 /// Receives the steps of a course. An error of an output ends the course.
@@ -121,82 +120,108 @@ pub(super) fn finish<C: Course>(
 }
 
 impl<'a> Step<'a> {
-    /// Number of the step, from 1; the initial contact of sliding in place is update 0.
-    pub fn number(&self) -> usize {
-        match self {
-            Self::Increment { state, .. } => state.increments.len(),
-            Self::Plastic { record, .. } => record.increment,
-            Self::Update { state, .. } => state.updates.len() - 1,
-            Self::Point { record, .. } => record.point,
-            Self::Pass(report) => report.record.pass,
+    /// Creates a step with its `row`, of which `of` is the last, without anything else.
+    pub(super) fn new(number: usize, of: usize, row: StepRow<'a>) -> Self {
+        Self {
+            number,
+            of: Some(of),
+            row,
+            contact: None,
+            flattening: None,
+            ends_loading: number == of,
+            changed: None,
+            state: None,
+            pass: None,
         }
     }
 
-    /// Returns whether no step of the course follows. A motion may be given more passes later, so none of its passes is the last.
-    pub fn is_last(&self) -> bool {
-        match self {
-            Self::Increment { of, .. }
-            | Self::Plastic { of, .. }
-            | Self::Update { of, .. }
-            | Self::Point { of, .. } => self.number() == *of,
-            Self::Pass(_) => false,
+    /// Creates the step of a pass.
+    pub(super) fn of_pass(report: PassReport<'a>) -> Self {
+        Self {
+            of: None,
+            ends_loading: false,
+            changed: Some(report.pair),
+            state: Some(report.warm),
+            pass: Some(report),
+            ..Self::new(report.record.pass, report.record.pass, StepRow::Pass(report.record))
         }
+    }
+
+    /// Returns whether no step of the course follows.
+    pub fn is_last(&self) -> bool {
+        self.of == Some(self.number)
     }
 
     /// Returns the pass, if the step is a pass of a motion.
     pub fn pass(&self) -> Option<&PassReport<'a>> {
-        match self {
-            Self::Pass(report) => Some(report),
-            _ => None,
-        }
+        self.pass.as_ref()
+    }
+
+    /// The pitch of the bodies; `None` while elasto-plastic bodies are unloaded at the end.
+    pub fn pitch(&self) -> Option<[Metre; 2]> {
+        self.contact.map(|contact| contact.grid.pitch).or(self.changed.map(Pair::pitch))
+    }
+
+    /// Returns the state from which the next step begins, if it is of this type.
+    pub fn state_as<S: CourseState>(&self) -> Option<&'a S> {
+        let state: &dyn Any = self.state?;
+        state.downcast_ref()
+    }
+
+    /// Computes the plastic interference of both bodies together; `None` without a contact.
+    pub fn plastic(&self) -> Option<Field> {
+        let now = self.contact?.plastic_interference();
+        Some(match self.flattening {
+            Some(flattening) => flattening.total(now),
+            None => now,
+        })
     }
 
     /// Checks that the bodies after the step have only finite values, and are still surfaces.
     fn check(&self) -> Result<()> {
-        match self {
-            Self::Update { state, .. } => {
-                state.pair.check_finite()?;
-                let update = state.updates.last().expect("the update just done");
-                worn_away::check_update(&state.pair, update)
-            }
-            Self::Pass(report) => {
-                report.pair.check_finite()?;
-                worn_away::check_pass(report.pair, report.record)
-            }
-            Self::Increment { .. } | Self::Plastic { .. } | Self::Point { .. } => Ok(()),
-        }
-    }
-
-    /// Wraps an error as one at this step.
-    fn at(&self, source: Box<Error>) -> Error {
-        let number = self.number();
-        match self {
-            Self::Increment { .. } | Self::Plastic { .. } => Error::AtIncrement { increment: number, source },
-            Self::Update { .. } => Error::AtUpdate { update: number, source },
-            Self::Point { of, .. } => Error::AtPoint { point: number, points: *of, source },
-            Self::Pass(_) => Error::AtPass { pass: number, source },
+        let Some(pair) = self.changed else { return Ok(()) };
+        pair.check_finite()?;
+        match self.row {
+            StepRow::Update(update) => worn_away::check_update(pair, update),
+            StepRow::Pass(pass) => worn_away::check_pass(pair, pass),
+            StepRow::Increment(_) | StepRow::Point(_) => Ok(()),
         }
     }
 
     /// Notifies the watch that the step is done. The positions of a pass have notified it already.
     fn notify(&self, watch: &dyn Watch) {
-        let solved = |load: Newton, positions: usize| {
-            let solved = self.number();
+        if let (Some(load), Some(positions)) = (self.row.load(), self.of) {
+            let solved = self.number;
             watch.at(&Progress { pass: 1, passes: 1, trial: 1, solved, positions, load, together: None });
-        };
+        }
+        match self.row {
+            StepRow::Increment(_) => {}
+            StepRow::Update(update) => watch.update(update),
+            StepRow::Point(point) => watch.point(point),
+            StepRow::Pass(pass) => watch.pass(pass),
+        }
+    }
+
+    /// Wraps an error as one at this step.
+    fn at(&self, source: Box<Error>) -> Error {
+        let number = self.number;
+        match self.row {
+            StepRow::Increment(_) => Error::AtIncrement { increment: number, source },
+            StepRow::Update(_) => Error::AtUpdate { update: number, source },
+            StepRow::Point(_) => Error::AtPoint { point: number, points: self.of.unwrap_or(number), source },
+            StepRow::Pass(_) => Error::AtPass { pass: number, source },
+        }
+    }
+}
+
+impl StepRow<'_> {
+    /// The load of a course that does not move.
+    fn load(&self) -> Option<Newton> {
         match self {
-            Self::Increment { state, of } => solved(state.contact.normal().load(), *of),
-            Self::Plastic { record, of, .. } => solved(record.load, *of),
-            Self::Update { state, of, .. } => {
-                let update = state.updates.last().expect("the update just done");
-                solved(update.load, *of);
-                watch.update(update);
-            }
-            Self::Point { record, of, .. } => {
-                solved(record.load, *of);
-                watch.point(record);
-            }
-            Self::Pass(report) => watch.pass(report.record),
+            Self::Increment(increment) => Some(increment.load),
+            Self::Update(update) => Some(update.load),
+            Self::Point(point) => Some(point.load),
+            Self::Pass(_) => None,
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::facing;
-use crate::motion::course::{self, Course, Output, Step};
+use crate::motion::course::{self, Course, Output, Step, StepRow};
 use crate::motion::loading::{shear_record, static_record};
 use crate::motion::pair::Pair;
 use crate::motion::plastic_volume::{self, PlasticSums, PlasticVolume};
@@ -190,8 +190,11 @@ impl Course for ElastoPlasticLoading<'_> {
     fn report<'a>(&'a self, record: &'a IncrementRecord) -> Step<'a> {
         let loading = Stage::increments(&self.path.stages);
         let contact = self.contact.equilibrium().filter(|_| record.increment <= loading);
-        let is_last_load = record.increment == loading;
-        Step::Plastic { record, contact, is_last_load, of: self.path.increments() }
+        Step {
+            contact: contact.map(Equilibrium::normal),
+            ends_loading: record.increment == loading,
+            ..Step::new(record.increment, self.path.increments(), StepRow::Increment(record))
+        }
     }
 
     fn take(&mut self, record: IncrementRecord) {

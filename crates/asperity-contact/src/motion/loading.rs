@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::adhesive::press_from;
 use crate::motion::contact::facing;
-use crate::motion::course::{self, Course, Output, Step};
+use crate::motion::course::{self, Course, Output, Step, StepRow};
 use crate::motion::extrapolation::Acceleration;
 use crate::motion::fretting::{ChangedBodies, Laws};
 use crate::motion::law::Law;
@@ -206,7 +206,15 @@ impl Course for Increments {
         let represented =
             state.changed.as_ref().and_then(|changed| Some(changed.last.as_ref()?.extrapolation.passes));
         let left = state.next.left(&self.loading.stages, represented.unwrap_or(1));
-        Step::Increment { state, of: state.increments.len() + left }
+        let record = state.increments.last().expect("the increment just done");
+        let number = state.increments.len();
+        Step {
+            contact: Some(state.contact.normal()),
+            flattening: Some(&state.flattening),
+            changed: state.changed.as_ref().map(|changed| &changed.pair),
+            state: Some(state),
+            ..Step::new(number, number + left, StepRow::Increment(record))
+        }
     }
 
     fn take(&mut self, state: LoadingState) {

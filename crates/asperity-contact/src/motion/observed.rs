@@ -77,17 +77,11 @@ fn open(mut gap: Field, touching: &Array2<bool>) -> Field {
 impl<'a> Step<'a> {
     /// Returns the contacts of the step, one after another; of a pass those that have kept their gap.
     pub fn contacts(&self) -> impl Iterator<Item = ObservedContact<'a>> + use<'a> {
-        let (alone, pass) = match *self {
-            Step::Increment { state, .. } => (Some(state.contact.normal()), None),
-            Step::Plastic { contact, .. } => (contact.map(|contact| contact.normal()), None),
-            Step::Update { solution, .. } => (Some(solution), None),
-            Step::Point { contact, .. } => (Some(contact.solution.normal()), None),
-            Step::Pass(report) => (None, Some((report.contacts, report.pair.pitch()))),
-        };
+        let pass = self.pass().map(|report| (report.contacts, report.pair.pitch()));
         let of_pass = pass.into_iter().flat_map(|(contacts, pitch)| {
             let contacts = contacts.iter().enumerate();
             contacts.filter_map(move |(index, contact)| ObservedContact::at_position(index, contact, pitch))
         });
-        alone.into_iter().map(ObservedContact::at_rest).chain(of_pass)
+        self.contact.into_iter().map(ObservedContact::at_rest).chain(of_pass)
     }
 }

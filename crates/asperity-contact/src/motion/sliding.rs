@@ -4,7 +4,7 @@ use crate::error::{Error, Result, check, check_in};
 use crate::grid::{CellValues, Field};
 use crate::motion::check_limit;
 use crate::motion::contact::{Contact, facing};
-use crate::motion::course::{self, Course, Output, Step};
+use crate::motion::course::{self, Course, Output, Step, StepRow};
 use crate::motion::law::{self, Heat, Law, PositionData, Sums};
 use crate::motion::pair::{Pair, opposing_values};
 use crate::motion::path::Position;
@@ -460,7 +460,14 @@ impl Course for Updates {
     }
 
     fn report<'a>(&'a self, Updated { state, solution }: &'a Updated) -> Step<'a> {
-        Step::Update { state, solution, of: self.contact.slide.ends.len() }
+        let record = state.updates.last().expect("the update just done");
+        let number = state.updates.len() - 1;
+        Step {
+            contact: Some(solution),
+            changed: Some(&state.pair).filter(|_| number > 0),
+            state: Some(state),
+            ..Step::new(number, self.contact.slide.ends.len(), StepRow::Update(record))
+        }
     }
 
     fn take(&mut self, Updated { state, .. }: Updated) {

@@ -2,12 +2,17 @@
 
 use std::borrow::Cow;
 
-use crate::grid::Field;
-use crate::motion::fretting::ChangedBodies;
+use crate::error::Result;
+use crate::grid::{CellValues, Field};
+use crate::motion::extrapolation::LastExtrapolation;
+use crate::motion::fretting::{ChangedBodies, LastCycle};
 use crate::motion::pair::Pair;
 use crate::motion::record::{IncrementRecord, StaticRecord, UpdateRecord};
 use crate::motion::stage::{Origin, Progress};
-use crate::solver::Equilibrium;
+use crate::motion::store::{
+    CourseState, StateReader, StateWriter, restore_both, restore_if, restore_sums, store_both, store_sums,
+};
+use crate::solver::{Bounds, Equilibrium, FrictionalSolution, Solution, Stats};
 use crate::units::{Joule, Metre};
 
 /// A static contact at the end of its loading, with its history.
@@ -110,4 +115,187 @@ pub struct SlidingState {
     pub updates: Vec<UpdateRecord>,
     /// Pressure of the last update, Pa.
     pub pressure: Field,
+}
+
+impl CourseState for LoadingState {
+    fn store(&self, to: &mut dyn StateWriter) {
+        let normal = self.contact.normal();
+        to.field("pressure", "Pa", &normal.pressure);
+        to.field("displacement", "m", &normal.displacement);
+        to.field("deepest", "m", &self.flattening.deepest);
+        if let CellValues::Field(lower) = normal.bounds.lower() {
+            to.field("least_pressure", "Pa", lower);
+        }
+        if let Some(kept) = &self.flattening.kept {
+            to.field("kept", "m", kept);
+        }
+        if let Some(slip) = &self.slip {
+            store_both(to, "slip", "m", slip);
+        }
+        if let Some(solution) = self.contact.frictional() {
+            store_both(to, "traction", "Pa", &solution.shear);
+            store_both(to, "displacement", "m", &solution.displacement);
+            store_both(to, "last_slip", "m", &solution.slip);
+            if let CellValues::Field(cap) = normal.bounds.upper() {
+                to.field("cap", "Pa", cap);
+            }
+            to.field("shear_limit", "Pa", &solution.shear_limit);
+            to.field("stick", "1", &solution.stick);
+            to.vector("rigid_displacement", solution.rigid_displacement);
+        }
+        if let Some(changed) = &self.changed {
+            changed.store(to);
+        }
+        let Progress { stage, cycles, step } = self.next;
+        to.count("next_stage", stage);
+        to.count("next_cycles", cycles);
+        to.count("next_step", step);
+        to.number("approach", normal.approach);
+        to.number("residual", normal.residual);
+        to.count("iterations", normal.stats.iterations);
+        to.number("convolutions", normal.stats.convolutions);
+        to.count("restarts", normal.stats.restarts);
+        to.number("dissipation_error", self.dissipation_error);
+        let Origin { load, approach, force, displacement } = self.origin;
+        to.number("origin_load", load);
+        to.number("origin_approach", approach);
+        to.vector("origin_force", force);
+        to.vector("origin_displacement", displacement);
+    }
+}
+
+impl LoadingState {
+    /// Restores the state of a loading of a `pair` after these `increments`.
+    ///
+    /// # Errors
+    /// The errors of the reader.
+    pub fn restore(from: &dyn StateReader, pair: &Pair, increments: Vec<IncrementRecord>) -> Result<Self> {
+        let changed = restore_if(from, "cycles_done", || ChangedBodies::restore(from, pair))?;
+        let pair = changed.as_ref().map_or(pair, |changed| &changed.pair);
+        let kept = restore_if(from, "kept", || from.field("kept"))?;
+        let flattening = Flattening { kept, deepest: from.field("deepest")? };
+        let bounds = match restore_if(from, "cap", || from.field("cap"))? {
+            Some(cap) => Bounds::up_to(cap),
+            None => pair.bounds(&pair.at_rest(), None),
+        };
+        let bounds = match restore_if(from, "least_pressure", || from.field("least_pressure"))? {
+            Some(least) => bounds.above(least),
+            None => bounds,
+        };
+        let normal = Solution {
+            grid: pair.lower_grid(),
+            initial_gap: flattening.open(&pair.initial_gap(&pair.at_rest())).into_owned(),
+            bounds,
+            pressure: from.field("pressure")?,
+            displacement: from.field("displacement")?,
+            approach: from.number("approach")?,
+            residual: from.number("residual")?,
+            stats: Stats {
+                iterations: from.number("iterations")? as usize,
+                convolutions: from.number("convolutions")?,
+                restarts: from.number("restarts")? as usize,
+                ..Stats::default()
+            },
+        };
+        let has_friction = from.holds("stick");
+        let contact = match has_friction {
+            false => Equilibrium::Frictionless(Box::new(normal)),
+            true => Equilibrium::Frictional(Box::new(FrictionalSolution {
+                normal,
+                shear: restore_both(from, "traction")?,
+                shear_limit: from.field("shear_limit")?,
+                displacement: restore_both(from, "displacement")?,
+                rigid_displacement: from.vector("rigid_displacement")?,
+                slip: restore_both(from, "last_slip")?,
+                stick: from.field("stick")?,
+            })),
+        };
+        Ok(Self {
+            increments,
+            contact,
+            origin: Origin {
+                load: from.number("origin_load")?,
+                approach: from.number("origin_approach")?,
+                force: from.vector("origin_force")?,
+                displacement: from.vector("origin_displacement")?,
+            },
+            flattening,
+            slip: has_friction.then(|| restore_both(from, "slip")).transpose()?,
+            dissipation_error: from.number("dissipation_error")?,
+            next: Progress {
+                stage: from.number("next_stage")? as usize,
+                cycles: from.number("next_cycles")? as usize,
+                step: from.number("next_step")? as usize,
+            },
+            changed,
+        })
+    }
+}
+
+impl ChangedBodies {
+    /// Keeps the bodies and the present cycle.
+    fn store(&self, to: &mut dyn StateWriter) {
+        let Self { pair, sums, last, work, cycle_work, error, cycles } = self;
+        to.bodies(pair);
+        store_sums(to, "cycle", sums);
+        if let Some(LastCycle { extrapolation, pressure, work }) = last {
+            to.count("jump", extrapolation.passes);
+            to.number("last_work", *work);
+            to.field("cycle_pressure", "Pa", pressure);
+            store_sums(to, "sum", &extrapolation.sums);
+        }
+        to.number("friction_work", *work);
+        to.number("cycle_work", *cycle_work);
+        to.number("wear_error", *error);
+        to.count("cycles_done", *cycles);
+    }
+
+    /// Restores the bodies of a `pair`, whose hardness they have, without their films.
+    fn restore(from: &dyn StateReader, pair: &Pair) -> Result<Self> {
+        let mut pair = pair.clone();
+        from.bodies(&mut pair)?;
+        let last = restore_if(from, "jump", || {
+            let passes = from.number("jump")? as usize;
+            Ok(LastCycle {
+                extrapolation: LastExtrapolation { passes, sums: restore_sums(from, "sum")? },
+                pressure: from.field("cycle_pressure")?,
+                work: from.number("last_work")?,
+            })
+        })?;
+        Ok(Self {
+            pair,
+            sums: restore_sums(from, "cycle")?,
+            last,
+            work: from.number("friction_work")?,
+            cycle_work: from.number("cycle_work")?,
+            error: from.number("wear_error")?,
+            cycles: from.number("cycles_done")? as usize,
+        })
+    }
+}
+
+impl CourseState for SlidingState {
+    fn store(&self, to: &mut dyn StateWriter) {
+        to.bodies(&self.pair);
+        to.field("pressure", "Pa", &self.pressure);
+    }
+}
+
+impl SlidingState {
+    /// Restores the state of a contact of a `pair` after these `updates`. The bodies have the hardness of the `pair`, without their films.
+    ///
+    /// # Errors
+    /// The errors of the reader.
+    pub fn restore(from: &dyn StateReader, pair: &Pair, updates: Vec<UpdateRecord>) -> Result<Self> {
+        let mut pair = pair.clone();
+        from.bodies(&mut pair)?;
+        Ok(Self { pair, updates, pressure: from.field("pressure")? })
+    }
+}
+
+/// The state between two points of a sweep, each on virgin bodies: nothing but the points so far.
+pub(super) struct Independent;
+
+impl CourseState for Independent {
+    fn store(&self, _to: &mut dyn StateWriter) {}
 }

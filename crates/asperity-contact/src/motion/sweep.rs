@@ -3,11 +3,11 @@
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::facing;
-use crate::motion::course::{self, Course, Output, Step};
+use crate::motion::course::{self, Course, Output, Step, StepRow};
 use crate::motion::pair::Pair;
 use crate::motion::record::{ShearRecord, StaticRecord, SweepRecord};
 use crate::motion::spot::largest_spot;
-use crate::motion::state::LoadedContact;
+use crate::motion::state::{Independent, LoadedContact};
 use crate::motion::watch::{StaticWatch, Watch};
 use crate::operator::{Boundary, CoupledOperator, Operator};
 use crate::solver::{Control, Friction, Params, Rolling, Solution, Stats, normal_stiffness};
@@ -120,7 +120,11 @@ impl Course for Sweep<'_> {
     }
 
     fn report<'a>(&'a self, (record, contact): &'a Self::Solved) -> Step<'a> {
-        Step::Point { record, contact, of: self.points.len() }
+        Step {
+            contact: Some(contact.solution.normal()),
+            state: Some(&Independent),
+            ..Step::new(record.point, self.points.len(), StepRow::Point(record))
+        }
     }
 
     fn take(&mut self, (record, contact): Self::Solved) {

@@ -3,10 +3,12 @@
 //! Wear changes the pressures at a position by about the same amount in each pass. A pass begins with the extrapolated
 //! pressures: the change of the last pass, scaled by how well that pass repeated the change before it.
 
+use crate::error::Result;
 use crate::motion::contact::Contact;
 use crate::motion::extrapolation::LastExtrapolation;
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
+use crate::motion::store::{CourseState, StateReader, StateWriter, restore_if, restore_sums, store_sums};
 use crate::solver::Stats;
 use crate::units::{Metre, Pascal};
 
@@ -85,6 +87,76 @@ impl WarmStart {
         };
         let begun = !self.positions.is_empty();
         begun.then(|| self.positions.iter().zip(positions).map(contact).collect())
+    }
+}
+
+/// ```text
+/// /              attributes: approach and slope of the guess (m, 1/m; with a prescribed mean load); represented, the finished
+///                passes of the motion; jump, the passes of the last extrapolation
+/// /approach      at each position, m
+/// /bearing       cells with p > 0 at each position
+/// /cell          those cells, position by position: flat index
+/// /pressure      their pressure, Pa
+/// /change        its change since the computed pass before, Pa per pass of the motion
+/// /persistence   at each position, the fraction of this change that is expected again
+/// /sum_lower_1_1 first sum of the first repeating law over the last pass, for the lower body; and so on
+/// ```
+impl CourseState for WarmStart {
+    fn store(&self, to: &mut dyn StateWriter) {
+        to.count("represented", self.represented);
+        if let Some(last) = &self.extrapolation {
+            to.count("jump", last.passes);
+            store_sums(to, "sum", &last.sums);
+        }
+        if let Some(Guess { approach, slope }) = self.guess {
+            to.number("approach", approach);
+            to.number("slope", slope);
+        }
+        let of_positions =
+            |value: fn(&LoadedCells) -> f64| self.positions.iter().map(value).collect::<Vec<_>>();
+        let of_cells = |value: fn(&(u32, f64)) -> f64| {
+            self.positions.iter().flat_map(|p| &p.pressure).map(value).collect::<Vec<_>>()
+        };
+        let change = self.positions.iter().flat_map(|p| &p.change).copied().collect::<Vec<_>>();
+        to.series("approach", "m", "position", &of_positions(|p| p.approach));
+        to.series("bearing", "1", "position", &of_positions(|p| p.pressure.len() as f64));
+        to.series("cell", "1", "bearing", &of_cells(|(cell, _)| f64::from(*cell)));
+        to.series("pressure", "Pa", "bearing", &of_cells(|(_, p)| *p));
+        to.series("change", "Pa", "bearing", &change);
+        to.series("persistence", "1", "position", &of_positions(|p| p.persistence));
+    }
+}
+
+impl WarmStart {
+    /// Restores the start of a pass.
+    ///
+    /// # Errors
+    /// The errors of the reader.
+    pub fn restore(from: &dyn StateReader) -> Result<Self> {
+        let [approach, bearing, persistence] =
+            [from.series("approach")?, from.series("bearing")?, from.series("persistence")?];
+        let [cell, pressure, change] =
+            [from.series("cell")?, from.series("pressure")?, from.series("change")?];
+        let mut cells = cell.into_iter().map(|cell| cell as u32).zip(pressure);
+        let mut changes = change.into_iter();
+        let positions = approach.into_iter().zip(bearing).zip(persistence);
+        let positions = positions.map(|((approach, count), persistence)| LoadedCells {
+            approach,
+            pressure: cells.by_ref().take(count as usize).collect(),
+            change: changes.by_ref().take(count as usize).collect(),
+            persistence,
+        });
+        let guess = || Ok(Guess { approach: from.number("approach")?, slope: from.number("slope")? });
+        let extrapolation = || {
+            let passes = from.number("jump")? as usize;
+            Ok(LastExtrapolation { passes, sums: restore_sums(from, "sum")? })
+        };
+        Ok(Self {
+            positions: positions.collect(),
+            guess: restore_if(from, "slope", guess)?,
+            extrapolation: restore_if(from, "jump", extrapolation)?,
+            represented: from.number("represented")? as usize,
+        })
     }
 }
 

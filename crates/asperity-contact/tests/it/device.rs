@@ -213,7 +213,7 @@ struct Records {
 
 impl Output for Records {
     fn step(&mut self, step: &Step<'_>) -> Result<(), Error> {
-        if let Step::Pass(pass) = step {
+        if let Some(pass) = step.pass() {
             self.passes.push(pass.record.clone());
             self.steps.extend_from_slice(pass.steps);
         }

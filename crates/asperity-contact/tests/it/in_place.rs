@@ -358,8 +358,7 @@ struct Kept(Vec<SlidingState>, usize);
 
 impl Output for Kept {
     fn step(&mut self, step: &Step<'_>) -> Result<()> {
-        let Step::Update { state, .. } = step else { return Ok(()) };
-        self.0.push((*state).clone());
+        self.0.extend(step.state_as::<SlidingState>().cloned());
         if self.0.len() == self.1 { Err(Error::Interrupted) } else { Ok(()) }
     }
 }

@@ -27,7 +27,7 @@ struct Kept {
 
 impl Output for Kept {
     fn step(&mut self, step: &Step<'_>) -> Result<()> {
-        let Step::Pass(report) = step else { return Ok(()) };
+        let Some(report) = step.pass() else { return Ok(()) };
         self.passes.push(report.record.clone());
         self.steps.extend_from_slice(report.steps);
         self.contacts.push(report.contacts.to_vec());

@@ -57,7 +57,7 @@ struct Kept {
 
 impl Output for Kept {
     fn step(&mut self, step: &Step<'_>) -> Result<()> {
-        let Step::Pass(report) = step else { return Ok(()) };
+        let Some(report) = step.pass() else { return Ok(()) };
         self.passes.push(report.record.clone());
         self.pairs.push(report.pair.clone());
         self.work.push(report.contacts.iter().map(|contact| contact.load).sum::<f64>() * PITCH);
@@ -133,7 +133,7 @@ fn an_interrupted_motion_goes_on_with_the_state_of_its_laws() {
     struct Warm(Kept, Option<asperity_contact::motion::WarmStart>);
     impl Output for Warm {
         fn step(&mut self, step: &Step<'_>) -> Result<()> {
-            let Step::Pass(report) = step else { return Ok(()) };
+            let Some(report) = step.pass() else { return Ok(()) };
             self.1 = Some(report.warm.clone());
             self.0.step(step)
         }

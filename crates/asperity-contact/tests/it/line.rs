@@ -213,7 +213,7 @@ fn a_body_that_passes_over_another_has_no_rims_at_its_sides() {
     struct Kept(Vec<motion::Contact>);
     impl motion::Output for Kept {
         fn step(&mut self, step: &motion::Step<'_>) -> asperity_base::Result<()> {
-            let motion::Step::Pass(report) = step else { return Ok(()) };
+            let Some(report) = step.pass() else { return Ok(()) };
             self.0 = report.contacts.to_vec();
             Ok(())
         }

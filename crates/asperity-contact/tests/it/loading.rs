@@ -95,8 +95,7 @@ struct Kept(Vec<LoadingState>);
 
 impl Output for Kept {
     fn step(&mut self, step: &Step<'_>) -> Result<(), Error> {
-        let Step::Increment { state, .. } = step else { return Ok(()) };
-        self.0.push((*state).clone());
+        self.0.extend(step.state_as::<LoadingState>().cloned());
         Ok(())
     }
 }

@@ -719,7 +719,7 @@ impl Kept {
 
 impl Output for Kept {
     fn step(&mut self, step: &Step<'_>) -> asperity_base::Result<()> {
-        let Step::Pass(report) = step else { return Ok(()) };
+        let Some(report) = step.pass() else { return Ok(()) };
         let loads: Vec<f64> = report.contacts.iter().map(|c: &Contact| c.load).collect();
         assert_eq!(loads, report.steps.iter().map(|s| s.load).collect::<Vec<_>>());
         self.passes.push(report.record.clone());

@@ -64,7 +64,7 @@ struct Keep {
 
 impl Output for Keep {
     fn step(&mut self, step: &Step<'_>) -> asperity_base::Result<()> {
-        let Step::Pass(report) = step else { return Ok(()) };
+        let Some(report) = step.pass() else { return Ok(()) };
         self.contacts.push(report.contacts.to_vec());
         self.approach.push(report.record.approach);
         self.lost.push([report.record.lost("plastic")[0], report.record.lost("plastic")[1]]);

@@ -59,7 +59,7 @@ struct Kept {
 
 impl Output for Kept {
     fn step(&mut self, step: &Step<'_>) -> asperity_base::Result<()> {
-        let Step::Pass(report) = step else { return Ok(()) };
+        let Some(report) = step.pass() else { return Ok(()) };
         self.passes.push(report.record.clone());
         self.steps.extend(report.steps.iter().cloned());
         self.states = report.plastic_volumes.iter().map(|volume| volume.state.clone()).collect();

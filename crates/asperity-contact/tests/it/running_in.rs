@@ -28,7 +28,7 @@ struct Kept {
 
 impl Output for Kept {
     fn step(&mut self, step: &Step<'_>) -> Result<()> {
-        let Step::Pass(report) = step else { return Ok(()) };
+        let Some(report) = step.pass() else { return Ok(()) };
         self.passes.push(report.record.clone());
         self.pair = Some(report.pair.clone());
         self.work.push(report.contacts.iter().map(|contact| contact.load).sum());
@@ -318,7 +318,7 @@ fn what_is_not_accelerated_keeps_nothing_for_jumps() {
     struct Warm(Vec<bool>);
     impl Output for Warm {
         fn step(&mut self, step: &Step<'_>) -> Result<()> {
-            let Step::Pass(report) = step else { return Ok(()) };
+            let Some(report) = step.pass() else { return Ok(()) };
             self.0.push(report.warm.extrapolation.is_some());
             Ok(())
         }
@@ -403,7 +403,7 @@ fn an_interrupted_run_goes_on_with_the_same_jumps() {
     struct Warm(Option<asperity_contact::motion::WarmStart>, usize);
     impl Output for Warm {
         fn step(&mut self, step: &Step<'_>) -> Result<()> {
-            let Step::Pass(report) = step else { return Ok(()) };
+            let Some(report) = step.pass() else { return Ok(()) };
             self.0 = Some(report.warm.clone());
             self.1 += 1;
             if self.1 == 6 { Err(asperity_base::Error::Interrupted) } else { Ok(()) }

@@ -113,7 +113,7 @@ fn slide(
     struct Kept(Vec<Contact>);
     impl Output for Kept {
         fn step(&mut self, step: &Step<'_>) -> asperity_base::Result<()> {
-            let Step::Pass(report) = step else { return Ok(()) };
+            let Some(report) = step.pass() else { return Ok(()) };
             self.0.extend_from_slice(report.contacts);
             Ok(())
         }

@@ -1,10 +1,12 @@
 //! The quantities of a step that the limits bound.
 
 use crate::case::Side;
-use asperity_base::grid::{Field, Grid};
+use asperity_base::grid::Grid;
 use asperity_base::units::{Kelvin, Metre, Pascal};
-use asperity_contact::motion::{Contact, Pair, PassRecord, PassReport, Step, StepRecord, UpdateRecord, WEAR};
-use asperity_contact::solver::{Equilibrium, Solution};
+use asperity_contact::motion::{
+    Contact, Pair, PassRecord, PassReport, Step, StepRecord, StepRow, UpdateRecord, WEAR,
+};
+use asperity_contact::solver::Solution;
 
 /// A result beyond a limit.
 pub(super) struct Finding {
@@ -69,42 +71,31 @@ impl ContactFindings {
 
 impl<'a> Findings<'a> {
     pub(super) fn of(step: &Step<'a>) -> Self {
-        let number = step.number();
-        let alone = |solution: &Solution| Self {
-            contacts: vec![ContactFindings::of(number, solution)],
-            ..Self::default()
-        };
-        match *step {
-            Step::Increment { state, .. } => Self {
-                changed: state.changed.as_ref().map(|changed| &changed.pair),
-                ..alone(state.contact.normal())
-            },
-            Step::Plastic { contact, .. } => {
-                contact.map(Equilibrium::normal).map_or_else(Self::default, alone)
-            }
-            Step::Point { contact, .. } => alone(contact.solution.normal()),
-            Step::Update { state, solution, .. } => {
-                let update = state.updates.last().expect("the update just done");
-                Self::of_update(&state.pair, update, solution)
-            }
-            Step::Pass(report) => Self::of_pass(&report),
+        if let Some(report) = step.pass() {
+            return Self::of_pass(report);
+        }
+        let contact = step.contact.map(|solution| ContactFindings::of(step.number, solution));
+        let found =
+            Self { contacts: contact.into_iter().collect(), changed: step.changed, ..Self::default() };
+        match step.row {
+            StepRow::Update(update) => found.of_update(update),
+            _ => found,
         }
     }
 
-    fn of_update(pair: &'a Pair, update: &UpdateRecord, solution: &Solution) -> Self {
-        let mut contact = ContactFindings::of(update.update, solution);
+    /// Adds the films and the temperature of an update.
+    fn of_update(mut self, update: &UpdateRecord) -> Self {
         // The displacement of an update includes its wear.
-        contact.displacement = contact.displacement.filter(|_| update.update == 0);
-        let sq = |heights: &Field| heights.std(0.0);
+        if update.update > 0 {
+            self.contacts.iter_mut().for_each(|contact| contact.displacement = None);
+        }
+        let [lower, upper] = self
+            .changed
+            .map_or([0.0; 2], |pair| [&pair.lower, &pair.upper].map(|body| body.heights.std(0.0)));
         Self {
-            contacts: vec![contact],
-            changed: Some(pair).filter(|_| update.update > 0),
-            films: [
-                [update.mean_film_lower, sq(&pair.lower.heights)],
-                [update.mean_film_upper, sq(&pair.upper.heights)],
-            ],
+            films: [[update.mean_film_lower, lower], [update.mean_film_upper, upper]],
             temperature: Some((update.update, update.max_temperature)),
-            ..Self::default()
+            ..self
         }
     }
 

@@ -56,10 +56,11 @@ use crate::limit::{BrokenLimit, LIMITS_TABLE};
 use crate::summary::{Outcome, Summary};
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::Grid;
+use asperity_base::record::Record;
 use asperity_contact::each_capability;
 use asperity_contact::motion::{
-    IncrementRecord, LoadingState, Pair, PassRecord, SlidingState, State, StepRecord, SweepRecord,
-    UpdateRecord, WarmStart,
+    IncrementRecord, LoadingState, Pair, PassRecord, SlidingState, State, StateReader, StepRecord,
+    SweepRecord, UpdateRecord, WarmStart,
 };
 use asperity_contact::plasticity::{PlasticState, TensorField, VolumeField};
 use asperity_contact::stress::Component;
@@ -319,7 +320,7 @@ impl Results {
     /// # Errors
     /// [`Error::File`].
     pub fn warm_start_after(&self, passes: usize) -> Result<WarmStart> {
-        state::pass::read(&self.state_path(passes))
+        WarmStart::restore(&Stored::open(&self.state_path(passes))?)
     }
 
     fn passes_path(&self) -> PathBuf {
@@ -450,24 +451,16 @@ impl Results {
         }
     }
 
-    /// Reads the interrupted loading of the `pair` with this total number of `increments`, if there is one.
+    /// Reads the interrupted loading of the `pair` in this number of `stages`, if there is one.
     ///
     /// # Errors
     /// [`Error::File`] for unreadable files, [`Error::NotResumable`] if they do not fit together.
     pub(super) fn loading_under_way(&self, pair: &Pair, stages: usize) -> Result<Option<LoadingState>> {
-        let (mut rows, table) = (self.increments()?, self.increments_path());
-        let Some(done) = self.last_state(rows.len(), 1, &table)? else { return Ok(None) };
-        let path = self.state_path(done);
-        let stored = Stored::open(&path)?;
-        let [nx, ny] = pair.lower_grid().shape;
-        let of_another = |path| Err(Error::NotResumable { path, reason: "is of another loading" });
-        if stored.field("pressure")?.dim() != (nx, ny) {
-            return of_another(path);
-        }
-        rows.truncate(done);
-        stored.has_rows(&tables::digest("", &rows), &table)?;
-        let state = state::increment::read(&stored, pair, rows)?;
-        if state.next.stage >= stages { of_another(path) } else { Ok(Some(state)) }
+        let (rows, table) = (self.increments()?, self.increments_path());
+        self.under_way(pair, rows, 1, &table, |from, rows| {
+            let state = LoadingState::restore(from, pair, rows)?;
+            if state.next.stage < stages { Ok(state) } else { Err(from.of_another_contact()) }
+        })
     }
 
     /// Reads the interrupted contact of the `pair` that slides in place, if there is one.
@@ -475,12 +468,28 @@ impl Results {
     /// # Errors
     /// [`Error::File`] for unreadable files, [`Error::NotResumable`] if they do not fit together.
     pub(super) fn sliding_under_way(&self, pair: &Pair) -> Result<Option<SlidingState>> {
-        let (mut rows, table) = (self.updates()?, self.updates_path());
-        let Some(done) = self.last_state(rows.len(), 0, &table)? else { return Ok(None) };
+        let (rows, table) = (self.updates()?, self.updates_path());
+        self.under_way(pair, rows, 0, &table, |from, rows| SlidingState::restore(from, pair, rows))
+    }
+
+    /// Restores the last state of an interrupted course of the `pair`, if there is one. It has the `rows` of a `table`, which are
+    /// counted from `first`.
+    fn under_way<T: Record, S>(
+        &self,
+        pair: &Pair,
+        mut rows: Vec<T>,
+        first: usize,
+        table: &Path,
+        restore: impl FnOnce(&Stored, Vec<T>) -> Result<S>,
+    ) -> Result<Option<S>> {
+        let Some(done) = self.last_state(rows.len(), first, table)? else { return Ok(None) };
         let stored = Stored::open(&self.state_path(done))?;
-        rows.truncate(done + 1);
-        stored.has_rows(&tables::digest("", &rows), &table)?;
-        state::update::read(&stored, pair, rows).map(Some)
+        if stored.field("pressure")?.shape() != pair.lower_grid().shape {
+            return Err(stored.of_another_contact());
+        }
+        rows.truncate(done + 1 - first);
+        stored.has_rows(&tables::digest("", &rows), table)?;
+        restore(&stored, rows).map(Some)
     }
 
     /// Removes a file if it exists.

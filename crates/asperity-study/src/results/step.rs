@@ -4,10 +4,10 @@
 //! done once its row is written, and the state of the step before is then removed. The state after the last step is needed
 //! only for a motion, which may be extended by more passes.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::bodies::{add_bodies, add_volumes, set_caps};
-use super::state::{ROWS, increment, pass, update};
+use super::state::{self, ROWS};
 use super::write::Writer;
 use super::{Results, cap_name, is_nth, pressure_name, temperature_name, traction_name};
 use crate::io::fields::FieldFile;
@@ -17,9 +17,8 @@ use asperity_base::error::Result;
 use asperity_base::grid::{CellValues, Field};
 use asperity_base::record::Record;
 use asperity_contact::motion::{
-    IncrementRecord, Output, PassReport, Step, StepRecord, SweepRecord, UpdateRecord,
+    IncrementRecord, Output, PassReport, Step, StepRecord, StepRow, SweepRecord, UpdateRecord,
 };
-use asperity_contact::solver::Solution;
 use asperity_contact::subsurface::Tractions;
 use asperity_contact::with::plasticity::Keep;
 
@@ -43,42 +42,20 @@ pub struct StepWriter {
 
 impl Output for StepWriter {
     fn step(&mut self, step: &Step<'_>) -> Result<()> {
-        let number = step.number();
-        match step {
-            Step::Increment { state, .. } => {
-                if is_nth(number, self.fields_every) {
-                    let normal = state.contact.normal();
-                    let plastic = state.flattening.total(normal.plastic_interference());
-                    let path = self.results.increment_path(number);
-                    self.write_contact("increment", number, &path, normal, &plastic, true)?;
-                }
-                let file = self.state(step, |file| increment::add(file, state));
-                self.add(number, file, &[], &state.increments[number - 1..])
-            }
-            Step::Plastic { record, .. } => self.rows.add(std::slice::from_ref(*record)),
-            Step::Update { state, .. } => {
-                let file = self.state(step, |file| update::add(file, state));
-                self.add(number, file, &[], &state.updates[number..])
-            }
-            Step::Point { record, contact, .. } => {
-                if is_nth(number, self.fields_every) {
-                    let path = self.results.point_path(number);
-                    let (normal, attracts) = (contact.solution.normal(), contact.record.adhesion.is_some());
-                    self.write_contact("point", number, &path, normal, &contact.plastic, attracts)?;
-                }
-                let file = self.state(step, |_| ());
-                self.add(number, file, &[], std::slice::from_ref(*record))
-            }
-            Step::Pass(report) => {
-                self.write_pass(report)?;
-                let grids = [report.pair.lower_grid(), report.pair.upper_grid()];
-                let file = self.state(step, |file| pass::add(file, number, &grids, report.warm));
-                self.add(number, file, report.steps, std::slice::from_ref(report.record))?;
-                match self.keep {
-                    Keep::Last => self.results.remove(&self.results.volume_path(Some(number - 1))),
-                    Keep::Passes => Ok(()),
-                }
-            }
+        match step.pass() {
+            Some(report) => self.write_pass(report)?,
+            None => self.write_contact(step)?,
+        }
+        let positions = step.pass().map_or(&[][..], |report| report.steps);
+        match step.row {
+            StepRow::Increment(row) => self.add(step, positions, row),
+            StepRow::Update(row) => self.add(step, positions, row),
+            StepRow::Point(row) => self.add(step, positions, row),
+            StepRow::Pass(row) => self.add(step, positions, row),
+        }?;
+        match (step.pass(), self.keep) {
+            (Some(_), Keep::Last) => self.results.remove(&self.results.volume_path(Some(step.number - 1))),
+            _ => Ok(()),
         }
     }
 }
@@ -151,51 +128,43 @@ impl StepWriter {
         wanted.map(|pass| SubsurfaceRecord::read(&self.results.subsurface_path(Some(pass)))).collect()
     }
 
-    /// Creates the file of the state after a step; `None` after the last step.
-    fn state(&self, step: &Step<'_>, add: impl FnOnce(&mut FieldFile)) -> Option<FieldFile> {
-        (!step.is_last()).then(|| {
-            let mut file = FieldFile::of_run(&self.identity, &self.results.state_path(step.number()));
-            add(&mut file);
-            file
-        })
-    }
-
     /// Writes the state after a step, if another one follows, and appends the rows of its `positions` and its own row.
-    fn add<T: Record>(
-        &mut self,
-        number: usize,
-        state: Option<FieldFile>,
-        positions: &[StepRecord],
-        record: &[T],
-    ) -> Result<()> {
+    fn add<T: Record>(&mut self, step: &Step<'_>, positions: &[StepRecord], record: &T) -> Result<()> {
+        let record = std::slice::from_ref(record);
         let digest = tables::digest(&tables::digest(&self.digest, positions), record);
-        let goes_on = state.is_some();
-        if let Some(mut state) = state {
-            state.set(ROWS, digest.as_str());
-            state.write()?;
+        let state = step.state.filter(|_| !step.is_last());
+        if let Some(state) = state {
+            let mut file = FieldFile::of_run(&self.identity, &self.results.state_path(step.number));
+            if step.pass().is_some() {
+                file.set("pass", step.number);
+            }
+            state::add(&mut file, step.pitch().expect("what goes on has bodies"), state);
+            file.set(ROWS, digest.as_str());
+            file.write()?;
         }
         if let Some(table) = &mut self.positions {
             table.add(positions)?;
         }
         self.rows.add(record)?;
         self.digest = digest;
-        match number.checked_sub(1).filter(|_| goes_on) {
+        match step.number.checked_sub(1).filter(|_| state.is_some()) {
             Some(before) => self.results.remove(&self.results.state_path(before)),
             None => Ok(()),
         }
     }
 
-    /// Writes the fields of a point of a sweep or of an increment, with its number under the name of its kind.
-    fn write_contact(
-        &self,
-        kind: &str,
-        number: usize,
-        path: &Path,
-        solution: &Solution,
-        plastic: &Field,
-        attracts: bool,
-    ) -> Result<()> {
-        let mut file = FieldFile::of_run(&self.identity, path);
+    /// Writes the fields of a contact, a point of a sweep or an increment, if they are kept.
+    fn write_contact(&self, step: &Step<'_>) -> Result<()> {
+        let number = step.number;
+        let (kind, path, attracts) = match step.row {
+            StepRow::Increment(row) => {
+                ("increment", self.results.increment_path(number), row.adhesion.is_some())
+            }
+            StepRow::Point(row) => ("point", self.results.point_path(number), row.adhesion.is_some()),
+            StepRow::Update(_) | StepRow::Pass(_) => return Ok(()),
+        };
+        let (Some(solution), true) = (step.contact, is_nth(number, self.fields_every)) else { return Ok(()) };
+        let mut file = FieldFile::of_run(&self.identity, &path);
         file.set(kind, number).set("approach", solution.approach);
         let mut add = |name: &str, unit: &str, field: &Field| {
             file.add_field(name, unit, &solution.grid, [0.0, 0.0], field);
@@ -206,8 +175,8 @@ impl StepWriter {
             add("contact", "1", &solution.contact_field());
         }
         add("gap", "m", &solution.gap());
-        if solution.bounds.upper().min().is_finite() {
-            add("plastic", "m", plastic);
+        if let (Some(plastic), true) = (step.plastic(), solution.bounds.upper().min().is_finite()) {
+            add("plastic", "m", &plastic);
         }
         file.write()
     }

@@ -508,7 +508,7 @@ impl Course for Simulation {
     }
 
     fn report<'a>(&'a self, pass: &'a FinishedPass) -> Step<'a> {
-        Step::Pass(pass.report(&self.motion))
+        Step::of_pass(pass.report(&self.motion))
     }
 
     fn take(&mut self, pass: FinishedPass) {
