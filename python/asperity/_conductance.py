@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _core
-from ._keywords import Boundary
+from .keys import Boundary
 from ._optional import need
 from ._same import Comparable
 from ._solved import Solved

@@ -1,6 +1,7 @@
 """Keywords of contacts and motions, each with its type, its table in a case and its meaning.
 
-The table is empty for a key at the top of a case. A keyword without a table says how a case is computed.
+Those with a table are made from the keys of case files, in :mod:`asperity.keys`; the table is empty for a key at the top of a case.
+A keyword without a table says how a case is computed.
 """
 
 # Annotations are not postponed here: types and texts are read when the package is imported.
@@ -9,133 +10,18 @@ import functools
 import inspect
 import os
 import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, TypedDict, TypeVar, Union, cast, get_args, get_origin, is_typeddict
 
 from . import keys
 from ._progress import Told
-from ._units import Quantity
-
-Boundary = Literal["free", "periodic"]
-"""Boundary of the grid."""
 
 
 # fmt: off
-class Common(keys.Capabilities, total=False):
-    """Keywords of every contact."""
-
-    load: Annotated[Quantity | None, "contact", "Normal force, above 0, N. Give one of `load`, `mean_pressure` and `approach`."]
-    mean_pressure: Annotated[Quantity | None, "contact", "Normal force over the area of all cells, above 0, Pa."]
-    approach: Annotated[Quantity | None, "contact", "Approach of the bodies, from the heights without a shift, m."]
-    boundary: Annotated[Boundary | Sequence[Boundary] | None, "contact",
-        'Boundary of the grid: ``"free"`` (by default) or ``"periodic"``, for both axes or for each axis.']
-    grid: Annotated[Literal["as-prepared", "common"] | None, "contact",
-        '``"common"`` resamples both surfaces to the coarser pitch and crops them to a common size; ``"as-prepared"`` by default.']
-    method: Annotated[Literal["auto", "active-set", "polonsky-keer", "direct"] | None, "contact",
-        'Solver: ``"auto"`` (by default), ``"active-set"``, ``"polonsky-keer"`` or ``"direct"``. All give the same result.']
-    device: Annotated[Literal["cpu", "cuda", "host"] | None, "contact",
-        'What solves the contact: ``"cpu"`` (by default), ``"cuda"``, a GPU of NVIDIA, or ``"host"``, its solver in plain loops.']
-    tolerance: Annotated[float | None, "contact", "Residual at which the solver stops, above 0, below 1; 1e-6 by default."]
-    friction: Annotated[float | keys.Friction | None, "",
-        "The coefficient, or a table with `coefficient`, `coupling`, `shear_strength` and `junction_growth`. In a motion and in "
-        "wear in place the upper body slides. A static contact also takes `force`, `displacement` or `sliding`, and `increments`; "
-        "steady rolling takes `creepage`, `creepages` or `rolling_force`, and `spin`."]
-    adhesion: Annotated[keys.Adhesion | None, "",
-        "Attraction between the bodies: `work`, `range`, `potential` and `history`. Loads of a `history` of stages may then pull."]
-
-
-class Rest(TypedDict, total=False):
-    """Keywords of a static contact."""
-
-    loads: Annotated[Sequence[Quantity] | None, "contact", "Loads of a sweep in place of `load`, each on virgin bodies, N."]
-    mean_pressures: Annotated[Sequence[Quantity] | None, "contact",
-        "Mean pressures of a sweep in place of `mean_pressure`, each on virgin bodies, Pa."]
-    approaches: Annotated[Sequence[Quantity] | None, "contact",
-        "Approaches of a sweep in place of `approach`, each on virgin bodies, m."]
-    history: Annotated[Sequence[keys.Stage] | None, "",
-        "Stages of the loading after the first. Quantities that a stage does not name do not change."]
-    acceleration: Annotated[keys.Acceleration | None, "",
-        "Computed cycles of a `history` stand for several: `tolerance`, `max_jump`, `max_wear`. Without it all cycles are computed."]
-    temperature: Annotated[keys.Temperature | None, "",
-        '`bulk`, K or text such as ``"100 °C"``: the temperature of the bodies, for films that grow in cycles.']
-    plasticity: Annotated[keys.Plasticity | None, "",
-        "The plastic volume, for bodies with a :class:`Plasticity`: `depth`, `layers`, `growth`, `increments`, "
-        "`tolerance`, `unload`."]
-    subsurface: Annotated[keys.Subsurface | None, "",
-        "The stress below the surface, written to `out`: `to`, `layers`, `planes` and others."
-        " Without `out`, :func:`asperity.stress` computes stresses."]
-    pressure_every: Annotated[int | None, "output",
-        "In a sweep, the fields of every n-th point are stored; 0 stores none, 8 by default."]
-
-
-class Distance(TypedDict):
-    """The keyword that wear in place requires."""
-
-    distance: Annotated[Quantity, "sliding", "Sliding distance, above 0, m."]
-
-
-class Sliding(TypedDict, total=False):
-    """Keywords of wear in place."""
-
-    speed: Annotated[Quantity | None, "sliding",
-        "Speed of the upper body, above 0, m/s; required for growing films and temperature."]
-    updates: Annotated[int | None, "sliding",
-        "Number of implicit updates, each a contact with the wear during it; 40 by default."]
-    temperature: Annotated[keys.Temperature | None, "",
-        '`bulk`, K or text such as ``"100 °C"``, and `every`: 1 if friction heats the bodies, 0 if not.']
-
-
-class Motion(TypedDict, total=False):
-    """Keywords of a motion."""
-
-    passes: Annotated[int | None, "motion", "Number of passes; 1 by default."]
-    stride: Annotated[int | None, "motion", "Cells from one position to the next; 1 by default."]
-    strategy: Annotated[Literal["overlap", "shift"] | None, "motion",
-        '``"overlap"`` (by default) solves only the overlap; ``"shift"`` shifts both surfaces cyclically.']
-    speed_lower: Annotated[Quantity | None, "motion",
-        "Speed of the lower surface in a shift, m/s; 0 by default. Only the ratio of both speeds matters. The slower surface "
-        "moves by parts of a cell."]
-    speed_upper: Annotated[Quantity | None, "motion", "Speed of the upper surface in a shift, m/s; 1 by default."]
-    control: Annotated[Literal["pass-load", "step-load", "approach"] | None, "motion",
-        'Prescribed quantity: ``"pass-load"`` the mean load of a pass (by default), ``"step-load"`` the load at every position, '
-        '``"approach"`` the approach.']
-    plastic_update: Annotated[Literal["pass", "step"] | None, "motion",
-        'When plastic deformation changes the surfaces: after the ``"pass"``, or at every ``"step"``.']
-    load_tolerance: Annotated[float | None, "motion",
-        "Relative tolerance of the mean load of a pass, above 0, below 1; 1e-4 by default."]
-    speed: Annotated[Quantity | None, "motion",
-        "Speed of the upper body in an overlap, above 0, m/s; required for wear, films and temperature."]
-    path: Annotated[Literal["one-way", "reciprocating"] | None, "motion",
-        'A pass goes ``"one-way"`` (by default), or forth and back: ``"reciprocating"``.']
-    offset_y: Annotated[int | Literal["random"] | None, "motion",
-        'Shift of the upper body along y from pass to pass, in cells; 0 by default. ``"random"`` '
-        "is a random position, from the `seed` and the number of the pass."]
-    seed: Annotated[int | None, "motion", 'Seed of ``offset_y="random"``; 0 by default.']
-    counter: Annotated[Literal["same", "fresh"] | None, "motion",
-        'The upper body of the passes after the first: the ``"same"`` (by default), or a ``"fresh"`` one, made by its '
-        "generator from another seed. A fresh one requires an upper surface of a generator without heights yet, such as "
-        "``asp.generate.low_pass(...)``."]
-    acceleration: Annotated[keys.Acceleration | None, "",
-        "Extrapolation over several passes: `tolerance`, `max_jump`, `max_wear`. Without it all passes are computed."]
-    temperature: Annotated[keys.Temperature | None, "",
-        '`bulk`, K or text such as ``"100 °C"``, and `every`: the flash temperature is computed in every n-th pass, 0 for '
-        "none."]
-    plasticity: Annotated[keys.Plasticity | None, "",
-        "The plastic volume, for bodies with a :class:`Plasticity`: `depth`, `layers`, `growth`, "
-        "`tolerance`, `keep`."]
-    subsurface: Annotated[keys.Subsurface | None, "",
-        "The stress below the surface: `to`, `layers` and others."]
-    pressure_every: Annotated[int | None, "output", "The pressures of every n-th position are stored; 0 stores none, 8 by default."]
-    rim: Annotated[float | None, "output",
-        "Part of a body's length at free ends that the columns of its interior leave out; 0.1 by default."]
-
-
-class Output(TypedDict, total=False):
+class Output(keys.Output, total=False):
     """Keywords of the results."""
 
-    paraview: Annotated[bool | None, "output", "Whether fields are also written for ParaView."]
-    title: Annotated[str | None, "", "Title of the results."]
     out: Annotated[str | os.PathLike[str] | None,
         "Directory for the results. Without it a contact writes nothing, and the results of a motion live as long as its "
         ":class:`Run`."]
@@ -165,15 +51,15 @@ class Tasks(TypedDict, total=False):
 
 
 # fmt: on
-class ContactKeywords(Common, Rest, Output, Execution, total=False):
+class ContactKeywords(keys.Common, keys.Rest, Output, Execution, total=False):
     """Keywords of :func:`asperity.contact`."""
 
 
-class SlideKeywords(Distance, Common, Sliding, Output, Execution, total=False):
+class SlideKeywords(keys.Common, keys.Sliding, Output, Execution, total=False):
     """Keywords of :func:`asperity.slide`."""
 
 
-class MotionKeywords(Common, Motion, Output, Execution, total=False):
+class MotionKeywords(keys.Common, keys.Motion, Output, Execution, total=False):
     """Keywords of :func:`asperity.simulate` and :class:`asperity.Simulation`."""
 
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _core
 from ._contact import Contact
-from ._keywords import Boundary
+from .keys import Boundary
 from ._optional import need
 from ._same import Comparable
 from ._units import Pair, Quantity, lengths, quantity

@@ -13,6 +13,9 @@ from typing import Annotated, Literal, TypedDict
 
 from ._units import Pair, Quantity
 
+Boundary = Literal["free", "periodic"]
+"""Boundary of the grid."""
+
 __all__ = [
     "Acceleration",
     "Adhesion",
@@ -459,6 +462,150 @@ class Capabilities(TypedDict, total=False):
         "Flow of a fluid through the gap: `viscosity`, `pressure`, `along`, `ends`, `gas`, `outlet`, `density`, `every`."]
     conductance: Annotated[Conductance | None, "",
         "Thermal or electrical conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`."]
+
+
+class Common(Capabilities, total=False):
+    """Keywords of every contact."""
+
+    load: Annotated[Quantity | None, "contact",
+        "Total normal force; in a motion, the mean over a pass or the force at each position, see `control`; force > 0. Without "
+        "it: exactly one of the six that give a load or an approach."]
+    mean_pressure: Annotated[Quantity | None, "contact",
+        "Load over the apparent area, the area of all cells at full overlap; during an overlap motion half of them overlap on "
+        "average, so that the mean pressure there is about twice as large; pressure > 0. Without it: exactly one of the six that "
+        "give a load or an approach."]
+    approach: Annotated[Quantity | None, "contact",
+        "Distance by which the bodies have approached, of any sign; 0 if the planes z = 0 of both height maps coincide; length. "
+        "Without it: exactly one of the six that give a load or an approach."]
+    boundary: Annotated[Boundary | Sequence[Boundary] | None, "contact",
+        "Continuation beyond the edges: `\"free\"`, an unloaded half-space; `\"periodic\"`, copies of the contact; one of each: a "
+        "line contact; `\"free\"`, `\"periodic\"`, or one word for each axis: `[\"free\", \"periodic\"]`. By default `\"free\"`."]
+    grid: Annotated[Literal["as-prepared", "common"] | None, "contact",
+        "`\"common\"` resamples both prepared surfaces to the coarser pitch and crops them about their centres to a common size; "
+        "`\"as-prepared\"` requires surfaces that fit. By default `\"as-prepared\"`."]
+    method: Annotated[Literal["auto", "direct", "polonsky-keer", "active-set"] | None, "contact",
+        "Solver; all methods give the same result. By default `\"auto\"`."]
+    device: Annotated[Literal["cpu", "cuda", "host"] | None, "contact",
+        "What solves the contact: `\"cpu\"`; `\"cuda\"`, a GPU of NVIDIA; `\"host\"`, the solver of the GPU in plain loops on the "
+        "processor, for comparison. By default `\"cpu\"`."]
+    tolerance: Annotated[float | None, "contact",
+        "Residual η at which the solver stops, see theory; number > 0, < 1. By default `1e-6`."]
+    friction: Annotated[float | Friction | None, "",
+        "Friction law and tangential loading: `coefficient`, `coupling`, `shear_strength`, `junction_growth`, `force`, "
+        "`displacement`, `sliding`, `creepage`, `creepages`, `spin`, `rolling_force`, `increments`; a number is its coefficient."]
+    adhesion: Annotated[Adhesion | None, "",
+        "Attraction between the bodies: `work`, `range`, `potential`, `history`."]
+
+
+class Rest(TypedDict, total=False):
+    """Keywords of a static contact."""
+
+    loads: Annotated[Sequence[Quantity] | None, "contact",
+        "Several loads, one after the other; list of at least one value, or a table. Without it: exactly one of the six that give "
+        "a load or an approach."]
+    mean_pressures: Annotated[Sequence[Quantity] | None, "contact",
+        "Several mean pressures, one after the other; list of at least one value, or a table. Without it: exactly one of the six "
+        "that give a load or an approach."]
+    approaches: Annotated[Sequence[Quantity] | None, "contact",
+        "Several approaches, one after the other; list of at least one value, or a table. Without it: exactly one of the six that "
+        "give a load or an approach."]
+    history: Annotated[Sequence[Stage] | None, "",
+        "Further stages of the loading of a static contact: `load`, `mean_pressure`, `approach`, `force`, `displacement`, "
+        "`sliding`, `increments`, `cycles`, `period`."]
+    acceleration: Annotated[Acceleration | None, "",
+        "Extrapolation over passes of wearing bodies: `tolerance`, `max_jump`, `max_wear`."]
+    temperature: Annotated[Temperature | None, "",
+        "Temperature of the bodies: `bulk`, `every`."]
+    plasticity: Annotated[Plasticity | None, "",
+        "Volume below the surface in which bodies deform plastically: `depth`, `layers`, `growth`, `increments`, `tolerance`, "
+        "`unload`, `keep`."]
+    subsurface: Annotated[Subsurface | None, "",
+        "Stress below the surface: `to`, `layers`, `body`, `planes`, `section`, `columns`, `step`."]
+    pressure_every: Annotated[int | None, "output",
+        "Interval of the steps whose fields are stored, from the first one on; 0: none. A position of a pass has its pressure, a "
+        "point of a sweep and an increment of bodies that attract each other have pressure and gap; whole number ≥ 0. By default "
+        "`8`."]
+
+
+class _RequiredSliding(TypedDict):
+    distance: Annotated[Quantity, "sliding",
+        "Sliding distance; length > 0. Required."]
+
+
+class Sliding(_RequiredSliding, total=False):
+    """Keywords of wear in place."""
+
+    speed: Annotated[Quantity | None, "sliding",
+        "Speed of the upper body; required for growing films and for temperature; speed > 0. Without it: unknown."]
+    updates: Annotated[int | None, "sliding",
+        "Number of implicit updates, each a contact with the wear during it; update i of n ends at the distance · (i/n)²; whole "
+        "number ≥ 1. By default `40`."]
+    temperature: Annotated[Temperature | None, "",
+        "Temperature of the bodies: `bulk`, `every`."]
+
+
+class Motion(TypedDict, total=False):
+    """Keywords of a motion."""
+
+    strategy: Annotated[Literal["overlap", "shift"] | None, "motion",
+        "`\"overlap\"`: the upper body enters on the left, passes over the lower one and leaves on the right; only the overlap is "
+        "solved. `\"shift\"`: both bodies are shifted cyclically and the full contact is solved. By default `\"overlap\"`."]
+    passes: Annotated[int | None, "motion",
+        "Number of passes; whole number ≥ 1. By default `1`."]
+    stride: Annotated[int | None, "motion",
+        "Cells from one position to the next; whole number ≥ 1. By default `1`."]
+    control: Annotated[Literal["pass-load", "step-load", "approach"] | None, "motion",
+        "Prescribed quantity. `\"pass-load\"`: the mean load of a pass, with one approach for the pass; `\"step-load\"`: the load at "
+        "each position; `\"approach\"`: the approach at all positions. Without it: `\"pass-load\"`; `\"approach\"` if [contact] gives "
+        "an approach."]
+    plastic_update: Annotated[Literal["pass", "step"] | None, "motion",
+        "When plastic deformation changes the surfaces: after each pass, or at every step; for elasto-plastic bodies always "
+        "`\"step\"`. By default `\"pass\"`."]
+    load_tolerance: Annotated[float | None, "motion",
+        "Relative tolerance of the mean load of a pass; number > 0, < 1. By default `1e-4`."]
+    speed_lower: Annotated[Quantity | None, "motion",
+        "`\"shift\"` only: speed of the lower surface along x; apart from times, only the ratio of the speeds matters; speed. By "
+        "default `0`."]
+    speed_upper: Annotated[Quantity | None, "motion",
+        "`\"shift\"` only: speed of the upper surface along x; at most one speed may be 0; speed. By default `\"1 m/s\"`."]
+    speed: Annotated[Quantity | None, "motion",
+        "`\"overlap\"` only: speed of the upper body; required for growing films and temperature; speed > 0. Without it: unknown."]
+    path: Annotated[Literal["one-way", "reciprocating"] | None, "motion",
+        "`\"reciprocating\"`: a pass goes forth and back. By default `\"one-way\"`."]
+    offset_y: Annotated[int | Literal["random"] | None, "motion",
+        "Shift of the upper body along y from pass to pass, in cells; `\"random\"`: a random position, from `seed` and the number "
+        "of the pass; whole number ≥ 0, or `\"random\"`. By default `0`."]
+    seed: Annotated[int | None, "motion",
+        "Seed of `offset_y = \"random\"`; whole number ≥ 0. By default `0`."]
+    counter: Annotated[Literal["same", "fresh"] | None, "motion",
+        "Upper body in the passes after the first: the same, or a fresh one, generated and prepared in the same way from another "
+        "seed. By default `\"same\"`."]
+    acceleration: Annotated[Acceleration | None, "",
+        "Extrapolation over passes of wearing bodies: `tolerance`, `max_jump`, `max_wear`."]
+    temperature: Annotated[Temperature | None, "",
+        "Temperature of the bodies: `bulk`, `every`."]
+    plasticity: Annotated[Plasticity | None, "",
+        "Volume below the surface in which bodies deform plastically: `depth`, `layers`, `growth`, `increments`, `tolerance`, "
+        "`unload`, `keep`."]
+    subsurface: Annotated[Subsurface | None, "",
+        "Stress below the surface: `to`, `layers`, `body`, `planes`, `section`, `columns`, `step`."]
+    pressure_every: Annotated[int | None, "output",
+        "Interval of the steps whose fields are stored, from the first one on; 0: none. A position of a pass has its pressure, a "
+        "point of a sweep and an increment of bodies that attract each other have pressure and gap; whole number ≥ 0. By default "
+        "`8`."]
+    rim: Annotated[float | None, "output",
+        "Part of a body's length, at its free ends, that the columns `…_interior` of the tables leave out; number ≥ 0, < 0.5. By "
+        "default `0.1`."]
+
+
+class Output(TypedDict, total=False):
+    """Keywords of the results."""
+
+    paraview: Annotated[bool | None, "output",
+        "Whether all fields, and the stress below the surface as a volume, are also written as VTK image data (`.vti`). By "
+        "default `false`."]
+    title: Annotated[str | None, "",
+        "A name for reports. Without it: file name without its extension."]
 
 
 def __dir__() -> list[str]:

@@ -25,6 +25,9 @@ from collections.abc import Sequence
 from typing import Annotated, Literal, TypedDict
 
 from ._units import Pair, Quantity
+
+Boundary = Literal["free", "periodic"]
+"""Boundary of the grid."""
 "#;
 
 /// A class: its name, its tables, those of their keys that it has (all if none is named), and what its documentation says.
@@ -69,6 +72,62 @@ const CLASSES: &[Class] = &[
     ),
 ];
 
+/// Keywords of a function in Python: the name of their class, its base, what its documentation says, and where they come from.
+type Keywords = (&'static str, &'static str, &'static str, &'static [Source]);
+
+/// A table, and those of its keys that are keywords.
+type Source = (&'static str, Which);
+
+#[derive(Clone, Copy)]
+enum Which {
+    All,
+    Only(&'static [&'static str]),
+    But(&'static [&'static str]),
+}
+
+const SWEEPS: &[&str] = &["loads", "mean_pressures", "approaches"];
+
+const KEYWORDS: &[Keywords] = &[
+    (
+        "Common",
+        "Capabilities",
+        "Keywords of every contact.",
+        &[("contact", Which::But(SWEEPS)), ("", Which::Only(&["friction", "adhesion"]))],
+    ),
+    (
+        "Rest",
+        "TypedDict",
+        "Keywords of a static contact.",
+        &[
+            ("contact", Which::Only(SWEEPS)),
+            ("", Which::Only(&["history", "acceleration", "temperature", "plasticity", "subsurface"])),
+            ("output", Which::Only(&["pressure_every"])),
+        ],
+    ),
+    (
+        "Sliding",
+        "TypedDict",
+        "Keywords of wear in place.",
+        &[("sliding", Which::All), ("", Which::Only(&["temperature"]))],
+    ),
+    (
+        "Motion",
+        "TypedDict",
+        "Keywords of a motion.",
+        &[
+            ("motion", Which::All),
+            ("", Which::Only(&["acceleration", "temperature", "plasticity", "subsurface"])),
+            ("output", Which::Only(&["pressure_every", "rim"])),
+        ],
+    ),
+    (
+        "Output",
+        "TypedDict",
+        "Keywords of the results.",
+        &[("output", Which::Only(&["paraview"])), ("", Which::Only(&["title"]))],
+    ),
+];
+
 #[test]
 fn the_types_of_python_are_those_of_the_keys() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../python/asperity/keys.py");
@@ -106,7 +165,84 @@ fn file() -> String {
         file,
         "\n\nclass Capabilities(TypedDict, total=False):\n    \"\"\"Keywords of the capabilities.\"\"\"\n\n{capabilities}"
     );
+    for each in KEYWORDS {
+        file += &keywords(each);
+    }
     file + "\n\ndef __dir__() -> list[str]:\n    return __all__\n"
+}
+
+/// A class with keywords, each with its type, its table and its meaning. Those that a call must have are in a base class.
+fn keywords((name, base, about, sources): &Keywords) -> String {
+    let (mut fields, mut required) = (String::new(), String::new());
+    for (table, which) in *sources {
+        for section in keys().iter().filter(|section| is_of(section.tables, table)) {
+            for key in section.keys.iter().filter(|key| which.has(key.name)) {
+                let (kind, text) = match key.kind {
+                    Kind::Table | Kind::Tables => (table_type(key), meaning_of_table(key)),
+                    _ => (python_type(name, key), meaning(key, section.kind)),
+                };
+                let is_required = key.default == Fallback::Required;
+                let (to, none) = if is_required { (&mut required, "") } else { (&mut fields, " | None") };
+                let text = wrapped(&text, 0);
+                let text: Vec<String> = text.lines().map(str::to_owned).collect();
+                let last = text.len() - 1;
+                let lines = text.iter().enumerate().map(|(index, line)| {
+                    format!(
+                        "        {}",
+                        quoted(&if index < last { format!("{line} ") } else { line.clone() })
+                    )
+                });
+                let lines: Vec<String> = lines.collect();
+                let _ = writeln!(
+                    to,
+                    "    {}: Annotated[{kind}{none}, \"{table}\",\n{}]",
+                    key.name,
+                    lines.join("\n")
+                );
+            }
+        }
+    }
+    let mut text = String::new();
+    let mut base = (*base).to_owned();
+    if !required.is_empty() {
+        base = format!("_Required{name}");
+        let _ = write!(text, "\n\nclass {base}(TypedDict):\n{required}");
+    }
+    let _ = write!(text, "\n\nclass {name}({base}, total=False):\n    \"\"\"{about}\"\"\"\n\n{fields}");
+    text
+}
+
+/// Whether a section is that of a table; the empty name is that of the keys above all tables.
+fn is_of(tables: &[&str], table: &str) -> bool {
+    if table.is_empty() { tables.is_empty() } else { tables.contains(&table) }
+}
+
+impl Which {
+    fn has(self, key: &str) -> bool {
+        match self {
+            Self::All => true,
+            Self::Only(keys) => keys.contains(&key),
+            Self::But(keys) => !keys.contains(&key),
+        }
+    }
+}
+
+/// The type of a keyword that is a table.
+fn table_type(key: &Key) -> String {
+    match key.name {
+        "friction" => "float | Friction".to_owned(),
+        "history" => "Sequence[Stage]".to_owned(),
+        name => capitalised(name),
+    }
+}
+
+/// The meaning of a table, with its keys.
+fn meaning_of_table(key: &Key) -> String {
+    let class =
+        CLASSES.iter().find(|(_, tables, ..)| tables.contains(&key.name)).expect("a class for each table");
+    let names: Vec<String> = of_class(class).iter().map(|(key, _)| format!("`{}`", key.name)).collect();
+    let number = if key.name == "friction" { "; a number is its coefficient" } else { "" };
+    format!("{}: {}{number}.", capitalised(&plain(key.text)), names.join(", "))
 }
 
 /// The keys of a class, each with the choice that gives it a meaning.
@@ -162,6 +298,9 @@ fn python_type(class: &str, key: &Key) -> String {
         ("Subsurface", "planes") => return "Sequence[Quantity]".to_owned(),
         ("Subsurface", "columns") => return "Sequence[Sequence[Quantity]]".to_owned(),
         ("Temperature", "bulk") => return "Pair".to_owned(),
+        ("Rest", "loads" | "mean_pressures" | "approaches") => return "Sequence[Quantity]".to_owned(),
+        ("Common", "boundary") => return "Boundary | Sequence[Boundary]".to_owned(),
+        ("Motion", "offset_y") => return "int | Literal[\"random\"]".to_owned(),
         _ => {}
     }
     let of_number = |kind: &Kind| if matches!(kind, Kind::Number(..)) { "float" } else { "Quantity" };

@@ -16,7 +16,7 @@ const SIGNED_FORCE: Value<f64> = quantity(Dimension::Force, Any).exists(exists::
 const SIGNED_LENGTH: Value<f64> = quantity(Dimension::Length, Any).exists(exists::LENGTH);
 const CREEPAGE: Value<f64> = number_named("a finite number", Any);
 
-const ONE: &str = "exactly one of the first six";
+const ONE: &str = "exactly one of the six that give a load or an approach";
 const NONE: &str = "at most one of the six in the plane";
 
 /// The form of a list of values.
