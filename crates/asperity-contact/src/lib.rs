@@ -89,6 +89,7 @@ pub mod solver;
 pub mod subsurface;
 pub mod temperature;
 pub mod plasticity;
+pub mod viscoelastic;
 pub mod motion;
 pub mod with;
 pub mod verification;
