@@ -19,6 +19,7 @@ pub mod punch;
 pub mod rough;
 pub mod spence;
 pub mod sticking;
+pub mod viscoelastic;
 pub mod westergaard;
 
 pub use adhesion::{AdhesiveWave, DmtSphere, JkrSphere, KendallPunch, MaugisSphere};
@@ -33,6 +34,7 @@ pub use inclusion::Inclusion;
 pub use line::HertzLine;
 pub use punch::FlatPunch;
 pub use sticking::{StickingPunch, StickingSphere};
+pub use viscoelastic::ViscoelasticCylinder;
 pub use westergaard::Westergaard;
 
 #[cfg(test)]

@@ -93,9 +93,8 @@ impl Relaxation {
     pub fn creep(&self) -> Creep {
         let term = |index: usize| {
             let rate = self.zero(index);
-            let sum = self.terms.iter().map(|each| {
-                each.modulus * each.time / rate.one_minus(each.time).powi(2)
-            });
+            let sum =
+                self.terms.iter().map(|each| each.modulus * each.time / rate.one_minus(each.time).powi(2));
             CreepTerm { compliance: 1.0 / (rate.value() * sum.sum::<f64>()), time: 1.0 / rate.value() }
         };
         Creep { glassy: 1.0 / self.glassy(), terms: (0..self.terms.len()).map(term).collect() }
@@ -206,8 +205,10 @@ mod tests {
     fn inverse(relaxation: &Relaxation) -> f64 {
         let creep = relaxation.creep();
         let rates = relaxation.terms.iter().map(|term| -term.time.log10());
-        let (least, most) = rates.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), rate| (a.min(rate), b.max(rate)));
-        let frequencies = (0..=200).map(|n| 10f64.powf(least - 2.0 + (most - least + 4.0) * f64::from(n) / 200.0));
+        let (least, most) =
+            rates.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), rate| (a.min(rate), b.max(rate)));
+        let frequencies =
+            (0..=200).map(|n| 10f64.powf(least - 2.0 + (most - least + 4.0) * f64::from(n) / 200.0));
         frequencies.map(|w| (creep.complex(w) * relaxation.complex(w) - 1.0).norm()).fold(0.0, f64::max)
     }
 
@@ -219,7 +220,9 @@ mod tests {
         let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(1);
         for _ in 0..300 {
             let terms: Vec<_> = (0..random.random_range(1..14))
-                .map(|_| (10f64.powf(random.random_range(-3.0..9.0)), 10f64.powf(random.random_range(-8.0..0.0))))
+                .map(|_| {
+                    (10f64.powf(random.random_range(-3.0..9.0)), 10f64.powf(random.random_range(-8.0..0.0)))
+                })
                 .collect();
             let body = relaxation(10f64.powf(random.random_range(0.0..7.0)), &terms);
             assert!(inverse(&body) < 1e-12, "{:e} {body:?}", inverse(&body));
@@ -235,7 +238,10 @@ mod tests {
     fn a_single_time_is_retarded_by_the_ratio_of_the_moduli() {
         let creep = relaxation(1.0, &[(9.0, 0.1)]).creep();
         assert!((creep.terms[0].time - 1.0).abs() < 1e-15 && (creep.terms[0].compliance - 0.9).abs() < 1e-15);
-        assert!((creep.at(0.0) - 0.1).abs() < 1e-16 && (creep.at(1.0) - (1.0 - 0.9 * (-1f64).exp())).abs() < 1e-15);
+        assert!(
+            (creep.at(0.0) - 0.1).abs() < 1e-16
+                && (creep.at(1.0) - (1.0 - 0.9 * (-1f64).exp())).abs() < 1e-15
+        );
         let pair = creep.plus(&Creep::elastic(0.5)).times(2.0);
         assert!((pair.glassy - 1.2).abs() < 1e-15 && (pair.relaxed() - 3.0).abs() < 1e-15);
     }

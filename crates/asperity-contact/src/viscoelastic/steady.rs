@@ -1,0 +1,342 @@
+//! Contact of bodies that slide steadily over each other.
+
+use crate::error::{Error, Result, check_in};
+use crate::grid::Field;
+use crate::math::gmres;
+use crate::solver::{Bounds, Control, Params, Residual, Solution, Stats, Watch, residual};
+use crate::units::{Dimension, Newton};
+use crate::viscoelastic::operator::SteadySliding;
+use asperity_base::math::active_set::offset_for_sum;
+
+/// Residual below which the predicted sets are nearly right: all cells on the wrong side change sides, or one alone.
+const NEAR: f64 = 3e-2;
+/// Rounds in which the number of cells on the wrong side need not fall.
+const PATIENCE: usize = 4;
+/// Most rounds.
+const MAX_ROUNDS: usize = 400;
+/// Most products of a round.
+const MAX_PRODUCTS: usize = 60;
+/// Least and largest reduction of the residual in a round.
+const REDUCTION: [f64; 2] = [1e-8, 0.1];
+
+/// A contact that slides steadily.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct SteadyContact {
+    /// The contact. Its displacement is that of the moving frame.
+    pub solution: Solution,
+    /// The force with which the bodies resist the motion, ≥ 0 but for rounding; 0 for elastic bodies.
+    pub drag: Newton,
+}
+
+/// Solves the contact of bodies over an undeformed gap h that slide steadily: p ≥ 0, g = h + Cp − δ ≥ 0, and p = 0 where g > 0. `start`
+/// is a pressure near the solution, such as that at a neighbouring speed.
+///
+/// Newton's method on predicted sets: the gap of the cells in contact is closed by the generalised method of minimal residuals,
+/// preconditioned by the inverse of the harmonics; under a load the multiplier is eliminated. Far from the solution all cells are
+/// predicted from pressure and gap. Near it the cells on the wrong side change sides, and once their number has not fallen in some
+/// rounds, the last one alone, which ends for every matrix of positive principal minors (Júdice and Pires, Eur. J. Oper. Res. 1994).
+///
+/// # Errors
+/// [`Error::OutOfRange`] for a load or an approach that is not finite, [`Error::NotConverged`], [`Error::Interrupted`].
+///
+/// # Panics
+/// If a field has another shape than the operator's grid.
+pub fn solve_steady(
+    operator: &mut SteadySliding,
+    initial_gap: &Field,
+    control: Control,
+    start: Option<&Field>,
+    params: &Params,
+    watch: &dyn Watch,
+) -> Result<SteadyContact> {
+    let grid = *operator.grid();
+    assert_eq!(initial_gap.shape(), grid.shape, "shape of the gap");
+    let sum = match control {
+        Control::Load(load) => {
+            check_in(
+                Dimension::Force,
+                "load",
+                load,
+                load > 0.0 && load.is_finite(),
+                "a finite load above 0",
+            )?;
+            Some(load / grid.cell_area())
+        }
+        Control::Approach(approach) => {
+            let is_valid = approach.is_finite();
+            check_in(Dimension::Length, "approach", approach, is_valid, "a finite length")?;
+            None
+        }
+    };
+    let before = operator.convolutions();
+    let mut rounds = Rounds::new(operator, initial_gap, sum, control, start);
+    rounds.solve(params, watch)?;
+    let residual = rounds.finish();
+    let Rounds { pressure, displacement, done: iterations, .. } = rounds;
+    if residual.eta > params.tolerance {
+        let (residual, tolerance) = (residual.eta, params.tolerance);
+        return Err(Error::NotConverged { iterations, residual, tolerance });
+    }
+    let drag = operator.drag(&pressure);
+    let stats = Stats { iterations, convolutions: operator.convolutions() - before, ..Stats::default() };
+    let solution = Solution {
+        grid,
+        initial_gap: initial_gap.clone(),
+        bounds: Bounds::ELASTIC,
+        pressure,
+        displacement,
+        approach: residual.approach,
+        residual: residual.eta,
+        stats,
+    };
+    Ok(SteadyContact { solution, drag })
+}
+
+/// The present pressure and displacement, and the rounds so far.
+struct Rounds<'a> {
+    operator: &'a mut SteadySliding,
+    gap: &'a Field,
+    /// Σ p under a load.
+    sum: Option<f64>,
+    control: Control,
+    pressure: Field,
+    displacement: Field,
+    done: usize,
+    /// A field for convolutions, and its image.
+    scratch: [Field; 2],
+}
+
+/// Cells that are predicted to touch, and the rules by which they change.
+struct Sets {
+    touching: Vec<bool>,
+    /// Fewest cells on the wrong side so far, and rounds in which it need not fall.
+    fewest: usize,
+    left: usize,
+}
+
+impl<'a> Rounds<'a> {
+    fn new(
+        operator: &'a mut SteadySliding,
+        gap: &'a Field,
+        sum: Option<f64>,
+        control: Control,
+        start: Option<&Field>,
+    ) -> Self {
+        let shape = gap.raw_dim();
+        let mut pressure = match (start, sum) {
+            (Some(start), _) => start.clone(),
+            (None, Some(sum)) => Field::from_elem(shape, sum / gap.len() as f64),
+            (None, None) => Field::zeros(shape),
+        };
+        rescale(&mut pressure, sum);
+        let scratch = [Field::zeros(shape), Field::zeros(shape)];
+        let displacement = Field::zeros(shape);
+        let mut this = Self { operator, gap, sum, control, pressure, displacement, done: 0, scratch };
+        this.displace();
+        this
+    }
+
+    /// Computes the displacement of the present pressure.
+    fn displace(&mut self) {
+        self.operator.displace(&self.pressure, &mut self.displacement);
+    }
+
+    fn residual(&self) -> Residual {
+        let approach = match self.control {
+            Control::Approach(approach) => Some(approach),
+            Control::Load(_) => None,
+        };
+        let c0 = self.operator.self_influence();
+        residual(&self.pressure, &self.displacement, self.gap, &Bounds::ELASTIC, c0, approach)
+    }
+
+    /// Goes on until the residual is below the tolerance, or until no more can be done.
+    fn solve(&mut self, params: &Params, watch: &dyn Watch) -> Result<()> {
+        let mut sets: Option<Sets> = None;
+        let (mut caution, mut best) = (1.0f64, f64::INFINITY);
+        while self.done < MAX_ROUNDS {
+            if watch.stop() {
+                return Err(Error::Interrupted);
+            }
+            let residual = self.residual();
+            watch.iteration(residual.eta, params.tolerance);
+            // The last pressure is clipped and has its displacement computed anew, which costs a little.
+            if residual.eta < 0.5 * params.tolerance {
+                break;
+            }
+            match &mut sets {
+                Some(sets) if residual.eta <= NEAR => self.correct(sets, residual.approach),
+                _ => {
+                    if residual.eta < 0.7 * best {
+                        (best, caution) = (residual.eta, (0.5 * caution).max(1.0));
+                    } else if best.is_finite() {
+                        caution *= 2.0;
+                    }
+                    let touching = self.predict(caution, residual.approach);
+                    let (fewest, left) = sets.map_or((usize::MAX, PATIENCE), |sets| (sets.fewest, sets.left));
+                    sets = Some(Sets { touching, fewest, left });
+                }
+            }
+            let touching = &sets.as_ref().expect("the sets just made").touching;
+            if !touching.contains(&true) {
+                break;
+            }
+            self.close(touching, &residual, params.tolerance);
+            self.done += 1;
+        }
+        Ok(())
+    }
+
+    /// Predicts which cells touch: those whose pressure stays above 0 when the gap is closed by a compliance of its own, at the
+    /// approach at which they bear the load.
+    fn predict(&self, caution: f64, approach: f64) -> Vec<bool> {
+        let compliance = caution * self.operator.self_influence();
+        let cells = self.pressure.iter().zip(self.gap).zip(&self.displacement);
+        let predicted: Vec<f64> = cells.map(|((p, h), u)| p + (approach - h - u) / compliance).collect();
+        let offset = self.sum.map_or(0.0, |sum| {
+            let most = predicted.iter().fold(sum, |most, p| most.max(p.abs() + sum));
+            let sums = |offset: f64| {
+                let above = predicted.iter().map(|p| p + offset).filter(|p| *p > 0.0);
+                Ok::<_, Error>(above.fold([0.0, 0.0], |[sum, count], p| [sum + p, count + 1.0]))
+            };
+            offset_for_sum([-most, most], sum, 1e-14 * sum, sums).unwrap_or(0.0)
+        });
+        predicted.iter().map(|p| p + offset > 0.0).collect()
+    }
+
+    /// Lets cells on the wrong side change sides.
+    fn correct(&self, sets: &mut Sets, approach: f64) {
+        let c0 = self.operator.self_influence();
+        let cells = self.pressure.iter().zip(self.gap).zip(&self.displacement);
+        let touches = cells.map(|((p, h), u)| p + (approach - h - u) / c0 > 0.0);
+        let wrong = touches.zip(&sets.touching).enumerate().filter(|(_, (now, then))| now != *then);
+        let wrong: Vec<usize> = wrong.map(|(cell, _)| cell).collect();
+        let Some(last) = wrong.last() else { return };
+        let mut changed = &wrong[..];
+        if wrong.len() < sets.fewest {
+            (sets.fewest, sets.left) = (wrong.len(), PATIENCE);
+        } else if sets.left > 0 {
+            sets.left -= 1;
+        } else {
+            changed = std::slice::from_ref(last);
+        }
+        changed.iter().for_each(|cell| sets.touching[*cell] = !sets.touching[*cell]);
+    }
+
+    /// Closes the gap of the cells that touch, under the load.
+    fn close(&mut self, touching: &[bool], residual: &Residual, tolerance: f64) {
+        let cells: Vec<usize> = (0..touching.len()).filter(|cell| touching[*cell]).collect();
+        let count = cells.len() as f64;
+        self.lift(touching, count);
+        let approach = match (self.control, self.sum) {
+            (Control::Approach(approach), None) => approach,
+            _ => {
+                let (h, u) = (flat(self.gap), flat(&self.displacement));
+                cells.iter().map(|cell| h[*cell] + u[*cell]).sum::<f64>() / count
+            }
+        };
+        let (h, u) = (flat(self.gap), flat(&self.displacement));
+        let right: Vec<f64> = cells.iter().map(|cell| approach - h[*cell] - u[*cell]).collect();
+        let largest = right.iter().fold(0.0f64, |most, r| most.max(r.abs()));
+        if largest == 0.0 {
+            return;
+        }
+        let wanted = if residual.eta > NEAR { 0.1 } else { 1e-2 * residual.eta };
+        let reduction =
+            (wanted.max(0.3 * tolerance) * residual.scale / largest).clamp(REDUCTION[0], REDUCTION[1]);
+        let under_load = self.sum.is_some();
+        let Self { operator, scratch: [input, output], .. } = self;
+        let mut convolve = |operator: &mut SteadySliding, x: &[f64], inverse: bool| -> Vec<f64> {
+            input.fill(0.0);
+            let all = input.as_slice_mut().expect("standard layout");
+            cells.iter().zip(x).for_each(|(cell, x)| all[*cell] = *x);
+            match inverse {
+                true => operator.precondition(input, output),
+                false => operator.displace(input, output),
+            }
+            let all = output.as_slice().expect("standard layout");
+            cells.iter().map(|cell| all[*cell]).collect()
+        };
+        let one = under_load.then(|| {
+            let one = convolve(operator, &vec![1.0; cells.len()], true);
+            let sum: f64 = one.iter().sum();
+            (one, sum)
+        });
+        let precondition =
+            |operator: &mut SteadySliding,
+             x: &[f64],
+             convolve: &mut dyn FnMut(&mut SteadySliding, &[f64], bool) -> Vec<f64>| {
+                let mut z = convolve(operator, x, true);
+                if let Some((one, sum)) = &one {
+                    let share = z.iter().sum::<f64>() / sum;
+                    z.iter_mut().zip(one).for_each(|(z, one)| *z -= share * one);
+                }
+                z
+            };
+        let product = |x: &[f64]| {
+            let z = precondition(operator, x, &mut convolve);
+            let mut y = convolve(operator, &z, false);
+            if under_load {
+                let mean = y.iter().sum::<f64>() / count;
+                y.iter_mut().for_each(|y| *y -= mean);
+            }
+            y
+        };
+        let found = gmres(product, right, reduction, MAX_PRODUCTS);
+        let z = precondition(operator, &found.solution, &mut convolve);
+        convolve(operator, &z, false);
+        self.add();
+    }
+
+    /// Takes the pressure off the cells that do not touch; those that touch bear it.
+    fn lift(&mut self, touching: &[bool], count: f64) {
+        let Self { pressure, scratch: [change, _], sum, .. } = self;
+        let mut lifted = 0.0;
+        let changes = change.iter_mut().zip(pressure.iter()).zip(touching);
+        changes.for_each(|((change, p), touches)| {
+            *change = if *touches { 0.0 } else { -p };
+            lifted += *change;
+        });
+        if let Some(sum) = sum {
+            let each = (*sum - pressure.sum() - lifted) / count;
+            change
+                .iter_mut()
+                .zip(touching)
+                .filter(|(_, touches)| **touches)
+                .for_each(|(change, _)| *change = each);
+        }
+        let most = pressure.iter().fold(0.0f64, |most, p| most.max(p.abs()));
+        if change.iter().any(|change| change.abs() > 1e-14 * most) {
+            let Self { operator, scratch: [change, image], .. } = self;
+            operator.displace(change, image);
+            self.add();
+        }
+    }
+
+    /// Adds the pressure and the displacement of the scratch fields.
+    fn add(&mut self) {
+        self.pressure += &self.scratch[0];
+        self.displacement += &self.scratch[1];
+    }
+
+    /// Clips the pressure to its bound, and returns the residual of its displacement, computed anew.
+    fn finish(&mut self) -> Residual {
+        self.pressure.mapv_inplace(|p| p.max(0.0));
+        rescale(&mut self.pressure, self.sum);
+        self.displace();
+        self.residual()
+    }
+}
+
+/// Scales a pressure to its sum.
+fn rescale(pressure: &mut Field, sum: Option<f64>) {
+    let now = pressure.sum();
+    if let (Some(sum), true) = (sum, now > 0.0) {
+        *pressure *= sum / now;
+    }
+}
+
+fn flat(field: &Field) -> &[f64] {
+    field.as_slice().expect("standard layout")
+}

@@ -1,0 +1,158 @@
+//! Steady sliding against closed forms.
+
+use std::f64::consts::TAU;
+
+use crate::grid::{Field, Grid};
+use crate::math::RealFft2;
+use crate::math::fft::angular_frequency;
+use crate::operator::{Boundary, Edge};
+use crate::reference::ViscoelasticCylinder;
+use crate::reference::viscoelastic::{fast_sphere, slow_paraboloid};
+use crate::solver::{Control, Params};
+use crate::viscoelastic::{Relaxation, RelaxationTerm, SteadyContact, SteadySliding, solve_steady};
+
+fn body(terms: &[(f64, f64)]) -> Relaxation {
+    let terms = terms.iter().map(|&(modulus, time)| RelaxationTerm { modulus, time });
+    Relaxation::new(1.0, terms).unwrap()
+}
+
+/// A body with E₀ = 1, the ratio of the glassy to the relaxed modulus, and the retardation time 1.
+fn standard(ratio: f64) -> Relaxation {
+    body(&[(ratio - 1.0, 1.0 / ratio)])
+}
+
+fn solve(
+    body: &Relaxation,
+    (grid, boundary): (Grid, Boundary),
+    gap: &Field,
+    load: f64,
+    speed: f64,
+    tolerance: f64,
+) -> SteadyContact {
+    let mut operator = SteadySliding::new(grid, boundary, &body.creep(), speed).unwrap();
+    let params = Params::default().with_tolerance(tolerance);
+    solve_steady(&mut operator, gap, Control::Load(load), None, &params, &()).unwrap()
+}
+
+#[test]
+fn a_wave_in_full_contact_loses_the_energy_of_its_loss_modulus() {
+    let (n, speed, amplitude) = (64, 0.02, 1e-3);
+    let grid = Grid::new([n, n], [1.0 / n as f64; 2]).unwrap();
+    let q = 3.0 * TAU;
+    let gap = Field::from_shape_fn(grid.shape, |(i, _)| -amplitude * (q * i as f64 / n as f64).cos());
+    let body = standard(10.0);
+    let contact = solve(&body, (grid, Boundary::PERIODIC), &gap, 0.05, speed, 1e-10);
+    let expected = q * q * amplitude * amplitude * body.complex(q * speed).im / 4.0;
+    assert!((contact.drag / expected - 1.0).abs() < 1e-9, "{}", contact.drag / expected - 1.0);
+    // The other way it is the same.
+    let back = solve(&body, (grid, Boundary::PERIODIC), &gap, 0.05, -speed, 1e-10);
+    assert!((back.drag / expected + 1.0).abs() < 1e-9, "{}", back.drag / expected + 1.0);
+}
+
+#[test]
+fn a_rough_surface_in_full_contact_loses_the_sum_over_its_spectrum() {
+    let (n, speed) = (64, 0.02);
+    let grid = Grid::new([n, n], [1.0 / n as f64; 2]).unwrap();
+    let body = body(&[(2.0, 1.0), (5.0, 0.1), (30.0, 3e-3)]);
+    let mut seed = 1u64;
+    let noise = Field::from_shape_simple_fn(grid.shape, || {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (seed >> 40) as f64 / f64::from(1u32 << 24) - 0.5
+    });
+    let fft = RealFft2::new(grid.shape);
+    let mut spectrum = fft.forward(&noise);
+    let wave = |k: usize, l: usize| {
+        [angular_frequency(k, n, 1.0 / n as f64), angular_frequency(l, n, 1.0 / n as f64)]
+    };
+    for ((k, l), value) in spectrum.indexed_iter_mut() {
+        let [x, y] = wave(k, l);
+        let q = x.hypot(y);
+        *value *= if q > 0.0 && q < 60.0 { q.max(12.0).powf(-1.8) } else { 0.0 };
+    }
+    let cells = (n * n) as f64;
+    let scale = 2e-3 / {
+        let field = fft.inverse_leading(&spectrum, grid.shape);
+        field.std(0.0)
+    };
+    let gap = fft.inverse_leading(&spectrum, grid.shape) * scale;
+    let spectrum = fft.forward(&gap);
+    let expected: f64 = spectrum
+        .indexed_iter()
+        .map(|((k, l), value)| {
+            let [x, y] = wave(k, l);
+            let twice = if l == 0 || 2 * l == n { 1.0 } else { 2.0 };
+            twice * 0.5 * x.hypot(y) * x * value.norm_sqr() * body.complex(x * speed).im / (cells * cells)
+        })
+        .sum();
+    let contact = solve(&body, (grid, Boundary::PERIODIC), &gap, 2.0, speed, 1e-10);
+    assert!(contact.solution.pressure.iter().all(|p| *p > 0.0));
+    assert!((contact.drag / expected - 1.0).abs() < 1e-9, "{}", contact.drag / expected - 1.0);
+}
+
+#[test]
+fn a_cylinder_is_that_of_hunter_and_its_error_falls_with_the_grid() {
+    let boundary = Boundary([Edge::Free, Edge::Periodic]);
+    for (ratio, speed) in [(10.0, 0.03), (10.0, 0.1), (10.0, 0.3), (10.0, 1.0), (10.0, 10.0), (100.0, 0.3)] {
+        let exact = ViscoelasticCylinder {
+            radius: 1.0,
+            load_per_length: 0.05,
+            glassy: 1.0 / ratio,
+            delayed: 1.0 - 1.0 / ratio,
+            decay: speed,
+        };
+        let [a, b] = exact.reach();
+        let errors = [64usize, 256].map(|n| {
+            let dx = 2.6 * a.max(b) / n as f64;
+            let grid = Grid::new([n, 1], [dx, dx]).unwrap();
+            let gap = Field::from_shape_fn(grid.shape, |(i, _)| {
+                (dx * (i as f64 + 0.5 - 0.5 * n as f64)).powi(2) / 2.0
+            });
+            let contact = solve(&standard(ratio), (grid, boundary), &gap, 0.05 * dx, speed, 1e-7);
+            println!(
+                "{ratio} {speed} {n}: {:?}, {}",
+                contact.solution.stats,
+                contact.drag / dx / exact.drag_per_length() - 1.0
+            );
+            contact.drag / dx / exact.drag_per_length() - 1.0
+        });
+        assert!(errors[1].abs() < 3e-4, "{ratio}, {speed}: {errors:?}");
+    }
+}
+
+#[test]
+fn a_sphere_is_that_of_the_limits() {
+    let (load, n) = (0.01, 64);
+    let a0 = (0.75f64 * load).cbrt();
+    let dx = 2.3 * a0 / n as f64;
+    let grid = Grid::new([n, n], [dx; 2]).unwrap();
+    let at = |i: usize| dx * (i as f64 + 0.5 - 0.5 * n as f64);
+    let gap = Field::from_shape_fn(grid.shape, |(i, j)| (at(i).powi(2) + at(j).powi(2)) / 2.0);
+    let body = standard(10.0);
+    let delayed = [(0.9, 1.0)];
+    let drag = |speed: f64| {
+        let contact = solve(&body, (grid, Boundary::FREE), &gap, load, speed, 1e-6);
+        println!("sphere {speed}: {:?}", contact.solution.stats);
+        contact.drag / load
+    };
+    let slow = drag(0.01);
+    assert!((slow - 0.00869).abs() < 4e-5, "{slow}");
+    assert!(slow < 0.01 * slow_paraboloid(1.0, 1.0, &delayed));
+    let middle = drag(0.2);
+    assert!((middle - 0.0777).abs() < 2e-4, "{middle}");
+    let fast = drag(100.0) * 100.0;
+    assert!((fast / fast_sphere(1.0, load, 0.1, &delayed) - 1.0).abs() < 0.01, "{fast}");
+}
+
+#[test]
+fn elastic_bodies_have_no_drag() {
+    let grid = Grid::new([32, 32], [1.0; 2]).unwrap();
+    let gap =
+        Field::from_shape_fn(grid.shape, |(i, j)| 0.01 * ((i * 7 + j * 13) % 17) as f64 + 0.002 * i as f64);
+    for boundary in [Boundary::PERIODIC, Boundary::FREE] {
+        let creep = crate::viscoelastic::Creep::elastic(1.0);
+        let mut operator = SteadySliding::new(grid, boundary, &creep, 3.0).unwrap();
+        let contact =
+            solve_steady(&mut operator, &gap, Control::Load(2.0), None, &Params::default(), &()).unwrap();
+        assert!(contact.drag.abs() < 1e-14, "{}", contact.drag);
+    }
+}
