@@ -246,6 +246,13 @@ pub trait Value {
     /// As all methods.
     fn items(&self, expected: &str) -> Result<Vec<Box<dyn Value + '_>>>;
 
+    /// Reads a list of at least one number of a kind, or a table that gives it by `from`, `to` and `points`, in equal ratios unless it says
+    /// otherwise. `example` is one of them.
+    ///
+    /// # Errors
+    /// As all methods.
+    fn several(&self, key: &Key, kind: &Kind, example: &str) -> Result<Vec<f64>>;
+
     /// Returns a hint if `word` is similar to one of `words`.
     fn similar(&self, word: &str, words: &[&'static str]) -> Option<String>;
 

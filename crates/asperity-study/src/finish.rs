@@ -5,6 +5,7 @@ use web_time::Instant;
 
 use crate::case::Case;
 use crate::closed_form::{ClosedForm, ClosedFormRecord, ElasticContact};
+use crate::master_curve;
 use crate::prepare::Bodies;
 use crate::results::Writer;
 use crate::subsurface::SubsurfaceRecord;
@@ -106,12 +107,12 @@ pub fn closed_form(case: &Case, extent: [Metre; 2], outcome: &Outcome) -> Option
 
 /// Creates the pair of the `bodies` of `case`.
 pub(super) fn pair(case: &Case, bodies: Bodies) -> Result<Pair> {
-    let Bodies { lower, upper } = bodies;
+    let Bodies { lower, upper, master_curves } = bodies;
     let materials = [&case.lower.material, &case.upper.material];
     let pair = Pair::new(lower.topography, upper.topography, materials)?
         .with_hardness([lower.hardness, upper.hardness])?;
     let attraction = case.adhesion.map(|table| table.on(&pair.lower_grid(), pair.modulus())).transpose()?;
-    Ok(pair.with_adhesion(attraction))
+    master_curve::relax(case, pair.with_adhesion(attraction), &master_curves)
 }
 
 /// Returns the solver parameters of `case`.

@@ -11,20 +11,26 @@ use asperity_base::error::{Error, Result};
 use asperity_base::grid::Grid;
 
 /// Keys that may name a file in a case, surfaces first.
-pub(super) const FILES: [&str; 4] =
-    ["/lower/topography", "/upper/topography", "/lower/hardness", "/upper/hardness"];
+pub(super) const FILES: [&str; 6] = [
+    "/lower/topography",
+    "/upper/topography",
+    "/lower/hardness",
+    "/upper/hardness",
+    "/lower/viscoelastic",
+    "/upper/viscoelastic",
+];
 
 /// Returns the content of `case.json`. The case is resolved to SI, a shape or pitch taken from the other body is filled in,
 /// and the SHA-256 of each file stands beside its name. `identity` is the digest of everything that determines the numbers.
 pub fn resolved(case: &Case, bodies: &Bodies) -> Value {
-    resolved_of(
-        case,
-        [&bodies.lower, &bodies.upper].map(|body| BodyData {
-            grid: *body.topography.grid(),
-            origin: body.origin.as_ref(),
-            hardness_sha256: body.hardness_sha256.as_ref(),
-        }),
-    )
+    let Bodies { lower, upper, master_curves } = bodies;
+    let data = [(lower, &master_curves[0]), (upper, &master_curves[1])].map(|(body, curve)| BodyData {
+        grid: *body.topography.grid(),
+        origin: body.origin.as_ref(),
+        hardness_sha256: body.hardness_sha256.as_ref(),
+        master_sha256: curve.as_ref().map(|curve| &curve.sha256),
+    });
+    resolved_of(case, data)
 }
 
 /// Data of a body that its case does not contain.
@@ -35,6 +41,8 @@ pub struct BodyData<'a> {
     pub origin: Option<&'a Origin>,
     /// The SHA-256 of the file of its hardness.
     pub hardness_sha256: Option<&'a String>,
+    /// The SHA-256 of the file of its master curve.
+    pub master_sha256: Option<&'a String>,
 }
 
 /// [`resolved`] for bodies given only by these data.
@@ -54,6 +62,9 @@ pub fn resolved_of(case: &Case, bodies: [BodyData<'_>; 2]) -> Value {
         }
         if let (Some(digest), Some(map)) = (body.hardness_sha256, resolved.pointer_mut(FILES[n + 2])) {
             map["sha256"] = digest.clone().into();
+        }
+        if let (Some(digest), Some(table)) = (body.master_sha256, resolved.pointer_mut(FILES[n + 4])) {
+            table["sha256"] = digest.clone().into();
         }
     }
     resolved["identity"] = of(&resolved).into();

@@ -10,6 +10,7 @@ use super::case::document::Document;
 use super::case::{Body, Case, GridMatch, Hardness, Mount, Source, TopographySpec, topography_alone};
 use super::given::SurfaceInput;
 use crate::io::{sha256, sha256_of};
+use crate::master_curve::{self, MasterCurve};
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::{CellValues, Field, Grid};
 use asperity_base::units::{self, Dimension, Metre};
@@ -29,6 +30,8 @@ pub struct Bodies {
     pub lower: MountedSurface,
     /// The upper body, with the heights of its underside.
     pub upper: MountedSurface,
+    /// The master curves of viscoelastic bodies, lower one first.
+    pub master_curves: [Option<MasterCurve>; 2],
 }
 
 /// A surface as used in the contact, with every height defined.
@@ -158,7 +161,11 @@ pub fn bodies_until(case: &Case, mut given: SurfaceInput, stop: Stop<'_>) -> Res
     Fit { case, grids, origins }.check(axes)?;
     let grid = Grid::new(upper.topography.grid().shape, lower.topography.grid().pitch)?;
     upper.topography = Topography::new(grid, upper.topography.into_heights())?;
-    Ok(Bodies { lower, upper })
+    let master_curves = [
+        master_curve::of(case, "lower", &case.lower, &given)?,
+        master_curve::of(case, "upper", &case.upper, &given)?,
+    ];
+    Ok(Bodies { lower, upper, master_curves })
 }
 
 /// Axes along which both bodies have the same number of cells: an overlap joins bodies of any length.

@@ -218,15 +218,16 @@ impl StaticProblem<'_> {
     fn sweep(self, points: &[Point]) -> Result<StaticResult> {
         let case = self.case;
         self.begin()?;
-        let mut done = self.writer.map(|writer| writer.results().sweep()).transpose()?.unwrap_or_default();
-        done.truncate(points.len().saturating_sub(1));
+        let under_way = |writer: &Writer| writer.results().sweep_under_way(&self.pair);
+        let mut state = self.writer.map(under_way).transpose()?.unwrap_or_default();
+        state.records.truncate(points.len().saturating_sub(1));
         let every = self.case.output.pressure_every;
-        let mut kept = self.writer.map(|writer| writer.points(&done, every)).transpose()?;
-        let last = done.last().map(|last| last.point);
+        let mut kept = self.writer.map(|writer| writer.points(&state.records, every)).transpose()?;
+        let last = state.records.last().map(|last| last.point);
         let (mut observers, mut limits) = (self.observers(last)?, self.limits(last)?);
         let (boundary, outputs) = (self.boundary(), &mut outputs(&mut observers, &mut limits, &mut kept));
         let (points, contact) =
-            sweep(&self.pair, boundary, self.law, points, &self.params, done, self.watch, outputs)?;
+            sweep(&self.pair, boundary, self.law, points, &self.params, state, self.watch, outputs)?;
         let warnings = [limits.all(), review::sweep(&points, &contact)].concat();
         let LoadedContact { solution, plastic, slip, .. } = contact;
         let fields = fields(self.pair, solution, plastic, slip);

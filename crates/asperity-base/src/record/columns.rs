@@ -166,5 +166,6 @@ macro_rules! columns {
     (@unit [Second]) => { "s" };
     (@unit [Kelvin]) => { "K" };
     (@unit [Watt]) => { "W" };
+    (@unit [MetrePerSecond]) => { "m/s" };
     (@unit [CubicMetrePerSecond]) => { "m³/s" };
 }

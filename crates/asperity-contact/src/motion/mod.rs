@@ -28,6 +28,7 @@ mod sliding;
 mod spot;
 mod stage;
 mod state;
+mod steady;
 mod store;
 mod sweep;
 mod together;
@@ -57,7 +58,7 @@ pub use record::lost_volumes::{ENDINGS, is_volume_of_law};
 pub use record::{
     AdhesionPassRecord, AdhesionRecord, FrettingRecord, HeatRecord, IncrementRecord, LostVolume,
     PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Regime, ResidualRecord, RunningRecord,
-    ShearRecord, StaticRecord, StepRecord, SweepRecord, UpdateRecord,
+    ShearRecord, StaticRecord, SteadyRecord, StepRecord, SweepRecord, UpdateRecord,
 };
 pub use record::{FILM, WEAR};
 pub use report::PassReport;
@@ -67,8 +68,9 @@ pub use sliding::{Slide, SlidingContact, SlidingOutcome};
 pub use spot::largest_spot;
 pub use stage::{Cycles, Origin, Progress as StageProgress, Stage};
 pub use state::{Flattening, LoadedContact, LoadingState, SlidingState};
+pub use steady::MovingBody;
 pub use store::{CourseState, StateReader, StateWriter};
-pub use sweep::{Point, sweep};
+pub use sweep::{Point, SweepState, sweep};
 pub use together::memory_together;
 pub use truncation::Truncation;
 pub use warm_start::{Guess, LoadedCells, WarmStart};

@@ -12,6 +12,7 @@ use crate::operator::{Boundary, Operators};
 use crate::solver::{Bounds, Friction};
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre, Pascal, SquareMetre, format_distinct};
+use crate::viscoelastic::{Creep, Relaxation};
 
 /// Two contacting bodies, with the elastic response of their materials.
 #[derive(Debug, Clone)]
@@ -26,6 +27,8 @@ pub struct Pair {
     /// Prescribed share of the lower body in the plastic deformation; `None` if the softer of two cells takes all of it.
     share: Option<f64>,
     adhesion: Option<Adhesion>,
+    /// Composite creep compliance of the lower and of the upper body; `None` if neither is viscoelastic.
+    creep: Option<[Creep; 2]>,
 }
 
 impl Pair {
@@ -65,7 +68,35 @@ impl Pair {
             response: response(materials[0], materials[1])?,
             share: None,
             adhesion: None,
+            creep: None,
         })
+    }
+
+    /// Makes bodies viscoelastic, whose materials have the relaxed moduli: `relaxations` are those of the lower and of the upper body,
+    /// `None` for an elastic one. A load on a body at rest is borne by the relaxed modulus.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for a coated body.
+    pub fn with_relaxation(
+        mut self,
+        materials: [&Material; 2],
+        relaxations: [Option<Relaxation>; 2],
+    ) -> Result<Self> {
+        if materials.iter().any(|material| material.coating.is_some()) {
+            return Err(Error::Unsupported("a coated body cannot be viscoelastic"));
+        }
+        let creep = |body: usize| {
+            let Material { young, poisson, .. } = *materials[body];
+            let creep = relaxations[body].as_ref().map_or(Creep::elastic(1.0 / young), Relaxation::creep);
+            creep.times(1.0 - poisson * poisson)
+        };
+        self.creep = relaxations.iter().any(Option::is_some).then(|| [creep(0), creep(1)]);
+        Ok(self)
+    }
+
+    /// Composite creep compliance of the lower and of the upper body, (1 − ν²) J(t); `None` if neither is viscoelastic.
+    pub fn creep(&self) -> Option<&[Creep; 2]> {
+        self.creep.as_ref()
     }
 
     /// Sets the hardness of the lower and of the upper body, each a number or a map of its cells.

@@ -292,10 +292,3 @@ impl SlidingState {
         Ok(Self { pair, updates, pressure: from.field("pressure")? })
     }
 }
-
-/// The state between two points of a sweep, each on virgin bodies: nothing but the points so far.
-pub(super) struct Independent;
-
-impl CourseState for Independent {
-    fn store(&self, _to: &mut dyn StateWriter) {}
-}

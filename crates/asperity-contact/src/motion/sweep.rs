@@ -5,12 +5,14 @@ use crate::grid::Field;
 use crate::motion::contact::facing;
 use crate::motion::course::{self, Course, Output, Step, StepRow};
 use crate::motion::pair::Pair;
-use crate::motion::record::{ShearRecord, StaticRecord, SweepRecord};
+use crate::motion::record::{ShearRecord, StaticRecord, SteadyRecord, SweepRecord};
 use crate::motion::spot::largest_spot;
-use crate::motion::state::{Independent, LoadedContact};
+use crate::motion::state::LoadedContact;
+use crate::motion::store::{CourseState, StateReader, StateWriter, restore_if};
 use crate::motion::watch::{StaticWatch, Watch};
 use crate::operator::{Boundary, CoupledOperator, Operator};
 use crate::solver::{Control, Friction, Params, Rolling, Solution, Stats, normal_stiffness};
+use crate::units::MetrePerSecond;
 
 /// A prescribed point of a load sweep.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,6 +21,17 @@ pub struct Point {
     pub control: Control,
     /// Rolling of the bodies, if they roll.
     pub rolling: Option<Rolling>,
+    /// Speed of viscoelastic bodies that slide steadily.
+    pub speed: Option<MetrePerSecond>,
+}
+
+/// A sweep under way.
+#[derive(Debug, Clone, Default)]
+pub struct SweepState {
+    /// The finished points.
+    pub records: Vec<SweepRecord>,
+    /// Pressure of the last one, from which the next one starts, Pa; `None` where it starts anew.
+    pub start: Option<Field>,
 }
 
 /// Presses a pair at full overlap at each of the `points`. Returns the records of all points, and the contact of the last.
@@ -26,7 +39,8 @@ pub struct Point {
 ///
 /// Each point is an independent contact of undeformed bodies, solved from zero. It has the bits of [`crate::motion::press`]
 /// or [`crate::motion::roll`], whatever the other points are. Pressures of another load would not be a better start than
-/// those of coarser grids: from 1.5 times the load up they cost more convolutions.
+/// those of coarser grids: from 1.5 times the load up they cost more convolutions. The contact of viscoelastic bodies at a speed starts
+/// from that at the speed before.
 ///
 /// # Errors
 /// [`Error::AtPoint`] with the error of [`crate::solver::solve_normal`] or [`crate::solver::solve_rolling`],
@@ -41,7 +55,7 @@ pub fn sweep(
     friction: Option<&Friction>,
     points: &[Point],
     params: &Params,
-    done: Vec<SweepRecord>,
+    under_way: SweepState,
     watch: &dyn Watch,
     outputs: &mut [&mut dyn Output],
 ) -> Result<(Vec<SweepRecord>, LoadedContact)> {
@@ -52,7 +66,7 @@ pub fn sweep(
         pair.check_no_adhesion()?;
         pair.check_shear()?;
     }
-    let mut records = done;
+    let SweepState { mut records, start } = under_way;
     records.truncate(points.len().saturating_sub(1));
     records.iter().for_each(|record| watch.point(record));
     let mut sweep = Sweep {
@@ -64,12 +78,12 @@ pub fn sweep(
         gap,
         normal: params.device.operator(&operators, shape),
         coupled: rolls.then(|| operators.coupled_on(shape)),
-        records,
+        state: SweepState { records, start },
         last: None,
     };
     course::run(&mut sweep, watch, outputs)?;
     let last = sweep.last.ok_or(Error::Unsupported("a sweep needs at least one point"))?;
-    Ok((sweep.records, last))
+    Ok((sweep.state.records, last))
 }
 
 /// A running load sweep.
@@ -83,53 +97,111 @@ struct Sweep<'a> {
     normal: Box<dyn Operator>,
     /// The coupled operator of bodies that roll.
     coupled: Option<Box<dyn CoupledOperator>>,
-    /// The records of the finished points.
-    records: Vec<SweepRecord>,
+    /// The finished points.
+    state: SweepState,
     /// The contact of the last finished point.
     last: Option<LoadedContact>,
 }
 
 impl Sweep<'_> {
-    fn contact(&mut self, point: &Point, watch: &StaticWatch<'_>) -> Result<LoadedContact> {
-        let Self { pair, params, gap, .. } = self;
-        let Some((rolling, operator)) = point.rolling.zip(self.coupled.as_mut()) else {
-            return LoadedContact::pressed(pair, self.normal.as_mut(), gap, point.control, params, watch);
+    fn contact(
+        &mut self,
+        point: &Point,
+        watch: &StaticWatch<'_>,
+    ) -> Result<(LoadedContact, Option<SteadyRecord>)> {
+        let Self { pair, boundary, params, gap, .. } = self;
+        let control = point.control;
+        if let Some(speed) = point.speed {
+            let start = self.state.start.as_ref();
+            return LoadedContact::steady(pair, *boundary, gap, control, speed, start, params, watch)
+                .map(|(contact, steady)| (contact, Some(steady)));
+        }
+        let contact = match point.rolling.zip(self.coupled.as_mut()) {
+            None => LoadedContact::pressed(pair, self.normal.as_mut(), gap, control, params, watch),
+            Some((rolling, operator)) => {
+                let friction = self.friction.expect("what rolls has friction");
+                LoadedContact::rolling(
+                    pair,
+                    operator.as_mut(),
+                    gap,
+                    friction,
+                    control,
+                    rolling,
+                    params,
+                    watch,
+                )
+            }
         };
-        let friction = self.friction.expect("what rolls has friction");
-        LoadedContact::rolling(pair, operator.as_mut(), gap, friction, point.control, rolling, params, watch)
+        Ok((contact?, None))
     }
 }
 
+/// A solved point.
+struct Solved {
+    record: SweepRecord,
+    contact: LoadedContact,
+    state: SweepState,
+}
+
 impl Course for Sweep<'_> {
-    type Solved = (SweepRecord, LoadedContact);
+    type Solved = Solved;
 
     fn next(&mut self, watch: &dyn Watch) -> Result<Option<Self::Solved>> {
-        let done = self.records.len();
+        let done = self.state.records.len();
         let Some(point) = self.points.get(done) else { return Ok(None) };
         if watch.stop() {
             return Err(Error::Interrupted);
         }
         let points = self.points.len();
-        let solved =
-            self.contact(point, &StaticWatch::new(watch, done, points, point.control)).and_then(|contact| {
-                let record = record(self.boundary, self.normal.as_mut(), done + 1, &contact, self.params)?;
-                Ok((record, contact))
-            });
+        let solved = self.contact(point, &StaticWatch::new(watch, done, points, point.control)).and_then(
+            |(contact, steady)| {
+                let record = record(
+                    self.boundary,
+                    self.normal.as_mut(),
+                    done + 1,
+                    (&contact, steady.is_some()),
+                    self.params,
+                )?;
+                let record = SweepRecord { steady, ..record };
+                let start = steady.map(|_| contact.solution.normal().pressure.clone());
+                Ok(Solved { record, contact, state: SweepState { records: Vec::new(), start } })
+            },
+        );
         let at = |source| Error::AtPoint { point: done + 1, points, source };
         solved.map(Some).map_err(|error| error.unless_interrupted(at))
     }
 
-    fn report<'a>(&'a self, (record, contact): &'a Self::Solved) -> Step<'a> {
+    fn report<'a>(&'a self, Solved { record, contact, state }: &'a Self::Solved) -> Step<'a> {
         Step {
             contact: Some(contact.solution.normal()),
-            state: Some(&Independent),
+            state: Some(state),
             ..Step::new(record.point, self.points.len(), StepRow::Point(record))
         }
     }
 
-    fn take(&mut self, (record, contact): Self::Solved) {
-        self.records.push(record);
+    fn take(&mut self, Solved { record, contact, state }: Self::Solved) {
+        self.state.records.push(record);
+        self.state.start = state.start;
         self.last = Some(contact);
+    }
+}
+
+impl CourseState for SweepState {
+    fn store(&self, to: &mut dyn StateWriter) {
+        if let Some(start) = &self.start {
+            to.field("pressure", "Pa", start);
+        }
+    }
+}
+
+impl SweepState {
+    /// Restores a sweep after these points.
+    ///
+    /// # Errors
+    /// The errors of the reader.
+    pub fn restore(from: &dyn StateReader, records: Vec<SweepRecord>) -> Result<Self> {
+        let start = restore_if(from, "pressure", || from.field("pressure"))?;
+        Ok(Self { records, start })
     }
 }
 
@@ -138,13 +210,13 @@ fn record(
     boundary: Boundary,
     operator: &mut dyn Operator,
     point: usize,
-    contact: &LoadedContact,
+    (contact, is_steady): (&LoadedContact, bool),
     params: &Params,
 ) -> Result<SweepRecord> {
     // The attraction of open cells changes with the approach, too.
-    let (stiffness, stats) = match contact.record.adhesion {
-        Some(_) => (None, Stats::default()),
-        None => normal_stiffness(operator, &contact.solution.normal().elastic_cells(), params)?,
+    let (stiffness, stats) = match contact.record.adhesion.is_some() || is_steady {
+        true => (None, Stats::default()),
+        false => normal_stiffness(operator, &contact.solution.normal().elastic_cells(), params)?,
     };
     let StaticRecord { load, approach, contact_area, apparent_area, .. } = contact.record;
     let Solution { grid, pressure, bounds, .. } = contact.solution.normal();
@@ -178,5 +250,6 @@ fn record(
         convolutions: contact.record.convolutions + stats.convolutions,
         residual: contact.record.residual,
         adhesion: contact.record.adhesion,
+        steady: None,
     })
 }

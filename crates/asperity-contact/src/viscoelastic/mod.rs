@@ -1,5 +1,6 @@
 //! Linear viscoelastic bodies: relaxation and creep, steady sliding, memory in time.
 
+mod master_curve;
 mod operator;
 mod panels;
 mod series;
@@ -8,6 +9,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
+pub use master_curve::{MasterFit, MasterPoint, fit_master_curve};
 pub use operator::SteadySliding;
 pub use series::{Creep, CreepTerm, Relaxation, RelaxationTerm};
 pub use steady::{SteadyContact, solve_steady};

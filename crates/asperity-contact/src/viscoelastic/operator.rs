@@ -26,6 +26,7 @@ use crate::viscoelastic::table::MovingCell;
 pub struct SteadySliding {
     grid: Grid,
     boundary: Boundary,
+    speed: MetrePerSecond,
     displacement: SkewConvolution,
     slope: SkewConvolution,
     preconditioner: SkewConvolution,
@@ -56,6 +57,7 @@ impl SteadySliding {
         let mut this = Self {
             grid,
             boundary,
+            speed,
             displacement,
             slope,
             preconditioner,
@@ -102,13 +104,15 @@ impl SteadySliding {
         self.preconditioner.apply(displacement, pressure);
     }
 
-    /// Computes the drag `−ΔA Σ p ∂u/∂x` along the motion of the contact, > 0 where energy is lost, N. The slope ∂u/∂x is its mean over
-    /// a cell; its operator is odd for elastic bodies, whose drag is 0 but for rounding.
+    /// Computes the drag, `−ΔA Σ p ∂u/∂x` for a motion along +x, > 0 where energy is lost, N. The slope ∂u/∂x is its mean over a cell; its
+    /// operator is odd for elastic bodies, whose drag is 0 but for rounding.
     pub fn drag(&mut self, pressure: &Field) -> f64 {
         self.convolutions += 1.0;
-        let Self { slope, field, grid, .. } = self;
+        let Self { slope, field, grid, speed: direction, .. } = self;
         slope.apply(pressure, field);
-        -grid.cell_area() * pressure.iter().zip(field.iter()).map(|(p, slope)| p * slope).sum::<f64>()
+        -direction.signum()
+            * grid.cell_area()
+            * pressure.iter().zip(field.iter()).map(|(p, slope)| p * slope).sum::<f64>()
     }
 }
 

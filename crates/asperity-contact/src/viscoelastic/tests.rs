@@ -46,7 +46,7 @@ fn a_wave_in_full_contact_loses_the_energy_of_its_loss_modulus() {
     assert!((contact.drag / expected - 1.0).abs() < 1e-9, "{}", contact.drag / expected - 1.0);
     // The other way it is the same.
     let back = solve(&body, (grid, Boundary::PERIODIC), &gap, 0.05, -speed, 1e-10);
-    assert!((back.drag / expected + 1.0).abs() < 1e-9, "{}", back.drag / expected + 1.0);
+    assert!((back.drag / expected - 1.0).abs() < 1e-9, "{}", back.drag / expected - 1.0);
 }
 
 #[test]
@@ -108,11 +108,6 @@ fn a_cylinder_is_that_of_hunter_and_its_error_falls_with_the_grid() {
                 (dx * (i as f64 + 0.5 - 0.5 * n as f64)).powi(2) / 2.0
             });
             let contact = solve(&standard(ratio), (grid, boundary), &gap, 0.05 * dx, speed, 1e-7);
-            println!(
-                "{ratio} {speed} {n}: {:?}, {}",
-                contact.solution.stats,
-                contact.drag / dx / exact.drag_per_length() - 1.0
-            );
             contact.drag / dx / exact.drag_per_length() - 1.0
         });
         assert!(errors[1].abs() < 3e-4, "{ratio}, {speed}: {errors:?}");
@@ -131,7 +126,6 @@ fn a_sphere_is_that_of_the_limits() {
     let delayed = [(0.9, 1.0)];
     let drag = |speed: f64| {
         let contact = solve(&body, (grid, Boundary::FREE), &gap, load, speed, 1e-6);
-        println!("sphere {speed}: {:?}", contact.solution.stats);
         contact.drag / load
     };
     let slow = drag(0.01);

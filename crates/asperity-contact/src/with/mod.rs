@@ -25,6 +25,7 @@ pub mod conductance;
 pub mod film;
 pub mod flow;
 pub mod plasticity;
+pub mod viscoelastic;
 pub mod wear;
 
 pub use capability::{

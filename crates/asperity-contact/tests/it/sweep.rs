@@ -2,7 +2,9 @@
 
 use asperity_base::{Error, Field, Grid};
 use asperity_contact::material::Material;
-use asperity_contact::motion::{LoadedContact, Pair, Point, StaticContact, SweepRecord, press, roll, sweep};
+use asperity_contact::motion::{
+    LoadedContact, Pair, Point, StaticContact, SweepRecord, SweepState, press, roll, sweep,
+};
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Creep, Friction, Method, Params, Rolling};
 use asperity_surface::{Amplitude, SelfAffine, Topography};
@@ -37,7 +39,7 @@ fn ball(cells: usize, pitch: f64) -> Pair {
 }
 
 fn at(control: Control) -> Point {
-    Point { control, rolling: None }
+    Point { control, rolling: None, speed: None }
 }
 
 fn swept(
@@ -46,7 +48,7 @@ fn swept(
     points: &[Point],
     params: &Params,
 ) -> (Vec<SweepRecord>, LoadedContact) {
-    sweep(pair, boundary, None, points, params, Vec::new(), &(), &mut []).unwrap()
+    sweep(pair, boundary, None, points, params, SweepState::default(), &(), &mut []).unwrap()
 }
 
 #[test]
@@ -157,10 +159,12 @@ fn what_rolls_is_swept_as_it_rolls_alone() {
     let pair = ball(24, 1e-6);
     let friction = Friction::coulomb(0.3).unwrap();
     let rolling = Rolling { creep: Creep::Creepage([5e-4, 0.0]), spin: 0.0 };
-    let points = [0.1, 0.03].map(|load| Point { control: Control::Load(load), rolling: Some(rolling) });
+    let points =
+        [0.1, 0.03].map(|load| Point { control: Control::Load(load), rolling: Some(rolling), speed: None });
     let params = Params::default().with_tolerance(1e-4);
     let (records, _) =
-        sweep(&pair, Boundary::FREE, Some(&friction), &points, &params, Vec::new(), &(), &mut []).unwrap();
+        sweep(&pair, Boundary::FREE, Some(&friction), &points, &params, SweepState::default(), &(), &mut [])
+            .unwrap();
     for (record, point) in records.iter().zip(&points) {
         let alone =
             roll(&pair, Boundary::FREE, &friction, point.control, rolling, &params, &()).unwrap().record;
@@ -177,10 +181,11 @@ fn a_point_without_an_answer_is_named() {
     let pair = rough([16, 16], 1e9, 1);
     let limit = pair.lower_grid().area() * 1e9;
     let points = [0.1, 1.1, 0.2].map(|share| at(Control::Load(share * limit)));
-    let error = sweep(&pair, Boundary::FREE, None, &points, &FINE, Vec::new(), &(), &mut []).unwrap_err();
+    let error =
+        sweep(&pair, Boundary::FREE, None, &points, &FINE, SweepState::default(), &(), &mut []).unwrap_err();
     assert!(error.to_string().starts_with("point 2 of 3: load"), "{error}");
     assert!(matches!(
-        sweep(&pair, Boundary::FREE, None, &[], &FINE, Vec::new(), &(), &mut []),
+        sweep(&pair, Boundary::FREE, None, &[], &FINE, SweepState::default(), &(), &mut []),
         Err(Error::Unsupported(_))
     ));
 }

@@ -5,7 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use asperity_base::{Error, Grid};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    Motion, Pair, Point, Progress, Simulation, Strategy, Watch, load_in_stages, press, roll, sweep,
+    Motion, Pair, Point, Progress, Simulation, Strategy, SweepState, Watch, load_in_stages, press, roll,
+    sweep,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Creep, Friction, Loading, Method, Params, Rolling, Tangential};
@@ -106,9 +107,10 @@ fn motions_and_sweeps_that_stop_within_a_solution_say_so_alone() {
         let motion = Motion::new(Strategy::Overlap, load).with_stride(4);
         Simulation::new(pair.clone(), Boundary::FREE, motion, params)?.run(watch, &mut [])
     };
-    let points = [Point { control: load, rolling: None }; 2];
+    let points = [Point { control: load, rolling: None, speed: None }; 2];
     let swept = |watch: &Patience| {
-        sweep(&pair, Boundary::FREE, None, &points, &params, Vec::new(), watch, &mut []).map(|_| ())
+        sweep(&pair, Boundary::FREE, None, &points, &params, SweepState::default(), watch, &mut [])
+            .map(|_| ())
     };
     let run = |n: usize, watch: &Patience| if n == 0 { moved(watch) } else { swept(watch) };
     for n in [0, 1] {

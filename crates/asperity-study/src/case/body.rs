@@ -11,6 +11,7 @@ use super::{Body, Hardness, HardnessMap, Mount, Source};
 use asperity_base::error::Result;
 use asperity_contact::material::{Material, NamedMaterial};
 use asperity_contact::with::plasticity::Yielding;
+use asperity_contact::with::viscoelastic::Viscoelasticity;
 use asperity_surface::UNDERSIDE;
 
 /// Reads a body of a case, whose tables use some constants of a named material; files are relative to the `folder` of the case.
@@ -24,6 +25,8 @@ pub(super) fn body(table: &Table<'_>, folder: &Path, used: Used) -> Result<Body>
     let hardness = hardness(table, folder, named.filter(|_| both::PLASTICITY.entry(table).is_none()))?;
     let coating = tables::read(&both::COATING, table)?;
     let plasticity = tables::read(&both::PLASTICITY, table)?.map(Yielding::resolved);
+    let viscoelastic = tables::read(&both::VISCOELASTIC, table)?;
+    let viscoelastic = viscoelastic.map(|body: Viscoelasticity| body.in_folder(folder));
     let laws = running::laws(table, &hardness)?;
     let topography = topography(&both::TOPOGRAPHY.demand(table)?, folder)?;
     let mount = match upper::MOUNT.of(table)? {
@@ -41,7 +44,18 @@ pub(super) fn body(table: &Table<'_>, folder: &Path, used: Used) -> Result<Body>
         Some(_) => None,
     };
     let resistivity = both::RESISTIVITY.of(table)?.or(conducts.and_then(|named| named.resistivity));
-    Ok(Body { material, hardness, plasticity, thermal, conductivity, resistivity, laws, topography, mount })
+    Ok(Body {
+        material,
+        hardness,
+        plasticity,
+        viscoelastic,
+        thermal,
+        conductivity,
+        resistivity,
+        laws,
+        topography,
+        mount,
+    })
 }
 
 /// Whether a results file there may contain the underside of a body.

@@ -125,13 +125,20 @@ impl Case {
         let mut rolling = friction.into_iter().flat_map(FrictionSpec::rolling);
         let normal = self.contact.prescribed.control(apparent_area);
         if friction.is_some_and(|friction| !friction.creepages.is_empty()) {
-            let point = |rolling| Point { control: normal, rolling: Some(rolling) };
+            let point = |rolling| Point { control: normal, rolling: Some(rolling), speed: None };
             return Some(LoadingPath::Sweep(rolling.map(point).collect()));
+        }
+        if let Some(steady) = &self.steady {
+            let point = |speed| Point { control: normal, rolling: None, speed: Some(speed) };
+            return Some(LoadingPath::Sweep(steady.all().into_iter().map(point).collect()));
         }
         let rolling = rolling.next();
         if !self.contact.sweep.is_empty() {
-            let point =
-                |prescribed: &Prescribed| Point { control: prescribed.control(apparent_area), rolling };
+            let point = |prescribed: &Prescribed| Point {
+                control: prescribed.control(apparent_area),
+                rolling,
+                speed: None,
+            };
             return Some(LoadingPath::Sweep(self.contact.sweep.iter().map(point).collect()));
         }
         if let Some(rolling) = rolling {

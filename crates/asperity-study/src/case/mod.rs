@@ -53,6 +53,7 @@ pub use asperity_contact::solver::{Device, Method};
 use asperity_contact::temperature::{Temperature, Thermal};
 use asperity_contact::with::adhesion::Attraction;
 use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
+use asperity_contact::with::viscoelastic::{Steady, Viscoelasticity};
 use asperity_contact::with::{BodyConstants, BodyLaws, Capabilities, Surroundings};
 
 /// A case, resolved to SI.
@@ -83,6 +84,9 @@ pub struct Case {
     /// Sliding in place of a static contact; `None` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sliding: Option<SlidingSpec>,
+    /// Steady sliding of viscoelastic bodies; `None` if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steady: Option<Steady>,
     /// Extrapolation over passes; by default each pass is computed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub acceleration: Option<Acceleration>,
@@ -116,6 +120,9 @@ pub struct Body {
     /// Plastic flow below the surface; elastic if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plasticity: Option<Yielding>,
+    /// Relaxation of the body; elastic if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub viscoelastic: Option<Viscoelasticity>,
     /// Thermal constants of the body; unknown if absent.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub thermal: Option<Thermal>,
@@ -444,7 +451,8 @@ impl Case {
                 Hardness::Map(map) => Some(&map.path),
                 Hardness::Uniform(_) | Hardness::Given(_) => None,
             };
-            surface.into_iter().chain(map)
+            let curve = body.viscoelastic.as_ref().and_then(|body| body.file.as_ref());
+            surface.into_iter().chain(map).chain(curve)
         })
     }
 }

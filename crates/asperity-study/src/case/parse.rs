@@ -101,6 +101,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
         history: history.unwrap_or_default(),
         motion,
         sliding,
+        steady: tables::read(&keys::STEADY, root)?,
         acceleration,
         temperature,
         plasticity,

@@ -60,7 +60,7 @@ use asperity_base::record::Record;
 use asperity_contact::each_capability;
 use asperity_contact::motion::{
     IncrementRecord, LoadingState, Pair, PassRecord, SlidingState, State, StateReader, StepRecord,
-    SweepRecord, UpdateRecord, WarmStart,
+    SweepRecord, SweepState, UpdateRecord, WarmStart,
 };
 use asperity_contact::plasticity::{PlasticState, TensorField, VolumeField};
 use asperity_contact::stress::Component;
@@ -463,6 +463,17 @@ impl Results {
         })
     }
 
+    /// Reads the finished points of a sweep of the `pair`; none if it has not begun.
+    ///
+    /// # Errors
+    /// [`Error::File`] for unreadable files, [`Error::NotResumable`] if they do not fit together.
+    pub(super) fn sweep_under_way(&self, pair: &Pair) -> Result<SweepState> {
+        let (rows, table) = (self.sweep()?, self.sweep_path());
+        let state =
+            self.under_way(pair, rows.clone(), 1, &table, |from, rows| SweepState::restore(from, rows))?;
+        Ok(state.unwrap_or(SweepState { records: rows, start: None }))
+    }
+
     /// Reads the interrupted contact of the `pair` that slides in place, if there is one.
     ///
     /// # Errors
@@ -484,7 +495,7 @@ impl Results {
     ) -> Result<Option<S>> {
         let Some(done) = self.last_state(rows.len(), first, table)? else { return Ok(None) };
         let stored = Stored::open(&self.state_path(done))?;
-        if stored.field("pressure")?.shape() != pair.lower_grid().shape {
+        if stored.holds("pressure") && stored.field("pressure")?.shape() != pair.lower_grid().shape {
             return Err(stored.of_another_contact());
         }
         rows.truncate(done + 1 - first);

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::adhesion::AdhesionRecord;
+use super::steady::SteadyRecord;
 use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonPerMetre, Pascal, SquareMetre};
 use asperity_base::record::columns;
 
@@ -34,9 +35,9 @@ columns! {
         pub plastic_area: SquareMetre,
         /// Plastic volume ΔA Σ w, with w the plastic interference of the cells.
         pub plastic_volume: CubicMetre,
-        /// Elastic energy ½ ΔA Σ p u; in rolling also the energy of the shear.
+        /// Elastic energy ½ ΔA Σ p u; in rolling also the energy of the shear. For viscoelastic bodies it is no stored energy.
         pub elastic_energy: Joule,
-        /// Normal stiffness dW/dδ; unknown with adhesion, and in full elastic contact of a periodic surface, where it is infinite.
+        /// Normal stiffness dW/dδ; unknown with adhesion, in steady sliding, and in full elastic contact of a periodic surface, where it is infinite.
         pub stiffness: Option<NewtonPerMetre>,
         /// Creepage along x; without rolling, the columns from here to `slip_work` are 0.
         pub creepage_x: f64,
@@ -63,5 +64,8 @@ columns! {
         /// Attraction of the bodies; none without adhesion.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub adhesion: Option<AdhesionRecord>,
+        /// Steady sliding of viscoelastic bodies; none for others.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub steady: Option<SteadyRecord>,
     }
 }

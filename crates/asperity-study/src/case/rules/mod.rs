@@ -13,6 +13,7 @@ mod output;
 mod plasticity;
 mod running;
 mod temperature;
+mod viscoelastic;
 
 use super::cursor::{Entry, Table};
 use super::{Body, Case, FrictionSpec, LoadingPath, MotionSpec};
@@ -35,8 +36,8 @@ struct Tables<'a> {
 }
 
 /// Rules of the bodies and of their loading and motion, which come before those of the laws that change the bodies.
-const OF_THE_CONTACT: [&[Rule]; 5] =
-    [bodies::RULES, motion::RULES, loading::RULES, plasticity::RULES, running::RULES];
+const OF_THE_CONTACT: [&[Rule]; 6] =
+    [bodies::RULES, viscoelastic::RULES, motion::RULES, loading::RULES, plasticity::RULES, running::RULES];
 
 /// Rules of everything else, which come after those of the laws.
 const OF_THE_REST: [&[Rule]; 4] = [temperature::RULES, output::RULES, adhesion::RULES, device::RULES];
@@ -232,6 +233,11 @@ impl<'a> Tables<'a> {
 
     fn yields(&self) -> bool {
         self.case.yields()
+    }
+
+    /// Returns the table of a viscoelastic body.
+    fn viscoelastic(&self) -> Option<Entry<'a>> {
+        self.of_body("viscoelastic", |body| body.viscoelastic.is_some())
     }
 
     /// Whether passes are extrapolated.

@@ -16,7 +16,7 @@ choice!(Spacing: "log" => Log, "linear" => Linear);
 
 const END: Value<()> = other(None, "as for the key in the singular", |_, _| Ok(()));
 
-section! { &["contact.loads", "contact.mean_pressures", "contact.approaches", "friction.creepages"], "";
+section! { &["contact.loads", "contact.mean_pressures", "contact.approaches", "friction.creepages", "steady.speeds"], "";
     FROM: Typed<()> = required("from", END, "\"10 mN\"", "first value");
     TO: Typed<()> = required("to", END, "\"10 N\"", "last value, larger or smaller than the first");
     POINTS: Optional<usize> = optional("points", count_to(2, 10_000), "required", "9", "number of values");

@@ -24,6 +24,7 @@ use asperity_contact::material::Coating;
 use asperity_contact::temperature::Temperature;
 use asperity_contact::with::adhesion::Attraction;
 use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
+use asperity_contact::with::viscoelastic::{Steady, Viscoelasticity};
 use asperity_contact::with::{BodyLaw, Capability};
 use asperity_contact::{each_capability, each_law};
 
@@ -71,6 +72,8 @@ fn of_every_case() -> Vec<Section> {
         crate::case::SlidingSpec::sections(),
         Temperature::sections(),
         of_laws,
+        Viscoelasticity::sections(),
+        Steady::sections(),
         Yielding::sections(),
         PlasticRegion::sections(),
         declared(topography::every::SECTION),

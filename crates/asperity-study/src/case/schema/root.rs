@@ -17,6 +17,7 @@ section! { &[], "";
         Absent("none"),
         "static contact that slides and wears in place",
     );
+    STEADY: Nested = table("steady", Absent("none"), "steady sliding of viscoelastic bodies");
     ACCELERATION: Nested = table(
         "acceleration",
         Absent("none: every pass is computed"),

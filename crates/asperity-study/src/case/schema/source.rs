@@ -3,7 +3,7 @@
 use super::super::cursor::{Entry, Table, did_you_mean};
 use super::tables::suits;
 use super::typed::{COUNT, missing, real};
-use super::{Key, Kind};
+use super::{Key, Kind, values};
 use asperity_base::error::{Error, Result};
 use asperity_base::table::{self, Source, expected};
 use asperity_base::units::Dimension;
@@ -66,6 +66,10 @@ impl table::Value for Entry<'_> {
 
     fn items(&self, expected: &str) -> Result<Vec<Box<dyn table::Value + '_>>> {
         Ok(self.items(expected)?.into_iter().map(|item| Box::new(item) as Box<dyn table::Value>).collect())
+    }
+
+    fn several(&self, key: &Key, kind: &Kind, example: &str) -> Result<Vec<f64>> {
+        values::sweep::numbers(self, example, |entry| real(kind, key, entry))
     }
 
     fn similar(&self, word: &str, words: &[&'static str]) -> Option<String> {

@@ -31,6 +31,15 @@ pub(in crate::case) fn creepages(entry: &Entry<'_>) -> Result<Vec<[f64; 2]>> {
     values(entry, "[0.001, 0]", Spacing::Linear, |entry| entry.vector(expected, number))
 }
 
+/// The numbers of a sweep in equal ratios, each read by `read`.
+pub(in crate::case) fn numbers(
+    entry: &Entry<'_>,
+    example: &str,
+    read: impl Fn(&Entry<'_>) -> Result<f64>,
+) -> Result<Vec<f64>> {
+    Ok(values(entry, example, Spacing::Log, |entry| read(entry).map(|value| [value]))?.into_flattened())
+}
+
 /// The most points of a sweep.
 const MAX_POINTS: usize = 10_000;
 

@@ -1,0 +1,21 @@
+//! Steady sliding of viscoelastic bodies.
+
+use serde::{Deserialize, Serialize};
+
+use crate::units::{MetrePerSecond, Newton, Watt};
+use asperity_base::record::columns;
+
+columns! {
+    /// What steady sliding takes from viscoelastic bodies.
+    #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+    pub struct SteadyRecord {
+        /// Speed at which the contact moves over the body that is smooth along x.
+        pub speed: MetrePerSecond,
+        /// Force with which the bodies resist the motion: what the viscoelastic body dissipates over a distance.
+        pub drag: Newton,
+        /// Drag over load: the coefficient of friction of the dissipation.
+        pub drag_coefficient: f64,
+        /// Power that is dissipated.
+        pub drag_power: Watt,
+    }
+}

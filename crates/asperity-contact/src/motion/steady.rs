@@ -1,0 +1,99 @@
+//! Steady sliding of a pair of bodies, one or both viscoelastic.
+
+use crate::error::{Error, Result};
+use crate::grid::Field;
+use crate::motion::pair::Pair;
+use crate::motion::record::{StaticRecord, SteadyRecord};
+use crate::motion::state::LoadedContact;
+use crate::operator::Boundary;
+use crate::solver::{Control, Equilibrium, Params, Watch};
+use crate::units::MetrePerSecond;
+use crate::viscoelastic::{Creep, SteadySliding, solve_steady};
+
+/// Largest difference of heights along x of a body that counts as smooth, relative to the range of its heights, or to the pitch.
+const SMOOTH: f64 = 1e-9;
+
+/// One of the two bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MovingBody {
+    /// The contact stays on the upper body, and moves along +x over the lower one.
+    Lower,
+    /// The contact stays on the lower body, and moves along −x over the upper one.
+    Upper,
+}
+
+impl Pair {
+    /// Returns the body through which a steady contact moves: one whose heights do not change along x. If neither changes, it is the
+    /// one that creeps, or the lower one. The other body stands still in the contact, and has its relaxed modulus.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if the heights of both bodies change along x.
+    pub fn moving_body(&self) -> Result<MovingBody> {
+        let is_smooth = [&self.lower.heights, &self.upper.heights]
+            .map(|heights| is_smooth_along_x(heights, self.pitch()));
+        let creeps = self.creep().map(|creep| creep.each_ref().map(|creep| !creep.terms.is_empty()));
+        match is_smooth {
+            [true, true] if creeps == Some([false, true]) => Ok(MovingBody::Upper),
+            [true, _] => Ok(MovingBody::Lower),
+            [false, true] => Ok(MovingBody::Upper),
+            [false, false] => Err(Error::Unsupported(
+                "steady sliding needs a body that is smooth along x: material of one body passes through the contact, and its gap is constant",
+            )),
+        }
+    }
+
+    /// Returns the operator of the pair that slides steadily at a `speed`, as the contact sees it.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] without viscoelastic bodies, and the errors of [`Pair::moving_body`] and of [`SteadySliding::new`].
+    pub fn sliding_steadily(&self, boundary: Boundary, speed: MetrePerSecond) -> Result<SteadySliding> {
+        let creeps =
+            self.creep().ok_or(Error::Unsupported("steady sliding is computed for viscoelastic bodies"))?;
+        let (moving, standing, speed) = match self.moving_body()? {
+            MovingBody::Lower => (&creeps[0], &creeps[1], speed),
+            MovingBody::Upper => (&creeps[1], &creeps[0], -speed),
+        };
+        let creep = moving.plus(&Creep::elastic(standing.relaxed()));
+        SteadySliding::new(self.lower_grid(), boundary, &creep, speed)
+    }
+}
+
+fn is_smooth_along_x(heights: &Field, pitch: [f64; 2]) -> bool {
+    let first = heights.row(0);
+    let range = heights.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], z| [a.min(*z), b.max(*z)]);
+    let allowed = SMOOTH * (range[1] - range[0]).max(SMOOTH * pitch[0]);
+    heights.rows().into_iter().all(|row| row.iter().zip(first).all(|(z, first)| (z - first).abs() <= allowed))
+}
+
+impl LoadedContact {
+    /// Solves the steady contact of a `pair` over the initial `gap`, near the pressure `start`, if one is known.
+    #[expect(clippy::too_many_arguments, reason = "the contact, what is asked of it, and who looks on")]
+    pub(super) fn steady(
+        pair: &Pair,
+        boundary: Boundary,
+        gap: &Field,
+        control: Control,
+        speed: MetrePerSecond,
+        start: Option<&Field>,
+        params: &Params,
+        watch: &dyn Watch,
+    ) -> Result<(Self, SteadyRecord)> {
+        let mut operator = pair.sliding_steadily(boundary, speed)?;
+        let found = solve_steady(&mut operator, gap, control, start, params, watch)?;
+        let solution = found.solution;
+        let record = StaticRecord::new(&solution);
+        let drag = found.drag;
+        let steady =
+            SteadyRecord { speed, drag, drag_coefficient: drag / record.load, drag_power: drag * speed };
+        let contact = Self {
+            record,
+            increments: Vec::new(),
+            plastic: pair.lower_grid().zeros(),
+            solution: Equilibrium::Frictionless(Box::new(solution)),
+            slip: None,
+            dissipation_error: 0.0,
+            changed: None,
+        };
+        Ok((contact, steady))
+    }
+}

@@ -1,0 +1,220 @@
+//! Viscoelastic bodies of a case: the tables `[lower.viscoelastic]`, `[upper.viscoelastic]` and `[steady]`.
+//!
+//! The laws are in [`crate::viscoelastic`].
+
+mod views;
+
+pub use views::{answers, doubts};
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::error::Result;
+use crate::units::{Kelvin, MetrePerSecond, Pascal, Second};
+use crate::viscoelastic::{MasterFit, MasterPoint, Relaxation, RelaxationTerm, fit_master_curve};
+use asperity_base::exists;
+use asperity_base::table::{Bounds, Exists, Key, Kind, Source, Value, list, require};
+use asperity_base::units::Dimension;
+use asperity_derive::Table;
+
+/// Relaxation of a body, whose `young` is the relaxed modulus.
+#[derive(Table, Debug, Clone, PartialEq, Serialize)]
+#[table("lower.viscoelastic", "upper.viscoelastic", check = together)]
+#[non_exhaustive]
+pub struct Viscoelasticity {
+    /// Moduli that relax, in tension as `young`, which is the modulus that remains.
+    #[key(
+        special = moduli,
+        form = "list of pressures > 0",
+        dimension = Pressure,
+        default = Vec::new(),
+        absent = "those of `file`",
+        example = "[\"9 MPa\", \"90 MPa\"]",
+        exists = exists::YOUNG
+    )]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub moduli: Vec<Pascal>,
+    /// Relaxation times, one for each modulus, all different.
+    #[key(
+        special = times,
+        form = "list of times > 0",
+        dimension = Time,
+        default = Vec::new(),
+        absent = "those of a fit to `file`",
+        example = "[\"1 s\", \"20 ms\"]",
+        exists = ANY_TIME
+    )]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub times: Vec<Second>,
+    /// Master curve instead of `moduli` and `times`: a text with three columns, frequency in Hz, storage and loss modulus in Pa, under a line
+    /// that says so: `frequency_Hz, storage_Pa, loss_Pa`, or with MPa or GPa.
+    #[key(special = path, form = "file name, relative to the case file", absent = "none", example = "\"master.csv\"")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<PathBuf>,
+    /// Relaxation times a decade of the fit to `file`.
+    #[key(number = "a number", range = AboveZero, default = 2.0, example = "1")]
+    #[serde(skip_serializing_if = "is_two")]
+    pub terms_per_decade: f64,
+    /// Shift factor a_T: all times are multiplied by it, for another temperature than that of the moduli.
+    #[key(number = "a number", range = AboveZero, default = 1.0, example = "0.1")]
+    #[serde(skip_serializing_if = "is_one")]
+    pub shift: f64,
+    /// Constant c₁ of the shift of Williams, Landel and Ferry, log₁₀ a_T = −c₁(T − Tᵣ)/(c₂ + T − Tᵣ), at the temperature `bulk` of the body in
+    /// \[temperature\].
+    #[key(number = "a number", range = AboveZero, absent = "no such shift", example = "8.9")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wlf_c1: Option<f64>,
+    /// Constant c₂ of this shift.
+    #[key(quantity = TemperatureDifference, range = AboveZero, absent = "no such shift", example = "\"102 K\"")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wlf_c2: Option<Kelvin>,
+    /// Temperature Tᵣ of the moduli.
+    #[key(quantity = Temperature, range = AboveZero, absent = "no such shift", example = "\"20 °C\"")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wlf_at: Option<Kelvin>,
+}
+
+const ANY_TIME: Exists = Exists::Any("a body may relax in any time");
+
+fn is_two(value: &f64) -> bool {
+    *value == 2.0
+}
+
+fn is_one(value: &f64) -> bool {
+    *value == 1.0
+}
+
+fn moduli(value: &dyn Value, key: &Key) -> Result<Vec<Pascal>> {
+    list(value, "a list of moduli such as [\"9 MPa\", \"90 MPa\"]", |item| {
+        item.real(key, &Kind::Quantity(Dimension::Pressure, Bounds::AboveZero))
+    })
+}
+
+fn times(value: &dyn Value, key: &Key) -> Result<Vec<Second>> {
+    list(value, "a list of times such as [\"1 s\", \"20 ms\"]", |item| {
+        item.real(key, &Kind::Quantity(Dimension::Time, Bounds::AboveZero))
+    })
+}
+
+fn path(value: &dyn Value, _key: &Key) -> Result<PathBuf> {
+    value.text().map(PathBuf::from)
+}
+
+fn together(read: &Viscoelasticity, source: &dyn Source) -> Result<()> {
+    let one = source
+        .exactly_one(&["moduli", "file"], "for example `moduli = [\"9 MPa\"]` and `times = [\"1 s\"]`")?;
+    let (moduli, times) = (read.moduli.len(), read.times.len());
+    if one == "file" {
+        require(source, "times", times == 0, "no times beside a `file`, whose fit finds them", None)?;
+    } else {
+        require(source, "moduli", moduli > 0, "at least one modulus", None)?;
+        require(source, "moduli", times > 0, "also `times`, one for each modulus", None)?;
+        let expected = format!("as many times as moduli, {moduli}");
+        require(source, "times", moduli == times, &expected, None)?;
+        let mut sorted = read.times.clone();
+        sorted.sort_by(f64::total_cmp);
+        let differ = sorted.windows(2).all(|pair| pair[0] < pair[1]);
+        require(source, "times", differ, "times that are all different", None)?;
+    }
+    let wlf = [
+        ("wlf_c1", read.wlf_c1.is_some()),
+        ("wlf_c2", read.wlf_c2.is_some()),
+        ("wlf_at", read.wlf_at.is_some()),
+    ];
+    let all = wlf.iter().all(|(_, given)| *given);
+    wlf.iter().try_for_each(|(key, given)| {
+        let expected = "all three of `wlf_c1`, `wlf_c2` and `wlf_at`, or none";
+        require(source, key, !given || all, expected, None)
+    })
+}
+
+impl Viscoelasticity {
+    /// Takes the file of the master curve to be relative to a `folder`.
+    #[must_use]
+    pub fn in_folder(self, folder: &Path) -> Self {
+        Self { file: self.file.map(|file| folder.join(file)), ..self }
+    }
+
+    /// Whether its times depend on the temperature of the body.
+    pub fn needs_temperature(&self) -> bool {
+        self.wlf_c1.is_some()
+    }
+
+    /// Returns the factor of the times at a `temperature` of the body.
+    fn factor(&self, temperature: Option<Kelvin>) -> f64 {
+        let wlf = self.wlf_c1.zip(self.wlf_c2).zip(self.wlf_at).zip(temperature);
+        let shifted = wlf.map_or(0.0, |(((c1, c2), at), temperature)| {
+            let above = temperature - at;
+            -c1 * above / (c2 + above)
+        });
+        self.shift * 10f64.powf(shifted)
+    }
+
+    /// Returns the relaxation of a body with this `relaxed` modulus at a `temperature`, and the fit if it has a master `curve`.
+    ///
+    /// # Errors
+    /// The errors of [`Relaxation::new`] and of [`fit_master_curve`].
+    pub fn relaxation(
+        &self,
+        relaxed: Pascal,
+        temperature: Option<Kelvin>,
+        curve: Option<&[MasterPoint]>,
+    ) -> Result<(Relaxation, Option<MasterFit>)> {
+        let fit = curve.map(|curve| fit_master_curve(curve, relaxed, self.terms_per_decade)).transpose()?;
+        let terms: Vec<RelaxationTerm> = match &fit {
+            Some(fit) => fit.relaxation.terms().to_vec(),
+            None => {
+                let terms = self.moduli.iter().zip(&self.times);
+                terms.map(|(modulus, time)| RelaxationTerm { modulus: *modulus, time: *time }).collect()
+            }
+        };
+        let factor = self.factor(temperature);
+        let shifted = terms.into_iter().map(|term| RelaxationTerm { time: factor * term.time, ..term });
+        Ok((Relaxation::new(relaxed, shifted)?, fit))
+    }
+}
+
+/// Steady sliding of viscoelastic bodies, at one speed after another.
+#[derive(Table, Debug, Clone, PartialEq, Serialize)]
+#[table("steady", check = at_a_speed)]
+#[non_exhaustive]
+pub struct Steady {
+    /// Speed of the contact over the body that is smooth along x.
+    #[key(
+        quantity = Speed,
+        range = AboveZero,
+        absent = "exactly one of the two",
+        example = "\"1 m/s\"",
+        exists = exists::SPEED
+    )]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed: Option<MetrePerSecond>,
+    /// Several speeds, one after the other, each from the contact at the one before.
+    #[key(
+        special = speeds,
+        form = "list of at least one speed > 0, or a [table](#a-sweep)",
+        dimension = Speed,
+        default = Vec::new(),
+        absent = "exactly one of the two",
+        example = "[\"1 mm/s\", \"1 m/s\"]",
+        exists = exists::SPEED
+    )]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub speeds: Vec<MetrePerSecond>,
+}
+
+fn speeds(value: &dyn Value, key: &Key) -> Result<Vec<MetrePerSecond>> {
+    value.several(key, &Kind::Quantity(Dimension::Speed, Bounds::AboveZero), "\"1 mm/s\"")
+}
+
+fn at_a_speed(_: &Steady, source: &dyn Source) -> Result<()> {
+    source.exactly_one(&["speed", "speeds"], "for example `speed = \"1 m/s\"`").map(|_| ())
+}
+
+impl Steady {
+    /// The speeds.
+    pub fn all(&self) -> Vec<MetrePerSecond> {
+        self.speed.into_iter().chain(self.speeds.iter().copied()).collect()
+    }
+}

@@ -1,0 +1,114 @@
+//! Steady sliding in words, and reasons not to trust it.
+
+use crate::motion::SweepRecord;
+use crate::operator::Boundary;
+use crate::units::{Dimension, Metre, format, format_number};
+use crate::viscoelastic::Creep;
+use crate::with::views::Answer;
+
+/// Returns what the points of a sweep show of steady sliding: the largest drag, and its speed.
+pub fn answers(points: &[SweepRecord]) -> Vec<Answer> {
+    let steady: Vec<_> = points.iter().filter_map(|point| Some((point, point.steady?))).collect();
+    let Some((_, most)) =
+        steady.iter().max_by(|(_, a), (_, b)| a.drag_coefficient.total_cmp(&b.drag_coefficient))
+    else {
+        return Vec::new();
+    };
+    let value = format_number(most.drag_coefficient);
+    let at = format(most.speed, Dimension::Speed);
+    let sentence = match steady.as_slice() {
+        [(_, only)] => format!(
+            "At {at} the bodies resist the motion with {value} of the load, {}, and dissipate {}.",
+            format(only.drag, Dimension::Force),
+            format(only.drag_power, Dimension::Power)
+        ),
+        several => {
+            let speeds = several.iter().map(|(_, steady)| steady.speed);
+            let [least, largest] = [speeds.clone().fold(f64::INFINITY, f64::min), speeds.fold(0.0, f64::max)];
+            let is_inside = least < most.speed && most.speed < largest;
+            let place = if is_inside { "" } else { ", at an end of the speeds" };
+            let share = |pick: fn(f64, f64) -> f64, from: f64| {
+                let shares = several.iter().map(|(point, _)| 100.0 * point.contact_fraction);
+                format_number(shares.fold(from, pick))
+            };
+            format!(
+                "The drag of {} speeds is largest at {at}{place}: {value} of the load. The real area of contact goes from {} % to {} % of \
+                 the grid.",
+                several.len(),
+                share(f64::max, 0.0),
+                share(f64::min, f64::INFINITY)
+            )
+        }
+    };
+    vec![Answer {
+        name: "largest drag over load".into(),
+        about: format!("Coefficient of friction of the dissipation, at {at}."),
+        sentence,
+        value,
+    }]
+}
+
+/// Share of the compliance from which on a term matters.
+const WEIGHT: f64 = 0.05;
+/// Ratio of a modulus to what is softer from which on its relaxation must be resolved, and the length that resolves it, in cells.
+const STIFF: f64 = 30.0;
+const RESOLVED: f64 = 0.4;
+
+/// Returns reasons not to trust the steady sliding of bodies with this `creep` compliance of the body that the contact moves over, at the
+/// `speeds`, on a grid with this pitch and extent along x.
+pub fn doubts(creep: &Creep, boundary: Boundary, pitch: Metre, extent: Metre, speeds: &[f64]) -> Vec<String> {
+    if creep.terms.is_empty() {
+        return vec![
+            "the viscoelastic body is the rough one, which stands still in the contact: it has its relaxed modulus, and nothing drags"
+                .to_owned(),
+        ];
+    }
+    let mut doubts = Vec::new();
+    let relaxed = creep.relaxed();
+    let important = || creep.terms.iter().filter(|term| term.compliance > WEIGHT * relaxed);
+    let text = |length: Metre| format(length, Dimension::Length);
+    let speed = |speed: f64| format(speed, Dimension::Speed);
+    let least = speeds.iter().copied().fold(f64::INFINITY, f64::min);
+    let largest = speeds.iter().copied().fold(0.0, f64::max);
+    if let Some(term) =
+        important().filter(|term| least * term.time < 0.5 * pitch).min_by(|a, b| a.time.total_cmp(&b.time))
+    {
+        doubts.push(format!(
+            "at {} a retardation time of {} passes within {}, less than half a cell: its drag is that of a slow body, and a finer pitch or \
+             a larger speed would resolve it",
+            speed(least),
+            format(term.time, Dimension::Time),
+            text(least * term.time)
+        ));
+    }
+    let slowest = important().map(|term| term.time).fold(0.0, f64::max);
+    if boundary.repeats(0) && largest * slowest > extent {
+        doubts.push(format!(
+            "at {} the body remembers {}, more than the period of {}: waves along y stay relaxed however fast the contact moves, so that it \
+             does not become that of the glassy body",
+            speed(largest),
+            text(largest * slowest),
+            text(extent)
+        ));
+    }
+    let mut softer = creep.glassy;
+    // From the fastest term on: what is softer than the glassy body by more than this in one time.
+    for term in creep.terms.iter().rev() {
+        let ratio = (softer + term.compliance) / softer;
+        let relaxation = term.time / ratio;
+        if ratio > STIFF
+            && speeds.iter().any(|speed| speed * relaxation < RESOLVED * pitch && speed * term.time > pitch)
+        {
+            doubts.push(format!(
+                "a retardation time of {} softens the body {} times at once: where it relaxes in less than {} of a cell, the leading edge is \
+                 not resolved",
+                format(term.time, Dimension::Time),
+                format_number(ratio),
+                format_number(RESOLVED)
+            ));
+            break;
+        }
+        softer += term.compliance;
+    }
+    doubts
+}

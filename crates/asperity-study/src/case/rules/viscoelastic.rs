@@ -1,0 +1,118 @@
+//! Rules of viscoelastic bodies and their steady sliding.
+
+use super::Rule;
+use super::examples::{AT_ANY_SPEED, RELAXES, STEADY};
+
+/// Tables that a steady contact excludes.
+const OTHERS: [&str; 8] =
+    ["motion", "sliding", "history", "friction", "adhesion", "plasticity", "acceleration", "subsurface"];
+
+pub(super) const RULES: &[Rule] = &[
+    Rule {
+        this: "[lower.viscoelastic], [upper.viscoelastic]",
+        with: "no [steady]",
+        message: "a viscoelastic body needs [steady]: a contact at rest has the relaxed modulus `young`",
+        hint: "give the `speed` or the `speeds` in [steady], or take the table away",
+        at: "lower.viscoelastic",
+        example: &[RELAXES],
+        broken: |tables| tables.viscoelastic().filter(|_| tables.case.steady.is_none()),
+    },
+    Rule {
+        this: "[steady]",
+        with: "elastic bodies",
+        message: "[steady] needs a viscoelastic body: elastic bodies have the same contact at every speed",
+        hint: "give `moduli` and `times` in [lower.viscoelastic]",
+        at: "steady",
+        example: &[STEADY],
+        broken: |tables| tables.at("steady").filter(|_| tables.viscoelastic().is_none()),
+    },
+    Rule {
+        this: "[steady]",
+        with: "[motion], [sliding], [[history]], [friction], [adhesion], [plasticity], [acceleration], [subsurface]",
+        message: "[steady] does not support [{key}]",
+        hint: "steady sliding is the contact alone, and the drag of its dissipation",
+        at: "motion",
+        example: &[RELAXES, STEADY, AT_ANY_SPEED],
+        broken: |tables| {
+            tables.case.steady.as_ref()?;
+            OTHERS.iter().find_map(|table| tables.at(table))
+        },
+    },
+    Rule {
+        this: "[lower.viscoelastic], [upper.viscoelastic]",
+        with: "a hardness, a coating or `plasticity` of either body, `wear`, `film`",
+        message: "viscoelastic bodies do not support '{key}'",
+        hint: "a body that yields or that is coated has no viscoelastic relaxation here",
+        at: "lower.hardness",
+        example: &[RELAXES, STEADY, r#"lower.hardness = "3 GPa""#],
+        broken: |tables| {
+            tables.viscoelastic()?;
+            let keys = ["coating", "plasticity", "wear", "film"];
+            let found = ["lower", "upper"].iter().find_map(|body| {
+                let yields = tables.yields().then(|| tables.at(&format!("{body}.hardness"))).flatten();
+                yields.or_else(|| keys.iter().find_map(|key| tables.at(&format!("{body}.{key}"))))
+            });
+            found
+        },
+    },
+    Rule {
+        this: "[steady]",
+        with: "`loads`, `mean_pressures`, `approaches` in [contact]",
+        message: "[steady] goes from speed to speed under one load, not '{key}'",
+        hint: "give one `load`, or a study over it",
+        at: "contact.loads",
+        example: &[RELAXES, STEADY, r#"contact = { loads = ["1 N", "2 N"] }"#],
+        broken: |tables| {
+            tables.case.steady.as_ref()?;
+            tables.first("contact", &["loads", "mean_pressures", "approaches"])
+        },
+    },
+    Rule {
+        this: "[steady]",
+        with: "`boundary = [\"periodic\", \"free\"]`",
+        message: "steady sliding is not computed on a grid that is periodic along x alone",
+        hint: "`\"free\"`, `\"periodic\"` or `[\"free\", \"periodic\"]`",
+        at: "contact.boundary",
+        example: &[RELAXES, STEADY, r#"contact = { load = "1 N", boundary = ["periodic", "free"] }"#],
+        broken: |tables| {
+            tables.case.steady.as_ref()?;
+            let boundary = tables.case.contact.boundary;
+            tables.at("contact.boundary").filter(|_| boundary.repeats(0) && !boundary.repeats(1))
+        },
+    },
+    Rule {
+        this: "[steady]",
+        with: "`method = \"direct\"`, `\"polonsky-keer\"`, a `device`",
+        message: "steady sliding has a solver of its own, and no other '{key}'",
+        hint: "leave it out",
+        at: "contact.method",
+        example: &[RELAXES, STEADY, r#"contact = { load = "1 N", method = "direct" }"#],
+        broken: |tables| {
+            tables.case.steady.as_ref()?;
+            let is_own = matches!(tables.case.contact.method, super::super::Method::Auto);
+            let is_here = tables.case.contact.device == super::super::Device::Cpu;
+            let method = tables.at("contact.method").filter(|_| !is_own);
+            method
+                .or_else(|| tables.at("contact.device").filter(|_| !is_here))
+                .or_else(|| tables.at("steady").filter(|_| !is_here))
+        },
+    },
+    Rule {
+        this: "`wlf_c1`, `wlf_c2`, `wlf_at`",
+        with: "no [temperature]",
+        message: "the shift of Williams, Landel and Ferry needs the temperature of the body",
+        hint: "give `bulk` in [temperature]",
+        at: "lower.viscoelastic.wlf_c1",
+        example: &[
+            STEADY,
+            r#"lower.viscoelastic = { moduli = ["1 GPa"], times = ["1 s"], wlf_c1 = 8.9, wlf_c2 = "102 K", wlf_at = "20 °C" }"#,
+        ],
+        broken: |tables| {
+            let needs = [("lower", &tables.case.lower), ("upper", &tables.case.upper)]
+                .into_iter()
+                .find(|(_, body)| body.viscoelastic.as_ref().is_some_and(|body| body.needs_temperature()));
+            let (name, _) = needs.filter(|_| tables.case.temperature.is_none())?;
+            tables.at(&format!("{name}.viscoelastic.wlf_c1"))
+        },
+    },
+];

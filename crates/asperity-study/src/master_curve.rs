@@ -1,0 +1,213 @@
+//! Master curves of viscoelastic bodies from text files.
+
+use crate::case::{Body, Case};
+use crate::given::SurfaceInput;
+use crate::io::{regular, sha256};
+use asperity_base::error::{Error, Result};
+use asperity_base::units::{self, Dimension};
+use asperity_contact::motion::Pair;
+use asperity_contact::viscoelastic::{MasterFit, MasterPoint, Relaxation};
+
+/// A master curve with the digest of its file, hexadecimal.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct MasterCurve {
+    /// Its points.
+    pub points: Vec<MasterPoint>,
+    /// The digest.
+    pub sha256: String,
+}
+
+/// Largest accepted file.
+const MAX_BYTES: u64 = 16 << 20;
+/// Units of a frequency, and how many hertz they are.
+const FREQUENCIES: [(&str, f64); 4] =
+    [("Hz", 1.0), ("kHz", 1e3), ("MHz", 1e6), ("rad/s", 1.0 / std::f64::consts::TAU)];
+const COLUMNS: [&str; 3] = ["frequency", "storage modulus", "loss modulus"];
+const EXAMPLE: &str =
+    "the first line names the columns with their units: `frequency_Hz, storage_MPa, loss_MPa`";
+
+/// Reads the master curve of the body `name` of a case; `None` if it has none.
+///
+/// # Errors
+/// [`Error::Case`] at its key if the file cannot be read or is no master curve; [`Error::SurfaceChanged`].
+pub(super) fn of(case: &Case, name: &str, body: &Body, given: &SurfaceInput) -> Result<Option<MasterCurve>> {
+    let Some(file) = body.viscoelastic.as_ref().and_then(|body| body.file.as_ref()) else { return Ok(None) };
+    let key = format!("{name}.viscoelastic.file");
+    let text = regular::read(file, "a master curve", MAX_BYTES)
+        .map_err(|source| case.error_at(&key, format!("{}: {source}", file.display()), None))?;
+    let sha256 = sha256(&text);
+    given.admit(&key, &sha256)?;
+    let points = read(&text).map_err(|message| {
+        case.error_at(&key, format!("{}: {message}", file.display()), Some(EXAMPLE.to_owned()))
+    })?;
+    Ok(Some(MasterCurve { points, sha256 }))
+}
+
+/// Reads the points of a curve.
+fn read(text: &[u8]) -> std::result::Result<Vec<MasterPoint>, String> {
+    let text = std::str::from_utf8(text).map_err(|_| "is no text".to_owned())?;
+    let lines = text.lines().enumerate().map(|(number, line)| (number + 1, line.trim()));
+    let mut lines = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+    let Some((number, header)) = lines.next() else { return Err("is empty".to_owned()) };
+    let names = cells(header);
+    if names.len() != 3 {
+        return Err(format!("line {number} has {} columns, expected three", names.len()));
+    }
+    let mut factors = [1.0; 3];
+    for ((column, name), factor) in names.iter().enumerate().zip(&mut factors) {
+        *factor = unit(name, column).ok_or_else(|| {
+            format!("line {number}: the {} '{name}' has no unit that is known", COLUMNS[column])
+        })?;
+    }
+    let mut points: Vec<MasterPoint> = Vec::new();
+    for (number, line) in lines {
+        let cells = cells(line);
+        let [frequency, storage, loss] = <[&str; 3]>::try_from(cells)
+            .map_err(|cells| format!("line {number} has {} columns, expected three", cells.len()))?;
+        let mut values = [0.0; 3];
+        for (column, text) in [frequency, storage, loss].into_iter().enumerate() {
+            let value = text.parse::<f64>().ok().filter(|value| *value > 0.0 && value.is_finite());
+            let value = value.ok_or_else(|| {
+                format!("line {number}: the {} is '{text}', expected a number above 0", COLUMNS[column])
+            })?;
+            values[column] = value * factors[column];
+        }
+        let [frequency, storage, loss] = values;
+        if points.last().is_some_and(|last| last.frequency >= frequency) {
+            return Err(format!("line {number}: the frequency does not rise"));
+        }
+        points.push(MasterPoint { frequency, storage, loss });
+    }
+    match points.len() {
+        0..3 => Err(format!("has {} points, expected at least three", points.len())),
+        _ => Ok(points),
+    }
+}
+
+/// Returns the cells of a line that commas, semicolons, tabs or blanks divide.
+fn cells(line: &str) -> Vec<&str> {
+    match line.contains([',', ';', '\t']) {
+        true => line.split([',', ';', '\t']).map(str::trim).collect(),
+        false => line.split_whitespace().collect(),
+    }
+}
+
+/// Returns the unit at the end of the name of a column: `storage_MPa`, `storage (MPa)`, `E' [MPa]`, `E'/MPa`.
+fn unit(name: &str, column: usize) -> Option<f64> {
+    let bare = name.trim_end_matches([')', ']', '"']).trim_start_matches('"');
+    let places = bare.char_indices().filter(|(_, c)| "_([/ ".contains(*c)).map(|(at, c)| at + c.len_utf8());
+    let mut ends = places.chain([0]).map(|at| bare[at..].trim());
+    ends.find_map(|text| match column {
+        0 => FREQUENCIES.iter().find(|(unit, _)| *unit == text).map(|(_, hertz)| *hertz),
+        _ => units::parse(&format!("1 {text}"), Dimension::Pressure).ok().filter(|_| !text.is_empty()),
+    })
+}
+
+/// Returns the relaxation of each body of a case, `None` for an elastic one, with the fit of a master curve.
+///
+/// # Errors
+/// [`Error::Case`] at the table of the body.
+pub(super) fn relaxations(
+    case: &Case,
+    curves: &[Option<MasterCurve>; 2],
+) -> Result<[Option<(Relaxation, Option<MasterFit>)>; 2]> {
+    let of = |index: usize, name: &str, body: &Body| {
+        let Some(viscoelastic) = &body.viscoelastic else { return Ok(None) };
+        let temperature = case.temperature.map(|temperature| temperature.bulk[index]);
+        let curve = curves[index].as_ref().map(|curve| &curve.points[..]);
+        let found = viscoelastic.relaxation(body.material.young, temperature, curve);
+        found.map(Some).map_err(|source| at(case, name, &source))
+    };
+    Ok([of(0, "lower", &case.lower)?, of(1, "upper", &case.upper)?])
+}
+
+/// Returns an error of a fit at the key that it concerns.
+fn at(case: &Case, name: &str, source: &Error) -> Error {
+    let key = match source {
+        Error::OutOfRange { quantity: "young", .. } => format!("{name}.young"),
+        Error::OutOfRange { quantity: "terms_per_decade", .. } => {
+            format!("{name}.viscoelastic.terms_per_decade")
+        }
+        _ => format!("{name}.viscoelastic.file"),
+    };
+    case.error_at(&key, source.to_string(), source.hint())
+}
+
+/// Makes the bodies of a `pair` viscoelastic, as their case says.
+///
+/// # Errors
+/// The errors of [`relaxations`].
+pub(super) fn relax(case: &Case, pair: Pair, curves: &[Option<MasterCurve>; 2]) -> Result<Pair> {
+    let [lower, upper] = relaxations(case, curves)?;
+    if lower.is_none() && upper.is_none() {
+        return Ok(pair);
+    }
+    let materials = [&case.lower.material, &case.upper.material];
+    pair.with_relaxation(materials, [lower, upper].map(|body| body.map(|(relaxation, _)| relaxation)))
+}
+
+/// Describes the fit of each body with a master curve, for `asperity check`.
+///
+/// # Errors
+/// The errors of [`relaxations`].
+pub(super) fn described(case: &Case, curves: &[Option<MasterCurve>; 2]) -> Result<Vec<String>> {
+    let fits = relaxations(case, curves)?.into_iter().zip(["lower", "upper"]);
+    let fits = fits.filter_map(|(body, name)| Some((body?.1?, name)));
+    let text = |(fit, name): (MasterFit, &str)| {
+        let [storage, loss] = fit.errors.map(|error| units::format_number(100.0 * error));
+        let count = fit.relaxation.terms().len();
+        format!(
+            "{name} body: {count} relaxation times fit its master curve within {storage} % (storage) and {loss} % (loss)"
+        )
+    };
+    Ok(fits.map(text).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_have_units_however_they_are_written() {
+        let wanted = MasterPoint { frequency: 2e3, storage: 3e6, loss: 4e5 };
+        for header in [
+            "frequency_kHz, storage_MPa, loss_MPa",
+            "frequency (kHz);E' (MPa);E'' (MPa)",
+            "f/kHz\tE'/MPa\tE''/MPa",
+            "\"f [kHz]\",\"storage [MPa]\",\"loss [MPa]\"",
+        ] {
+            let rows = "\n1, 1, 1\n2, 3, 0.4\n3, 4, 0.5\n"
+                .replace(", ", if header.contains('\t') { "\t" } else { ", " });
+            let points = read(format!("# made up\n{header}{rows}").as_bytes()).unwrap();
+            assert_eq!(points.len(), 3);
+            let second = points[1];
+            assert!((second.frequency / wanted.frequency - 1.0).abs() < 1e-12, "{header}");
+            assert!(
+                (second.storage / wanted.storage - 1.0).abs() < 1e-12
+                    && (second.loss / wanted.loss - 1.0).abs() < 1e-12
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_no_master_curve_says_why() {
+        const HEAD: &str = "frequency_Hz, storage_Pa, loss_Pa\n";
+        for (text, told) in [
+            (String::new(), "is empty"),
+            ("frequency, storage_Pa, loss_Pa\n1, 2, 3\n".to_owned(), "the frequency 'frequency' has no unit"),
+            (
+                "frequency_Hz, storage, loss_Pa\n1, 2, 3\n".to_owned(),
+                "the storage modulus 'storage' has no unit",
+            ),
+            (format!("{HEAD}1, 2\n"), "line 2 has 2 columns"),
+            (format!("{HEAD}1, 2, 3\n1, 2, 3\n"), "line 3: the frequency does not rise"),
+            (format!("{HEAD}1, 2, -3\n"), "line 2: the loss modulus is '-3', expected a number above 0"),
+            (format!("{HEAD}1, soft, 3\n"), "line 2: the storage modulus is 'soft'"),
+            (format!("{HEAD}1, 2, 3\n2, 2, 3\n"), "has 2 points"),
+        ] {
+            let error = read(text.as_bytes()).unwrap_err();
+            assert!(error.contains(told), "{error}");
+        }
+    }
+}
