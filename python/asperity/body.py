@@ -35,6 +35,9 @@ class Body(Comparable):
         Wear of the body: `coefficient`, `dimensionless` or `energy`, and `under_film`.
     film : keys.Film, optional
         Tribofilm on the body.
+    viscoelastic : keys.Viscoelastic, optional
+        Relaxation of the body, whose `young` is the relaxed modulus: `moduli` and `times`, or the `file` of a master curve. For ``steady``
+        of :func:`contact`.
     thermal : keys.Thermal, optional
         Thermal constants for a flash temperature: `conductivity`, W/(m K), `heat_capacity`, J/(kg K), and `density`, kg/m³. For heat
         that passes a contact `conductivity` alone, for a current `resistivity`, Ω m.
@@ -48,6 +51,7 @@ class Body(Comparable):
         *,
         wear: keys.Wear | None = None,
         film: keys.Film | None = None,
+        viscoelastic: keys.Viscoelastic | None = None,
         thermal: keys.Thermal | None = None,
     ) -> None:
         if not isinstance(surface, Surface):
@@ -62,6 +66,7 @@ class Body(Comparable):
         self.mount = mount
         self.wear = _copied(wear)
         self.film = _copied(film)
+        self.viscoelastic = _copied(viscoelastic)
         self.thermal = _copied(thermal)
 
     def __repr__(self) -> str:
@@ -98,7 +103,7 @@ class Handed:
                 raise bad_input(f"{name}.hardness", message)
             self.hardness[name] = hardness
             table["hardness"] = {"given": name}
-        table |= {"wear": body.wear, "film": body.film, **(body.thermal or {})}
+        table |= {"wear": body.wear, "film": body.film, "viscoelastic": body.viscoelastic, **(body.thermal or {})}
         if name == "upper" and body.mount is not None:
             table["mount"] = body.mount
         self.tables[name] = table

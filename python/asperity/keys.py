@@ -25,9 +25,11 @@ __all__ = [
     "Friction",
     "Plasticity",
     "Stage",
+    "Steady",
     "Subsurface",
     "Temperature",
     "Thermal",
+    "Viscoelastic",
     "Wear",
 ]
 
@@ -359,6 +361,60 @@ class Film(_RequiredFilm, total=False):
     wear: Quantity
 
 
+class Viscoelastic(TypedDict, total=False):
+    """Keys of ``viscoelastic`` of a body: its relaxation. Either `moduli` and `times`, or `file` is given.
+
+    Attributes
+    ----------
+    moduli : sequence of float or str
+        Moduli that relax, in tension as `young`, which is the modulus that remains; list of pressures > 0. Without it:
+        those of `file`.
+    times : sequence of float or str
+        Relaxation times, one for each modulus, all different; list of times > 0. Without it: those of a fit to `file`.
+    file : str
+        Master curve instead of `moduli` and `times`: a text with three columns, frequency in Hz, storage and loss
+        modulus in Pa, under a line that says so: `frequency_Hz, storage_Pa, loss_Pa`, or with MPa or GPa; file name,
+        relative to the case file. Without it: none.
+    terms_per_decade : float
+        Relaxation times a decade of the fit to `file`; number > 0. By default `2.0`.
+    shift : float
+        Shift factor a_T: all times are multiplied by it, for another temperature than that of the moduli; number > 0.
+        By default `1.0`.
+    wlf_c1 : float
+        Constant c₁ of the shift of Williams, Landel and Ferry, log₁₀ a_T = −c₁(T − Tᵣ)/(c₂ + T − Tᵣ), at the
+        temperature `bulk` of the body in [temperature]; number > 0. Without it: no such shift.
+    wlf_c2 : float or str
+        Constant c₂ of this shift; temperature difference > 0. Without it: no such shift.
+    wlf_at : float or str
+        Temperature Tᵣ of the moduli; temperature > 0. Without it: no such shift.
+    """
+
+    moduli: Sequence[Quantity]
+    times: Sequence[Quantity]
+    file: str
+    terms_per_decade: float
+    shift: float
+    wlf_c1: float
+    wlf_c2: Quantity
+    wlf_at: Quantity
+
+
+class Steady(TypedDict, total=False):
+    """Keys of ``steady``: steady sliding of viscoelastic bodies. `speed` or `speeds` is given.
+
+    Attributes
+    ----------
+    speed : float or str
+        Speed of the contact over the body that is smooth along x; speed > 0. Without it: exactly one of the two.
+    speeds : sequence of float or str
+        Several speeds, one after the other, each from the contact at the one before; list of at least one speed > 0, or
+        a table. Without it: exactly one of the two.
+    """
+
+    speed: Quantity
+    speeds: Sequence[Quantity]
+
+
 class Thermal(TypedDict, total=False):
     """Keys of ``thermal`` of a body: what it conducts.
 
@@ -512,6 +568,8 @@ class Rest(TypedDict, total=False):
     history: Annotated[Sequence[Stage] | None, "",
         "Further stages of the loading of a static contact: `load`, `mean_pressure`, `approach`, `force`, `displacement`, "
         "`sliding`, `increments`, `cycles`, `period`."]
+    steady: Annotated[Steady | None, "",
+        "Steady sliding of viscoelastic bodies: `speed`, `speeds`."]
     acceleration: Annotated[Acceleration | None, "",
         "Extrapolation over passes of wearing bodies: `tolerance`, `max_jump`, `max_wear`."]
     temperature: Annotated[Temperature | None, "",

@@ -140,7 +140,10 @@ fn pair(case: &Case, estimate: &Estimate) -> String {
         return format!("{modulus}; {}, in {} layers down to {depth}", bodies.join(", "), volume.layers);
     }
     if estimate.hardness.is_infinite() {
-        return format!("{modulus}, elastic");
+        return match &estimate.steady {
+            None => format!("{modulus}, elastic"),
+            Some(steady) => format!("{modulus} relaxed; {}", steady.bodies.join("; ")),
+        };
     }
     let who = match estimate.lower_share {
         Some(1.0) => "the lower body deforms",
@@ -234,6 +237,7 @@ fn swept(points: &[Point]) -> String {
 fn motion(case: &Case, estimate: &Estimate) -> String {
     let Some(motion) = case.motion else {
         return match &estimate.loading_path {
+            Some(LoadingPath::Sweep(points)) if points[0].speed.is_some() => steady(points),
             Some(LoadingPath::Sweep(points)) => {
                 format!("none: {}", plural(points.len(), "static contact", "static contacts"))
             }
@@ -294,6 +298,21 @@ fn friction(friction: &Friction, estimate: &Estimate) -> String {
         Some(LoadingPath::Rolling(at)) => rolling(*at),
         Some(LoadingPath::Stages(stages)) => loading_path(stages),
         Some(LoadingPath::Sweep(points)) => rolling_through(points),
+    }
+}
+
+/// Describes steady sliding at one speed after another.
+fn steady(points: &[Point]) -> String {
+    let speeds = points.iter().filter_map(|point| point.speed);
+    let speeds: Vec<String> = speeds.map(|speed| units::format(speed, Dimension::Speed)).collect();
+    match speeds.as_slice() {
+        [only] => format!("steady sliding at {only}"),
+        several => format!(
+            "steady sliding at {} speeds, {} to {}",
+            several.len(),
+            several[0],
+            several[several.len() - 1]
+        ),
     }
 }
 

@@ -21,7 +21,7 @@ struct ExampleFiles {
 const STUDY: &str = "load.toml";
 
 /// The examples that the command writes.
-const KITS: [ExampleFiles; 12] = [
+const KITS: [ExampleFiles; 13] = [
     ExampleFiles {
         name: "quickstart",
         about: "two rough steel surfaces run in: 64 × 64 cells, 5 passes",
@@ -43,6 +43,14 @@ const KITS: [ExampleFiles; 12] = [
         files: &[
             ("case.toml", include_bytes!("../examples/fretting/case.toml")),
             ("gross-slip.toml", include_bytes!("../examples/fretting/gross-slip.toml")),
+        ],
+    },
+    ExampleFiles {
+        name: "viscoelastic",
+        about: "a rough slider over rubber: friction and real area of contact over eight decades of speed",
+        files: &[
+            ("case.toml", include_bytes!("../examples/viscoelastic/case.toml")),
+            ("master.csv", include_bytes!("../examples/viscoelastic/master.csv")),
         ],
     },
     ExampleFiles {

@@ -10,7 +10,7 @@ use asperity_contact::each_capability;
 use asperity_contact::motion::{
     AdhesionPassRecord, AdhesionRecord, Column, ENDINGS, FrettingRecord, HeatRecord, IncrementRecord,
     PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Presence, ResidualRecord, RunningRecord,
-    ShearRecord, StaticRecord, StepRecord, SweepRecord, UpdateRecord,
+    ShearRecord, StaticRecord, SteadyRecord, StepRecord, SweepRecord, UpdateRecord,
 };
 use asperity_contact::with::adhesion::AdhesionSummary;
 use asperity_contact::with::{Capability, Row as _};
@@ -33,6 +33,7 @@ pub fn records() -> &'static [(&'static str, &'static [Column])] {
             ("ClosedFormRecord", ClosedFormRecord::OWN_COLUMNS),
             ("SubsurfaceRecord", SubsurfaceRecord::OWN_COLUMNS),
             ("SweepRecord", SweepRecord::OWN_COLUMNS),
+            ("SteadyRecord", SteadyRecord::OWN_COLUMNS),
             ("IncrementRecord", IncrementRecord::OWN_COLUMNS),
             ("PlasticStepRecord", PlasticStepRecord::OWN_COLUMNS),
             ("FrettingRecord", FrettingRecord::OWN_COLUMNS),

@@ -12,6 +12,7 @@ use super::case::{Body, Case, Hardness, Layer, LoadingPath, Source, TopographySp
 use super::closed_form::ClosedForm;
 use super::prepare::{Bodies, MountedSurface};
 use crate::subsurface::Plan;
+use crate::viscoelastic::{self, SteadyEstimate};
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::{CellValues, Field, Grid};
 use asperity_base::math::parallel;
@@ -68,6 +69,8 @@ pub struct Estimate {
     pub closed_form: Option<ClosedForm>,
     /// Requested output of the stress under the surface.
     pub subsurface: Option<Plan>,
+    /// Steady sliding of viscoelastic bodies; `None` for others.
+    pub steady: Option<SteadyEstimate>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
     /// Warnings from Hertz' estimate, which a result shows by itself.
@@ -142,13 +145,19 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         gap_slope: slopes.iter().filter(|slope| slope.is_finite()).fold(0.0, |all: f64, s| all.hypot(*s)),
         adhesion: None,
         closed_form: ClosedForm::of(case, lower_grid.extent(), control)
-            .filter(|_| case.adhesion.is_none())
+            .filter(|_| case.adhesion.is_none() && case.steady.is_none())
             .filter(|form| form.max_pressure.is_none_or(|pressure| pressure <= hardness)),
         subsurface: Plan::new(case, [&lower_grid, &upper_grid], &positions)?,
+        steady: viscoelastic::estimate(
+            case,
+            [&bodies.lower.topography, &bodies.upper.topography],
+            &bodies.master_curves,
+        )?,
         warnings: Vec::new(),
         predicted: Vec::new(),
     };
     estimate.warnings = warnings(case, bodies, &estimate);
+    estimate.warnings.extend(estimate.steady.iter().flat_map(|steady| steady.warnings.clone()));
     if let Some(table) = case.adhesion {
         let adhesion = table.on(&lower_grid, estimate.modulus)?;
         let heights = [&bodies.lower, &bodies.upper].map(|body| body.topography.heights());

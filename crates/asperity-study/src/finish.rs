@@ -5,11 +5,11 @@ use web_time::Instant;
 
 use crate::case::Case;
 use crate::closed_form::{ClosedForm, ClosedFormRecord, ElasticContact};
-use crate::master_curve;
 use crate::prepare::Bodies;
 use crate::results::Writer;
 use crate::subsurface::SubsurfaceRecord;
 use crate::summary::{Outcome, RunningIn, Summary};
+use crate::viscoelastic;
 use asperity_base::error::Result;
 use asperity_base::units::Metre;
 use asperity_contact::motion::{Pair, PlasticRecord, UpdateRecord};
@@ -100,7 +100,8 @@ pub fn closed_form(case: &Case, extent: [Metre; 2], outcome: &Outcome) -> Option
         Outcome::Sweep(points) => points.last().filter(|point| point.plastic_area == 0.0).map(Into::into),
         Outcome::Passes(_) => None,
     }?;
-    let is_plain = case.sliding.is_none() && case.adhesion.is_none() && !case.runs_in();
+    let is_plain =
+        case.sliding.is_none() && case.steady.is_none() && case.adhesion.is_none() && !case.runs_in();
     let form = ClosedForm::of(case, extent, Control::Load(computed.load)).filter(|_| is_plain)?;
     Some(form.beside(computed))
 }
@@ -112,7 +113,7 @@ pub(super) fn pair(case: &Case, bodies: Bodies) -> Result<Pair> {
     let pair = Pair::new(lower.topography, upper.topography, materials)?
         .with_hardness([lower.hardness, upper.hardness])?;
     let attraction = case.adhesion.map(|table| table.on(&pair.lower_grid(), pair.modulus())).transpose()?;
-    master_curve::relax(case, pair.with_adhesion(attraction), &master_curves)
+    viscoelastic::relax(case, pair.with_adhesion(attraction), &master_curves)
 }
 
 /// Returns the solver parameters of `case`.

@@ -85,7 +85,7 @@ mod identity; // identity of a run, to resume it
 pub mod io; // fields in HDF5 and for ParaView, digests, locks
 mod json; // records as JSON
 mod limit; // a limit of the model that a result exceeds
-mod master_curve; // master curves of viscoelastic bodies
+mod viscoelastic; // viscoelastic bodies of a case, and their master curves
 mod limits; // the limits of the model, compared with results
 mod columns; // the dictionary of columns and numbers
 pub mod many; // many cases made from one, each in its folder
@@ -137,3 +137,4 @@ pub use results::{
 pub use run::run;
 pub use subsurface::{Plan, SubsurfaceRecord};
 pub use summary::{Outcome, RunningIn, Summary};
+pub use viscoelastic::{MasterCurve, SteadyEstimate};

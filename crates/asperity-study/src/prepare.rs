@@ -10,7 +10,7 @@ use super::case::document::Document;
 use super::case::{Body, Case, GridMatch, Hardness, Mount, Source, TopographySpec, topography_alone};
 use super::given::SurfaceInput;
 use crate::io::{sha256, sha256_of};
-use crate::master_curve::{self, MasterCurve};
+use crate::viscoelastic::{self, MasterCurve};
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::{CellValues, Field, Grid};
 use asperity_base::units::{self, Dimension, Metre};
@@ -162,8 +162,8 @@ pub fn bodies_until(case: &Case, mut given: SurfaceInput, stop: Stop<'_>) -> Res
     let grid = Grid::new(upper.topography.grid().shape, lower.topography.grid().pitch)?;
     upper.topography = Topography::new(grid, upper.topography.into_heights())?;
     let master_curves = [
-        master_curve::of(case, "lower", &case.lower, &given)?,
-        master_curve::of(case, "upper", &case.upper, &given)?,
+        viscoelastic::of(case, "lower", &case.lower, &given)?,
+        viscoelastic::of(case, "upper", &case.upper, &given)?,
     ];
     Ok(Bodies { lower, upper, master_curves })
 }

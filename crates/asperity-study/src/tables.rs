@@ -368,6 +368,7 @@ mod tests {
             convolutions: 21.25,
             residual: 1e-7,
             adhesion: None,
+            steady: None,
         }
     }
 

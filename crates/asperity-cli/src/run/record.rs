@@ -21,7 +21,7 @@ pub fn text(case: &Case, summary: &Summary, found: &Observations) -> String {
     let contact = match &summary.outcome {
         Outcome::Static(record) => static_table(case, record),
         Outcome::Passes(passes) => changes(passes),
-        Outcome::Sweep(_) => String::new(),
+        Outcome::Sweep(points) => with::after_points(points).iter().map(told).collect(),
     };
     let theory = summary.closed_form.as_ref().map_or(String::new(), theory_lines);
     let plastic = summary.plasticity.as_ref().map_or(String::new(), plastic_line);

@@ -143,7 +143,11 @@ impl Rows {
     pub(super) fn point(&mut self, point: &SweepRecord) -> String {
         let first = point.point == 1;
         let approach = self.approach(first, point.approach);
-        let mut cells = vec![Cell::of("load", "load", point.load)];
+        let mut cells: Vec<Cell> = Vec::new();
+        if let Some(steady) = point.steady {
+            cells.push(Cell::of("speed", "speed", steady.speed));
+        }
+        cells.push(Cell::of("load", "load", point.load));
         if self.slides {
             // The rounding error of a zero force.
             let force = |force: f64| if force.abs() < 1e-6 * point.load { 0.0 } else { force };
@@ -168,9 +172,10 @@ impl Rows {
             if self.yields {
                 cells.push(Cell::of("plastic", "plastic_volume", point.plastic_volume));
             }
-            cells.push(match point.adhesion {
-                Some(adhesion) => Cell::of("adhesive", "adhesive_load", adhesion.adhesive_load),
-                None => Cell::of("stiff", "stiffness", point.stiffness),
+            cells.push(match (point.adhesion, point.steady) {
+                (Some(adhesion), _) => Cell::of("adhesive", "adhesive_load", adhesion.adhesive_load),
+                (None, Some(steady)) => Cell::of("drag/W", "drag_coefficient", steady.drag_coefficient),
+                (None, None) => Cell::of("stiff", "stiffness", point.stiffness),
             });
         }
         let above = match (first, self.slides) {

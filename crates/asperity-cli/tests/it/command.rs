@@ -443,6 +443,7 @@ fn every_example_is_accepted_by_check_with_no_warning_but_that_of_a_long_stride(
             "hertz",
             "friction",
             "fretting",
+            "viscoelastic",
             "measured",
             "running-in",
             "rolling",

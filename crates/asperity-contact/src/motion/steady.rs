@@ -7,7 +7,7 @@ use crate::motion::record::{StaticRecord, SteadyRecord};
 use crate::motion::state::LoadedContact;
 use crate::operator::Boundary;
 use crate::solver::{Control, Equilibrium, Params, Watch};
-use crate::units::MetrePerSecond;
+use crate::units::{Metre, MetrePerSecond};
 use crate::viscoelastic::{Creep, SteadySliding, solve_steady};
 
 /// Largest difference of heights along x of a body that counts as smooth, relative to the range of its heights, or to the pitch.
@@ -22,24 +22,34 @@ pub enum MovingBody {
     Upper,
 }
 
-impl Pair {
-    /// Returns the body through which a steady contact moves: one whose heights do not change along x. If neither changes, it is the
-    /// one that creeps, or the lower one. The other body stands still in the contact, and has its relaxed modulus.
+impl MovingBody {
+    /// Returns the body of these heights, lower one first, through which a steady contact moves: one whose heights do not change along
+    /// x. If neither changes, it is the one that `creeps`, or the lower one. The other body stands still in the contact, and has its
+    /// relaxed modulus.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if the heights of both bodies change along x.
-    pub fn moving_body(&self) -> Result<MovingBody> {
-        let is_smooth = [&self.lower.heights, &self.upper.heights]
-            .map(|heights| is_smooth_along_x(heights, self.pitch()));
-        let creeps = self.creep().map(|creep| creep.each_ref().map(|creep| !creep.terms.is_empty()));
-        match is_smooth {
-            [true, true] if creeps == Some([false, true]) => Ok(MovingBody::Upper),
-            [true, _] => Ok(MovingBody::Lower),
-            [false, true] => Ok(MovingBody::Upper),
+    pub fn of(heights: [&Field; 2], pitch: [Metre; 2], creeps: [bool; 2]) -> Result<Self> {
+        match heights.map(|heights| is_smooth_along_x(heights, pitch)) {
+            [true, true] if creeps == [false, true] => Ok(Self::Upper),
+            [true, _] => Ok(Self::Lower),
+            [false, true] => Ok(Self::Upper),
             [false, false] => Err(Error::Unsupported(
-                "steady sliding needs a body that is smooth along x: material of one body passes through the contact, and its gap is constant",
+                "steady sliding needs a body that is smooth along x: its material passes through the contact, whose gap is constant",
             )),
         }
+    }
+}
+
+impl Pair {
+    /// Returns the body through which a steady contact moves, see [`MovingBody::of`].
+    ///
+    /// # Errors
+    /// The errors of [`MovingBody::of`].
+    pub fn moving_body(&self) -> Result<MovingBody> {
+        let creeps =
+            self.creep().map_or([false; 2], |creep| creep.each_ref().map(|creep| !creep.terms.is_empty()));
+        MovingBody::of([&self.lower.heights, &self.upper.heights], self.pitch(), creeps)
     }
 
     /// Returns the operator of the pair that slides steadily at a `speed`, as the contact sees it.
@@ -58,7 +68,7 @@ impl Pair {
     }
 }
 
-fn is_smooth_along_x(heights: &Field, pitch: [f64; 2]) -> bool {
+fn is_smooth_along_x(heights: &Field, pitch: [Metre; 2]) -> bool {
     let first = heights.row(0);
     let range = heights.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], z| [a.min(*z), b.max(*z)]);
     let allowed = SMOOTH * (range[1] - range[0]).max(SMOOTH * pitch[0]);

@@ -36,6 +36,7 @@ mod shear;
 mod sinusoid;
 mod smooth;
 mod subsurface;
+mod viscoelastic;
 
 use std::ops::RangeInclusive;
 
@@ -117,7 +118,7 @@ impl Check {
     }
 }
 
-/// All cases: operators first, then solutions without friction, with adhesion and with friction, frictional heating, flow through a gap, plastic flow and wear.
+/// All cases: operators first, then solutions without friction, with adhesion, of viscoelastic bodies and with friction, frictional heating, flow through a gap, plastic flow and wear.
 pub const CASES: &[Case] = &[
     operators::LOADED_RECTANGLE,
     operators::FREE_TRANSFORM,
@@ -146,6 +147,9 @@ pub const CASES: &[Case] = &[
     adhesion::WAVE,
     adhesion::ENERGY,
     adhesion::NO_WORK,
+    viscoelastic::WAVE,
+    viscoelastic::CYLINDER,
+    viscoelastic::FAST,
     shear::COEFFICIENTS,
     shear::FREE_TRANSFORM,
     shear::PERIODIC_TRANSFORM,

@@ -1,7 +1,7 @@
 //! Contact of bodies that slide steadily over each other.
 
 use crate::error::{Error, Result, check_in};
-use crate::grid::Field;
+use crate::grid::{Field, in_rows};
 use crate::math::gmres;
 use crate::solver::{Bounds, Control, Params, Residual, Solution, Stats, Watch, residual};
 use crate::units::{Dimension, Newton};
@@ -12,6 +12,8 @@ use asperity_base::math::active_set::offset_for_sum;
 const NEAR: f64 = 3e-2;
 /// Rounds in which the number of cells on the wrong side need not fall.
 const PATIENCE: usize = 4;
+/// Rounds without progress after which cells change sides one by one wherever the solution is.
+const MAX_STALLED: usize = 12;
 /// Most rounds.
 const MAX_ROUNDS: usize = 400;
 /// Most products of a round.
@@ -35,7 +37,7 @@ pub struct SteadyContact {
 /// Newton's method on predicted sets: the gap of the cells in contact is closed by the generalised method of minimal residuals,
 /// preconditioned by the inverse of the harmonics; under a load the multiplier is eliminated. Far from the solution all cells are
 /// predicted from pressure and gap. Near it the cells on the wrong side change sides, and once their number has not fallen in some
-/// rounds, the last one alone, which ends for every matrix of positive principal minors (Júdice and Pires, Eur. J. Oper. Res. 1994).
+/// rounds, the last one alone, which ends for every matrix of positive principal minors (Júdice and Pires, Comput. Oper. Res. 21, 587 (1994)).
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a load or an approach that is not finite, [`Error::NotConverged`], [`Error::Interrupted`].
@@ -70,7 +72,8 @@ pub fn solve_steady(
         }
     };
     let before = operator.convolutions();
-    let mut rounds = Rounds::new(operator, initial_gap, sum, control, start);
+    let (initial_gap, start) = (&*in_rows(initial_gap), start.map(in_rows));
+    let mut rounds = Rounds::new(operator, initial_gap, sum, control, start.as_deref());
     rounds.solve(params, watch)?;
     let residual = rounds.finish();
     let Rounds { pressure, displacement, done: iterations, .. } = rounds;
@@ -92,6 +95,9 @@ pub fn solve_steady(
     };
     Ok(SteadyContact { solution, drag })
 }
+
+/// Convolves the values of some cells with the operator, or with its preconditioner.
+type Convolve<'a> = dyn FnMut(&mut SteadySliding, &[f64], bool) -> Vec<f64> + 'a;
 
 /// The present pressure and displacement, and the rounds so far.
 struct Rounds<'a> {
@@ -154,7 +160,7 @@ impl<'a> Rounds<'a> {
     /// Goes on until the residual is below the tolerance, or until no more can be done.
     fn solve(&mut self, params: &Params, watch: &dyn Watch) -> Result<()> {
         let mut sets: Option<Sets> = None;
-        let (mut caution, mut best) = (1.0f64, f64::INFINITY);
+        let (mut caution, mut best, mut stalled) = (1.0f64, f64::INFINITY, 0);
         while self.done < MAX_ROUNDS {
             if watch.stop() {
                 return Err(Error::Interrupted);
@@ -166,12 +172,14 @@ impl<'a> Rounds<'a> {
                 break;
             }
             match &mut sets {
-                Some(sets) if residual.eta <= NEAR => self.correct(sets, residual.approach),
+                Some(sets) if residual.eta <= NEAR || stalled > MAX_STALLED => {
+                    self.correct(sets, residual.approach);
+                }
                 _ => {
                     if residual.eta < 0.7 * best {
-                        (best, caution) = (residual.eta, (0.5 * caution).max(1.0));
+                        (best, caution, stalled) = (residual.eta, (0.5 * caution).max(1.0), 0);
                     } else if best.is_finite() {
-                        caution *= 2.0;
+                        (caution, stalled) = (2.0 * caution, stalled + 1);
                     }
                     let touching = self.predict(caution, residual.approach);
                     let (fewest, left) = sets.map_or((usize::MAX, PATIENCE), |sets| (sets.fewest, sets.left));
@@ -182,7 +190,7 @@ impl<'a> Rounds<'a> {
             if !touching.contains(&true) {
                 break;
             }
-            self.close(touching, &residual, params.tolerance);
+            self.close(touching, &residual, params.tolerance, stalled > MAX_STALLED);
             self.done += 1;
         }
         Ok(())
@@ -224,8 +232,8 @@ impl<'a> Rounds<'a> {
         changed.iter().for_each(|cell| sets.touching[*cell] = !sets.touching[*cell]);
     }
 
-    /// Closes the gap of the cells that touch, under the load.
-    fn close(&mut self, touching: &[bool], residual: &Residual, tolerance: f64) {
+    /// Closes the gap of the cells that touch, under the load, roughly far from the solution unless `is_exact`.
+    fn close(&mut self, touching: &[bool], residual: &Residual, tolerance: f64, is_exact: bool) {
         let cells: Vec<usize> = (0..touching.len()).filter(|cell| touching[*cell]).collect();
         let count = cells.len() as f64;
         self.lift(touching, count);
@@ -242,7 +250,7 @@ impl<'a> Rounds<'a> {
         if largest == 0.0 {
             return;
         }
-        let wanted = if residual.eta > NEAR { 0.1 } else { 1e-2 * residual.eta };
+        let wanted = if residual.eta > NEAR && !is_exact { 0.1 } else { 1e-2 * residual.eta.min(NEAR) };
         let reduction =
             (wanted.max(0.3 * tolerance) * residual.scale / largest).clamp(REDUCTION[0], REDUCTION[1]);
         let under_load = self.sum.is_some();
@@ -263,17 +271,14 @@ impl<'a> Rounds<'a> {
             let sum: f64 = one.iter().sum();
             (one, sum)
         });
-        let precondition =
-            |operator: &mut SteadySliding,
-             x: &[f64],
-             convolve: &mut dyn FnMut(&mut SteadySliding, &[f64], bool) -> Vec<f64>| {
-                let mut z = convolve(operator, x, true);
-                if let Some((one, sum)) = &one {
-                    let share = z.iter().sum::<f64>() / sum;
-                    z.iter_mut().zip(one).for_each(|(z, one)| *z -= share * one);
-                }
-                z
-            };
+        let precondition = |operator: &mut SteadySliding, x: &[f64], convolve: &mut Convolve<'_>| {
+            let mut z = convolve(operator, x, true);
+            if let Some((one, sum)) = &one {
+                let share = z.iter().sum::<f64>() / sum;
+                z.iter_mut().zip(one).for_each(|(z, one)| *z -= share * one);
+            }
+            z
+        };
         let product = |x: &[f64]| {
             let z = precondition(operator, x, &mut convolve);
             let mut y = convolve(operator, &z, false);

@@ -11,7 +11,7 @@ const REACH: f64 = 45.0;
 /// Cells on both sides of the loaded one in which the panels are graded.
 const NEAR: isize = 2;
 /// Number of halvings of a graded panel.
-const HALVINGS: i32 = 32;
+const HALVINGS: i32 = 20;
 
 /// Computes `Σ J_k (1/λ_k) ∫₀^∞ e^(−ξ/λ_k) f(x + ξ) dξ` of a function f for all cells at the offsets `(i Δx, j Δy)` with
 /// −nx < i < nx and 0 ≤ j < ny; the first row is that of i = 1 − nx. The `decays` are pairs of J_k and λ_k > 0.

@@ -37,7 +37,7 @@ pub use law::{BodyLaw, Circumstances, LawRule, Slip, Timeless};
 use serde::{Deserialize, Serialize};
 
 use crate::error::Result;
-use crate::motion::{FrettingRecord, Law, Pair, PassRecord, UpdateRecord};
+use crate::motion::{FrettingRecord, Law, Pair, PassRecord, SweepRecord, UpdateRecord};
 use views::{Answer, Kept};
 
 /// Declares a list of tables, each by its module and its struct: the struct that holds those that are given, and the macro that walks the list.
@@ -194,6 +194,11 @@ pub fn after_passes(passes: &[PassRecord]) -> Vec<Answer> {
     let mut answers = Vec::new();
     each_law!(L => answers.extend(L::after_passes(passes)));
     answers
+}
+
+/// Returns what the points of a sweep show beside the contact.
+pub fn after_points(points: &[SweepRecord]) -> Vec<Answer> {
+    viscoelastic::answers(points)
 }
 
 /// Returns what cycles of slip have done to the bodies.

@@ -25,5 +25,6 @@ mod sliding;
 mod solver;
 mod steady_rolling;
 mod sweep;
+mod viscoelastic;
 mod watch;
 mod support;

@@ -14,7 +14,10 @@ type Number = fn(&SweepRecord) -> f64;
 
 /// What is drawn over it: the column, which is the name of the figure, its axis, and whether that is logarithmic beside a logarithmic
 /// one. The mean gap falls with the logarithm of the load.
-const DRAWN: [(&str, &str, bool, Number); 5] = [
+const DRAWN: [(&str, &str, bool, Number); 6] = [
+    ("drag_coefficient", "drag over load", false, |p| {
+        p.steady.map_or(f64::NAN, |steady| steady.drag_coefficient)
+    }),
     ("contact_area", "real contact area", true, |p| p.contact_area),
     ("mean_gap", "mean gap", false, |p| p.mean_gap),
     ("stiffness", "normal stiffness", true, |p| p.stiffness.unwrap_or(f64::NAN)),
@@ -41,6 +44,7 @@ pub(crate) fn curves(points: &[SweepRecord], case: &Case) -> Vec<Curves> {
         return vec![traction(points, &friction.law)];
     }
     let (column, x): (_, Number) = match case.contact.prescribed {
+        _ if case.steady.is_some() => ("speed", |point| point.steady.map_or(f64::NAN, |steady| steady.speed)),
         Prescribed::Load(_) => ("load", |point| point.load),
         Prescribed::MeanPressure(_) => ("mean_pressure", |point| point.mean_pressure),
         Prescribed::Approach(_) => ("approach", |point| point.approach),

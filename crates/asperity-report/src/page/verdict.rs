@@ -149,6 +149,13 @@ fn of_points(points: &[SweepRecord]) -> String {
             format_number(most.creepage_x.hypot(most.creepage_y))
         );
     }
+    if last.steady.is_some() {
+        let pressures = || points.iter().map(|point| point.max_pressure);
+        let [least, most] = [pressures().fold(f64::INFINITY, f64::min), pressures().fold(0.0, f64::max)];
+        let [least, most] = [least, most].map(|pressure| format(pressure, Dimension::Pressure));
+        let range = if least == most { format!("is {most}") } else { format!("goes from {least} to {most}") };
+        return format!("Under {} the largest pressure {range}.", force(last.load));
+    }
     if let [only] = points {
         let area = format(only.contact_area, Dimension::Area);
         return format!("Under {} the real area of contact is {area}.", force(only.load));

@@ -1,7 +1,7 @@
 //! Captions of the charts and maps of the page, as in a paper.
 
 /// Captions by the names of figures and of the maps of a contact. A capability has its own.
-const CAPTIONS: [(&str, &str); 34] = [
+const CAPTIONS: [(&str, &str); 35] = [
     (
         "approach",
         "Rigid-body approach of each pass, with what the surfaces have lost by plastic deformation.",
@@ -11,6 +11,10 @@ const CAPTIONS: [(&str, &str); 34] = [
     (
         "displacement",
         "Elastic displacement of both surfaces together, positive where they give way to each other.",
+    ),
+    (
+        "drag_coefficient",
+        "Force with which the bodies resist the motion over the load: what the viscoelastic body dissipates.",
     ),
     (
         "force_distance",

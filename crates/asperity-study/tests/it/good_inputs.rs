@@ -376,7 +376,7 @@ fn a_sweep_has_its_points_in_the_order_given_and_the_largest_is_prescribed() {
 
     let Some(LoadingPath::Sweep(points)) = load("swept_rolling").loading_path(1.0) else { panic!() };
     let rolling = Some(Rolling { creep: Creep::Creepage([1e-3, 0.0]), spin: 0.0 });
-    let point = |load| Point { control: solver::Control::Load(load), rolling };
+    let point = |load| Point { control: solver::Control::Load(load), rolling, speed: None };
     assert_eq!(points, [point(2.0), point(4.0)]);
 }
 

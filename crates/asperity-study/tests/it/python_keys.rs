@@ -65,6 +65,18 @@ const CLASSES: &[Class] = &[
     ("Wear", &["lower.wear"], &[], "Keys of ``wear`` of a body. Exactly one of the first three is given."),
     ("Film", &["lower.film"], &[], "Keys of ``film`` of a body: its tribofilm."),
     (
+        "Viscoelastic",
+        &["lower.viscoelastic"],
+        &[],
+        "Keys of ``viscoelastic`` of a body: its relaxation. Either `moduli` and `times`, or `file` is given.",
+    ),
+    (
+        "Steady",
+        &["steady"],
+        &[],
+        "Keys of ``steady``: steady sliding of viscoelastic bodies. `speed` or `speeds` is given.",
+    ),
+    (
         "Thermal",
         &["lower"],
         &["conductivity", "heat_capacity", "density", "resistivity"],
@@ -100,7 +112,17 @@ const KEYWORDS: &[Keywords] = &[
         "Keywords of a static contact.",
         &[
             ("contact", Which::Only(SWEEPS)),
-            ("", Which::Only(&["history", "acceleration", "temperature", "plasticity", "subsurface"])),
+            (
+                "",
+                Which::Only(&[
+                    "history",
+                    "steady",
+                    "acceleration",
+                    "temperature",
+                    "plasticity",
+                    "subsurface",
+                ]),
+            ),
             ("output", Which::Only(&["pressure_every"])),
         ],
     ),
@@ -297,6 +319,10 @@ fn python_type(class: &str, key: &Key) -> String {
         ("Friction" | "Stage", "sliding") => return "Sequence[float]".to_owned(),
         ("Subsurface", "planes") => return "Sequence[Quantity]".to_owned(),
         ("Subsurface", "columns") => return "Sequence[Sequence[Quantity]]".to_owned(),
+        ("Viscoelastic", "moduli" | "times") | ("Steady", "speeds") => {
+            return "Sequence[Quantity]".to_owned();
+        }
+        ("Viscoelastic", "file") => return "str".to_owned(),
         ("Temperature", "bulk") => return "Pair".to_owned(),
         ("Rest", "loads" | "mean_pressures" | "approaches") => return "Sequence[Quantity]".to_owned(),
         ("Common", "boundary") => return "Boundary | Sequence[Boundary]".to_owned(),

@@ -126,6 +126,53 @@ fn through_creepages_a_cylinder_draws_carters_curve() {
     assert!(written.contains("\"creepages\"") && !written.contains("\"creepage\""), "{written}");
 }
 
+/// A rough slider over rubber at several speeds.
+const STEADY: &str = r#"
+[lower]
+young = "1 MPa"
+poisson = 0.5
+topography = { form = "flat", shape = [32, 32], pitch = "10 um" }
+viscoelastic = { moduli = ["9 MPa", "90 MPa"], times = ["10 ms", "0.2 ms"] }
+[upper]
+young = "inf"
+poisson = 0.3
+topography = { generate = "self-affine", sdq = 0.1, hurst = 0.8, shortest = "80 um" }
+[contact]
+mean_pressure = "50 kPa"
+boundary = "periodic"
+[steady]
+speeds = { from = "1 mm/s", to = "1 m/s", points = 4 }
+"#;
+
+#[test]
+fn an_interrupted_curve_over_speed_goes_on_to_the_same_bits() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = Case::parse(STEADY, "case.toml".as_ref(), "".as_ref()).unwrap();
+    let run = |out: &std::path::Path, existing, watch: &dyn Watch| {
+        asperity_study::run(&case, asperity_study::SurfaceInput::default(), out, existing, watch)
+    };
+    let whole = folder.path().join("whole");
+    let (summary, _) = run(&whole, Existing::Keep, &()).unwrap();
+    let Outcome::Sweep(points) = &summary.outcome else { panic!() };
+    let drags: Vec<f64> = points.iter().map(|point| point.steady.unwrap().drag_coefficient).collect();
+    assert!(
+        drags.iter().all(|drag| *drag > 1e-3)
+            && points.windows(2).all(|pair| pair[0].contact_area > pair[1].contact_area)
+    );
+    assert!(points.iter().all(|point| point.stiffness.is_none()));
+    for count in 1..4 {
+        let broken = folder.path().join(format!("broken-{count}"));
+        assert!(matches!(run(&broken, Existing::Keep, &StopAfter::points(count)), Err(Error::Interrupted)));
+        run(&broken, Existing::Resume, &()).unwrap();
+        for file in ["sweep.csv", "fields.h5"] {
+            assert!(
+                fs::read(broken.join(file)).unwrap() == fs::read(whole.join(file)).unwrap(),
+                "{count}: {file}"
+            );
+        }
+    }
+}
+
 #[test]
 fn an_interrupted_sweep_goes_on_to_the_same_bits() {
     let folder = tempfile::tempdir().unwrap();

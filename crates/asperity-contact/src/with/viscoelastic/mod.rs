@@ -66,15 +66,17 @@ pub struct Viscoelasticity {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wlf_c1: Option<f64>,
     /// Constant c₂ of this shift.
-    #[key(quantity = TemperatureDifference, range = AboveZero, absent = "no such shift", example = "\"102 K\"")]
+    #[key(quantity = TemperatureDifference, range = AboveZero, absent = "no such shift", example = "\"102 K\"", exists = WLF)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wlf_c2: Option<Kelvin>,
     /// Temperature Tᵣ of the moduli.
-    #[key(quantity = Temperature, range = AboveZero, absent = "no such shift", example = "\"20 °C\"")]
+    #[key(quantity = Temperature, range = AboveZero, absent = "no such shift", example = "\"20 °C\"", exists = exists::TEMPERATURE)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wlf_at: Option<Kelvin>,
 }
 
+/// Ferry, Viscoelastic Properties of Polymers: 20 K to 250 K.
+const WLF: Exists = Exists::Within { least: 10.0, most: 500.0, of: "polymers", slips: &[] };
 const ANY_TIME: Exists = Exists::Any("a body may relax in any time");
 
 fn is_two(value: &f64) -> bool {

@@ -99,6 +99,7 @@ mod tests {
     use asperity_contact::temperature::Temperature;
     use asperity_contact::with::adhesion::Attraction;
     use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
+    use asperity_contact::with::viscoelastic::{Steady, Viscoelasticity};
     use asperity_contact::{each_capability, film, wear};
     use asperity_surface::{Form, Generator};
 
@@ -174,6 +175,8 @@ mod tests {
         check::<Attraction>("");
         check::<SubsurfaceSpec>("");
         check::<Coating>("");
+        check::<Viscoelasticity>("moduli = [1e6]\ntimes = [1]");
+        check::<Steady>("speed = 1");
         assert_eq!(Acceleration::default(), read("acceleration", &[], "", true, Acceleration::read)[0]);
         assert_eq!(Output::default(), read("output", &[], "", true, Output::read)[0]);
         check_part::<Form>();

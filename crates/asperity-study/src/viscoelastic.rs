@@ -1,12 +1,14 @@
-//! Master curves of viscoelastic bodies from text files.
+//! Viscoelastic bodies of a case: their master curves from text files, and what a check says of their steady sliding.
 
 use crate::case::{Body, Case};
 use crate::given::SurfaceInput;
 use crate::io::{regular, sha256};
 use asperity_base::error::{Error, Result};
 use asperity_base::units::{self, Dimension};
-use asperity_contact::motion::Pair;
-use asperity_contact::viscoelastic::{MasterFit, MasterPoint, Relaxation};
+use asperity_contact::motion::{MovingBody, Pair};
+use asperity_contact::viscoelastic::{Creep, MasterFit, MasterPoint, Relaxation};
+use asperity_contact::with;
+use asperity_surface::Topography;
 
 /// A master curve with the digest of its file, hexadecimal.
 #[derive(Debug, Clone, PartialEq)]
@@ -147,21 +149,77 @@ pub(super) fn relax(case: &Case, pair: Pair, curves: &[Option<MasterCurve>; 2]) 
     pair.with_relaxation(materials, [lower, upper].map(|body| body.map(|(relaxation, _)| relaxation)))
 }
 
-/// Describes the fit of each body with a master curve, for `asperity check`.
+/// What is known of steady sliding before it is solved.
+#[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
+pub struct SteadyEstimate {
+    /// A line for each viscoelastic body: its moduli and times, and the fit of its master curve.
+    pub bodies: Vec<String>,
+    /// Reasons to doubt the answer.
+    pub warnings: Vec<String>,
+}
+
+/// Examines the steady sliding of a case; `None` for another one.
 ///
 /// # Errors
-/// The errors of [`relaxations`].
-pub(super) fn described(case: &Case, curves: &[Option<MasterCurve>; 2]) -> Result<Vec<String>> {
-    let fits = relaxations(case, curves)?.into_iter().zip(["lower", "upper"]);
-    let fits = fits.filter_map(|(body, name)| Some((body?.1?, name)));
-    let text = |(fit, name): (MasterFit, &str)| {
-        let [storage, loss] = fit.errors.map(|error| units::format_number(100.0 * error));
-        let count = fit.relaxation.terms().len();
-        format!(
-            "{name} body: {count} relaxation times fit its master curve within {storage} % (storage) and {loss} % (loss)"
-        )
+/// [`Error::Case`] if both bodies are rough along x, and the errors of the fits.
+pub(super) fn estimate(
+    case: &Case,
+    bodies: [&Topography; 2],
+    curves: &[Option<MasterCurve>; 2],
+) -> Result<Option<SteadyEstimate>> {
+    let Some(steady) = &case.steady else { return Ok(None) };
+    let relaxations = relaxations(case, curves)?;
+    let grid = bodies[0].grid();
+    let heights = bodies.map(Topography::heights);
+    let creeps = relaxations.each_ref().map(Option::is_some);
+    let moving = MovingBody::of(heights, grid.pitch, creeps).map_err(|source| {
+        let hint = "give one body heights that do not change along x, such as `form = \"flat\"`".to_owned();
+        case.error_at("steady", source.to_string(), Some(hint))
+    })?;
+    let index = if moving == MovingBody::Lower { 0 } else { 1 };
+    let creep = match &relaxations[index] {
+        Some((relaxation, _)) => relaxation.creep(),
+        None => Creep::elastic(1.0),
     };
-    Ok(fits.map(text).collect())
+    let warnings = with::viscoelastic::doubts(
+        &creep,
+        case.contact.boundary,
+        grid.pitch[0],
+        grid.extent()[0],
+        &steady.all(),
+    );
+    let lines = relaxations.iter().zip(["lower", "upper"]);
+    let lines = lines.filter_map(|(body, name)| Some(described(name, body.as_ref()?)));
+    Ok(Some(SteadyEstimate { bodies: lines.collect(), warnings }))
+}
+
+/// Describes a viscoelastic body.
+fn described(name: &str, (relaxation, fit): &(Relaxation, Option<MasterFit>)) -> String {
+    let pressure = |value| units::format(value, Dimension::Pressure);
+    let time = |value| units::format(value, Dimension::Time);
+    let terms = relaxation.terms();
+    let times = match terms {
+        [only] => format!("in {}", time(only.time)),
+        several => format!(
+            "in {} times from {} to {}",
+            several.len(),
+            time(several[several.len() - 1].time),
+            time(several[0].time)
+        ),
+    };
+    let moduli = format!(
+        "the {name} body relaxes from {} to {} {times}",
+        pressure(relaxation.glassy()),
+        pressure(relaxation.relaxed())
+    );
+    match fit {
+        None => moduli,
+        Some(fit) => {
+            let [storage, loss] = fit.errors.map(|error| units::format_number(100.0 * error));
+            format!("{moduli}, fitted to its master curve within {storage} % (storage) and {loss} % (loss)")
+        }
+    }
 }
 
 #[cfg(test)]

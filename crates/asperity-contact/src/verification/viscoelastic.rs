@@ -1,0 +1,107 @@
+//! Steady sliding of viscoelastic bodies.
+
+use std::f64::consts::TAU;
+
+use super::{Case, Check, Expected, PARAMS, relative, study};
+use crate::error::Result;
+use crate::grid::{Field, Grid};
+use crate::operator::{Boundary, Edge};
+use crate::reference::ViscoelasticCylinder;
+use crate::reference::viscoelastic::fast_sphere;
+use crate::solver::Control;
+use crate::viscoelastic::{Relaxation, RelaxationTerm, SteadyContact, SteadySliding, solve_steady};
+
+/// Glassy over relaxed modulus.
+const RATIO: f64 = 10.0;
+/// Load of a cylinder of radius 1 per length.
+const LOAD: f64 = 0.05;
+
+/// A body with a relaxed modulus and a retardation time of 1.
+fn standard_solid() -> Result<Relaxation> {
+    Relaxation::new(1.0, [RelaxationTerm { modulus: RATIO - 1.0, time: 1.0 / RATIO }])
+}
+
+fn slide(grid: Grid, boundary: Boundary, gap: &Field, load: f64, speed: f64) -> Result<SteadyContact> {
+    let mut operator = SteadySliding::new(grid, boundary, &standard_solid()?.creep(), speed)?;
+    solve_steady(&mut operator, gap, Control::Load(load), None, &PARAMS, &())
+}
+
+/// A wave in full contact takes E″ of its frequency, whatever the grid.
+pub(super) const WAVE: Case = Case {
+    name: "Viscoelastic body: wave in full contact",
+    source: "energy of a wave, q²A²E″(qv)/4 of an area",
+    checks: wave,
+};
+
+fn wave() -> Result<Vec<Check>> {
+    const SPEED: f64 = 0.02;
+    let checks = [("drag", Expected::RoundOff(1e-9))];
+    study("cells a side", &[16, 32, 64], checks, |n| {
+        let grid = Grid::new([n, n], [1.0 / n as f64; 2])?;
+        let (q, amplitude) = (3.0 * TAU, 1e-3);
+        let gap = Field::from_shape_fn(grid.shape, |(i, _)| -amplitude * (q * i as f64 / n as f64).cos());
+        let found = slide(grid, Boundary::PERIODIC, &gap, LOAD, SPEED)?;
+        let loss = standard_solid()?.complex(q * SPEED).im;
+        Ok([relative(found.drag, 0.25 * q * q * amplitude * amplitude * loss)])
+    })
+}
+
+/// A cylinder, while the body creeps over a third of its contact and over all of it. Cells at the edges are inside or outside.
+pub(super) const CYLINDER: Case =
+    Case { name: "Viscoelastic body: sliding cylinder", source: "Hunter (1961)", checks: cylinder };
+
+fn cylinder() -> Result<Vec<Check>> {
+    let drag = |finest| Expected::Order { order: 1.0..=4.0, finest };
+    let checks = [
+        ("drag, v = 0.3", drag(1e-4)),
+        ("reach ahead, v = 0.3", Expected::Counted(3.0)),
+        ("drag, v = 1", drag(1e-4)),
+        ("reach ahead, v = 1", Expected::Counted(3.0)),
+    ];
+    study("cells a side", &[32, 128, 512], checks, |n| {
+        let mut errors = [0.0; 4];
+        for (speed, errors) in [0.3, 1.0].into_iter().zip(errors.chunks_exact_mut(2)) {
+            let exact = ViscoelasticCylinder {
+                radius: 1.0,
+                load_per_length: LOAD,
+                glassy: 1.0 / RATIO,
+                delayed: 1.0 - 1.0 / RATIO,
+                decay: speed,
+            };
+            let [ahead, behind] = exact.reach();
+            let pitch = 2.6 * ahead.max(behind) / n as f64;
+            let grid = Grid::new([n, 1], [pitch; 2])?;
+            let at = |i: usize| pitch * (i as f64 + 0.5 - 0.5 * n as f64);
+            let gap = Field::from_shape_fn(grid.shape, |(i, _)| 0.5 * at(i).powi(2));
+            let line = Boundary([Edge::Free, Edge::Periodic]);
+            let found = slide(grid, line, &gap, LOAD * pitch, speed)?;
+            let touching = (0..n).rev().find(|i| found.solution.pressure[[*i, 0]] > 0.0);
+            errors[0] = relative(found.drag / pitch, exact.drag_per_length());
+            errors[1] = relative(touching.map_or(0.0, at) + 0.5 * pitch, ahead);
+        }
+        Ok(errors)
+    })
+}
+
+/// A sphere that slides fast: the glassy contact, whose drag falls with the speed.
+pub(super) const FAST: Case = Case {
+    name: "Viscoelastic body: fast sphere",
+    source: "glassy Hertz contact, first order of 1/v",
+    checks: fast,
+};
+
+fn fast() -> Result<Vec<Check>> {
+    const SPEED: f64 = 1e4;
+    let checks = [("drag", Expected::Order { order: 0.7..=3.0, finest: 1e-2 })];
+    study("cells a side", &[16, 32, 64], checks, |n| {
+        let load = 0.01;
+        let radius = (0.75 * load / RATIO).cbrt();
+        let pitch = 2.4 * radius / n as f64;
+        let grid = Grid::new([n, n], [pitch; 2])?;
+        let at = |i: usize| pitch * (i as f64 + 0.5 - 0.5 * n as f64);
+        let gap = Field::from_shape_fn(grid.shape, |(i, j)| 0.5 * (at(i).powi(2) + at(j).powi(2)));
+        let found = slide(grid, Boundary::FREE, &gap, load, SPEED)?;
+        let exact = fast_sphere(1.0, load, 1.0 / RATIO, &[(1.0 - 1.0 / RATIO, 1.0)]) / SPEED;
+        Ok([relative(found.drag / load, exact)])
+    })
+}

@@ -1,0 +1,192 @@
+//! Steady sliding of viscoelastic bodies against a dense program, and its symmetries.
+
+use asperity_contact::material::Material;
+use asperity_contact::motion::{MovingBody, Pair};
+use asperity_contact::operator::{Boundary, Edge};
+use asperity_contact::solver::{Control, Params};
+use asperity_contact::viscoelastic::{
+    Creep, Relaxation, RelaxationTerm, SteadyContact, SteadySliding, solve_steady,
+};
+use asperity_contact::{Field, Grid};
+use asperity_surface::Topography;
+use ndarray::s;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+const BOUNDARIES: [Boundary; 3] =
+    [Boundary::FREE, Boundary::PERIODIC, Boundary([Edge::Free, Edge::Periodic])];
+
+/// A random body with one to three times, E₀ = 1.
+fn body(random: &mut ChaCha8Rng) -> Relaxation {
+    let terms = (0..random.random_range(1..4)).map(|_| RelaxationTerm {
+        modulus: 10f64.powf(random.random_range(-0.5..1.2)),
+        time: 10f64.powf(random.random_range(-2.0..1.0)),
+    });
+    Relaxation::new(1.0, terms.collect::<Vec<_>>()).unwrap()
+}
+
+fn gap(random: &mut ChaCha8Rng, shape: [usize; 2]) -> Field {
+    Field::from_shape_simple_fn(shape, || random.random_range(0.0..1.0))
+}
+
+fn slide(
+    grid: Grid,
+    boundary: Boundary,
+    creep: &Creep,
+    speed: f64,
+    gap: &Field,
+    control: Control,
+) -> SteadyContact {
+    let mut operator = SteadySliding::new(grid, boundary, creep, speed).unwrap();
+    let params = Params::default().with_tolerance(1e-10);
+    solve_steady(&mut operator, gap, control, None, &params, &()).unwrap()
+}
+
+/// The dense matrix of an operator, column by column.
+fn matrix(grid: Grid, boundary: Boundary, creep: &Creep, speed: f64) -> Vec<Vec<f64>> {
+    let mut operator = SteadySliding::new(grid, boundary, creep, speed).unwrap();
+    let columns = (0..grid.cells()).map(|cell| {
+        let (mut unit, mut displacement) = (grid.zeros(), grid.zeros());
+        unit.as_slice_mut().unwrap()[cell] = 1.0;
+        operator.displace(&unit, &mut displacement);
+        displacement.into_iter().collect::<Vec<_>>()
+    });
+    let columns: Vec<_> = columns.collect();
+    (0..grid.cells()).map(|row| columns.iter().map(|column| column[row]).collect()).collect()
+}
+
+/// Solves the dense equations A x = b by elimination with row pivots.
+fn eliminated(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
+    let n = b.len();
+    for k in 0..n {
+        let pivot = (k..n).max_by(|i, j| a[*i][k].abs().total_cmp(&a[*j][k].abs())).unwrap();
+        a.swap(k, pivot);
+        b.swap(k, pivot);
+        for i in k + 1..n {
+            let factor = a[i][k] / a[k][k];
+            let (above, below) = a.split_at_mut(i);
+            below[0][k..].iter_mut().zip(&above[k][k..]).for_each(|(x, y)| *x -= factor * y);
+            b[i] -= factor * b[k];
+        }
+    }
+    for k in (0..n).rev() {
+        let known: f64 = (k + 1..n).map(|j| a[k][j] * b[j]).sum();
+        b[k] = (b[k] - known) / a[k][k];
+    }
+    b
+}
+
+/// The pressures p ≥ 0 with h + Cp − δ ≥ 0, by Murty's pivots of least index, which end for every matrix of positive principal minors.
+fn dense(c: &[Vec<f64>], gap: &[f64], approach: f64) -> Vec<f64> {
+    let n = gap.len();
+    let mut touches = vec![false; n];
+    for _ in 0..100_000 {
+        let cells: Vec<usize> = (0..n).filter(|cell| touches[*cell]).collect();
+        let a = cells.iter().map(|i| cells.iter().map(|j| c[*i][*j]).collect()).collect();
+        let found = eliminated(a, cells.iter().map(|i| approach - gap[*i]).collect());
+        let mut p = vec![0.0; n];
+        cells.iter().zip(found).for_each(|(cell, value)| p[*cell] = value);
+        let is_wrong = |cell: &usize| match touches[*cell] {
+            true => p[*cell] < -1e-12,
+            false => {
+                gap[*cell] + c[*cell].iter().zip(&p).map(|(c, p)| c * p).sum::<f64>() - approach < -1e-12
+            }
+        };
+        match (0..n).find(is_wrong) {
+            None => return p,
+            Some(cell) => touches[cell] = !touches[cell],
+        }
+    }
+    panic!("no end");
+}
+
+#[test]
+fn three_hundred_random_contacts_are_those_of_a_dense_program() {
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    for case in 0..300 {
+        let shape = [random.random_range(3..8), random.random_range(3..8)];
+        let grid = Grid::new(shape, [1.0, random.random_range(0.5..2.0)]).unwrap();
+        // The tables of cells take longer than waves.
+        let boundary = BOUNDARIES[if case % 60 == 7 { 2 } else { usize::from(case % 10 != 0) }];
+        let creep = body(&mut random).creep();
+        let speed = 10f64.powf(random.random_range(-2.0..2.0)) * if case % 2 == 0 { 1.0 } else { -1.0 };
+        let gap = gap(&mut random, shape);
+        let load = 10f64.powf(random.random_range(-2.0..0.0)) * grid.cells() as f64 * grid.cell_area();
+        let found = slide(grid, boundary, &creep, speed, &gap, Control::Load(load));
+        let p = &found.solution.pressure;
+        assert!((found.solution.load() / load - 1.0).abs() < 1e-10);
+        // At full contact of a periodic grid the approach is free in the dense equations.
+        if boundary == Boundary::PERIODIC && p.iter().all(|p| *p > 0.0) {
+            continue;
+        }
+        let c = matrix(grid, boundary, &creep, speed);
+        let expected = dense(&c, gap.as_slice().unwrap(), found.solution.approach);
+        let largest = expected.iter().copied().fold(0.0, f64::max);
+        let error = p.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(error < 1e-7 * largest, "case {case}: {}", error / largest);
+        assert!(found.drag > -1e-12 * load, "case {case}: {}", found.drag);
+    }
+}
+
+#[test]
+fn the_other_way_a_mirrored_contact_is_mirrored() {
+    let mut random = ChaCha8Rng::seed_from_u64(4);
+    for boundary in BOUNDARIES {
+        let grid = Grid::new([24, 10], [1.0, 1.0]).unwrap();
+        let creep = body(&mut random).creep();
+        let gap = gap(&mut random, grid.shape);
+        let mirrored = gap.slice(s![..;-1, ..]).to_owned();
+        let one = slide(grid, boundary, &creep, 0.7, &gap, Control::Load(20.0));
+        let other = slide(grid, boundary, &creep, -0.7, &mirrored, Control::Load(20.0));
+        let back = other.solution.pressure.slice(s![..;-1, ..]);
+        let largest = one.solution.max_pressure();
+        assert!(one.solution.pressure.iter().zip(back).all(|(a, b)| (a - b).abs() < 1e-7 * largest));
+        assert!((one.drag / other.drag - 1.0).abs() < 1e-7 && one.drag > 0.0);
+    }
+}
+
+#[test]
+fn slowly_it_is_the_relaxed_contact_and_fast_the_glassy_one() {
+    let grid = Grid::new([20, 16], [1.0, 1.0]).unwrap();
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let (creep, gap) = (body(&mut random).creep(), gap(&mut random, grid.shape));
+    for (speed, compliance) in [(1e-9, creep.relaxed()), (1e9, creep.glassy)] {
+        let control = Control::Load(10.0);
+        let found = slide(grid, Boundary::FREE, &creep, speed, &gap, control);
+        let elastic = slide(grid, Boundary::FREE, &Creep::elastic(compliance), 1.0, &gap, control);
+        let largest = elastic.solution.max_pressure();
+        let pairs = found.solution.pressure.iter().zip(&elastic.solution.pressure);
+        assert!(pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < 1e-6 * largest, "{speed}");
+        assert!(found.drag.abs() < 1e-6 * 10.0, "{speed}: {}", found.drag);
+    }
+}
+
+#[test]
+fn the_body_that_is_smooth_along_x_moves_through_the_contact() {
+    let grid = Grid::new([16, 8], [1e-6; 2]).unwrap();
+    let mut random = ChaCha8Rng::seed_from_u64(6);
+    let rough = Topography::new(grid, gap(&mut random, grid.shape) * 1e-8).unwrap();
+    let groove = Topography::new(grid, Field::from_shape_fn(grid.shape, |(_, j)| 1e-8 * j as f64)).unwrap();
+    let rubber = Material::elastic(1e6, 0.5).unwrap();
+    let rigid = Material::elastic(f64::INFINITY, 0.3).unwrap();
+    let relaxation = || Relaxation::new(1e6, [RelaxationTerm { modulus: 9e6, time: 1e-3 }]).unwrap();
+    let pair = |lower: &Topography, upper: &Topography, materials: [&Material; 2], relaxations| {
+        Pair::new(lower.clone(), upper.clone(), materials)
+            .unwrap()
+            .with_relaxation(materials, relaxations)
+            .unwrap()
+    };
+    let below = pair(&groove, &rough, [&rubber, &rigid], [Some(relaxation()), None]);
+    assert_eq!(below.moving_body().unwrap(), MovingBody::Lower);
+    // The same bodies, turned over: the contact moves the other way, and the drag is the same.
+    let above = pair(&rough, &groove, [&rigid, &rubber], [None, Some(relaxation())]);
+    assert_eq!(above.moving_body().unwrap(), MovingBody::Upper);
+    let both = pair(&rough, &rough, [&rubber, &rigid], [Some(relaxation()), None]);
+    assert!(both.moving_body().unwrap_err().to_string().contains("smooth along x"));
+    // A rough body that creeps stands still, and is relaxed.
+    let still = pair(&rough, &groove, [&rubber, &rigid], [Some(relaxation()), None]);
+    let mut operator = still.sliding_steadily(Boundary::FREE, 1.0).unwrap();
+    let load = Control::Load(1e-6);
+    let found = solve_steady(&mut operator, rough.heights(), load, None, &Params::default(), &()).unwrap();
+    assert!(found.drag.abs() < 1e-12 * 1e-6, "{}", found.drag);
+}
