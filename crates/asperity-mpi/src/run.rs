@@ -121,6 +121,7 @@ pub fn run_on_ranks(
             grid: slab.whole_grid(),
             origin: body.origin.as_ref(),
             hardness_sha256: body.hardness_sha256.as_ref(),
+            master_sha256: None,
         }),
     );
     let identity = identity_of(&resolved);
@@ -200,6 +201,7 @@ fn check(case: &Case) -> Result<()> {
         ("history", !case.history.is_empty()),
         ("motion", case.motion.is_some()),
         ("sliding", case.sliding.is_some()),
+        ("steady", case.steady.is_some()),
         ("temperature", case.temperature.is_some()),
         ("plasticity", case.plasticity.is_some()),
         ("subsurface", case.subsurface.is_some()),

@@ -106,14 +106,17 @@ fn unit(name: &str, column: usize) -> Option<f64> {
     })
 }
 
-/// Returns the relaxation of each body of a case, `None` for an elastic one, with the fit of a master curve.
+/// The relaxation of a body, with the fit of a master curve.
+type BodyRelaxation = (Relaxation, Option<MasterFit>);
+
+/// Returns the relaxation of each body of a case, `None` for an elastic one.
 ///
 /// # Errors
 /// [`Error::Case`] at the table of the body.
 pub(super) fn relaxations(
     case: &Case,
     curves: &[Option<MasterCurve>; 2],
-) -> Result<[Option<(Relaxation, Option<MasterFit>)>; 2]> {
+) -> Result<[Option<BodyRelaxation>; 2]> {
     let of = |index: usize, name: &str, body: &Body| {
         let Some(viscoelastic) = &body.viscoelastic else { return Ok(None) };
         let temperature = case.temperature.map(|temperature| temperature.bulk[index]);
@@ -195,7 +198,7 @@ pub(super) fn estimate(
 }
 
 /// Describes a viscoelastic body.
-fn described(name: &str, (relaxation, fit): &(Relaxation, Option<MasterFit>)) -> String {
+fn described(name: &str, (relaxation, fit): &BodyRelaxation) -> String {
     let pressure = |value| units::format(value, Dimension::Pressure);
     let time = |value| units::format(value, Dimension::Time);
     let terms = relaxation.terms();

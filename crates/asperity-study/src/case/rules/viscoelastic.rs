@@ -48,11 +48,10 @@ pub(super) const RULES: &[Rule] = &[
         broken: |tables| {
             tables.viscoelastic()?;
             let keys = ["coating", "plasticity", "wear", "film"];
-            let found = ["lower", "upper"].iter().find_map(|body| {
+            ["lower", "upper"].iter().find_map(|body| {
                 let yields = tables.yields().then(|| tables.at(&format!("{body}.hardness"))).flatten();
                 yields.or_else(|| keys.iter().find_map(|key| tables.at(&format!("{body}.{key}"))))
-            });
-            found
+            })
         },
     },
     Rule {
