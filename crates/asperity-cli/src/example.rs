@@ -47,7 +47,7 @@ const KITS: [ExampleFiles; 13] = [
     },
     ExampleFiles {
         name: "viscoelastic",
-        about: "a rough slider over rubber: friction and real area of contact over eight decades of speed",
+        about: "a rough slider over rubber: friction and real area of contact over five decades of speed",
         files: &[
             ("case.toml", include_bytes!("../examples/viscoelastic/case.toml")),
             ("master.csv", include_bytes!("../examples/viscoelastic/master.csv")),

@@ -56,7 +56,7 @@ const VARIANTS: [Variant; 24] = [
             ("shape = [128, 128]", "shape = [32, 32]"),
             ("pitch = \"10 um\"", "pitch = \"40 um\""),
             ("shortest = \"80 um\"", "shortest = \"160 um\""),
-            ("points = 15", "points = 4"),
+            ("points = 11", "points = 4"),
             ("boundary = \"periodic\"", "boundary = \"periodic\"\ntolerance = 1e-10"),
         ],
         tolerance: 1e-7,

@@ -184,8 +184,13 @@ fn of_points(points: &[SweepRecord]) -> Vec<Card> {
         ];
     }
     let from_to = "From the first to the last point.";
+    let last = &points[points.len() - 1];
+    let load = match points.iter().all(|point| (point.load / last.load - 1.0).abs() < 1e-6) {
+        true => Card::of("load", "load", format(last.load, Dimension::Force)),
+        false => Card::new("load", ends(|point| point.load, Dimension::Force), from_to),
+    };
     let mut cards = vec![
-        Card::new("load", ends(|point| point.load, Dimension::Force), from_to),
+        load,
         Card::new("real area of contact", ends(|point| point.contact_area, Dimension::Area), from_to),
         Card::new("largest pressure", pressure, "Largest pressure of all points."),
         Card::new("approach", ends(|point| point.approach, Dimension::Length), from_to),

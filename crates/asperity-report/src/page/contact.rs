@@ -312,7 +312,11 @@ fn of_sweep(found: &mut PageData) -> Vec<Frame> {
             group: 0,
             label: format!("point {} of {}", point.point, points.len()),
             text: format!(
-                "load {}, real contact {}, largest pressure {}",
+                "{}load {}, real contact {}, largest pressure {}",
+                point.steady.map_or(String::new(), |steady| format!(
+                    "speed {}, ",
+                    format(steady.speed, Dimension::Speed)
+                )),
                 format(point.load, Dimension::Force),
                 format(point.contact_area, Dimension::Area),
                 format(point.max_pressure, Dimension::Pressure)

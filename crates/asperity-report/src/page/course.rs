@@ -34,6 +34,12 @@ pub(super) fn loading(found: &PageData, charts: &mut Vec<Value>) -> Option<Strin
     Some(curves::first(curves, charts)).filter(|html| !html.is_empty())
 }
 
+/// The section of bodies that slide at one speed after another: the drag and the contact over the speed; none of others.
+pub(super) fn over_speed(found: &PageData, charts: &mut Vec<Value>) -> Option<String> {
+    found.case.steady.as_ref().filter(|_| found.points.len() > 1)?;
+    Some(curves::first(figures::of_sweep(&found.points, &found.case), charts)).filter(|html| !html.is_empty())
+}
+
 /// Sq of both bodies before the first pass.
 fn roughness_before(found: &mut PageData) -> [f64; 2] {
     let sq = found.results.surfaces_after(0).map(|bodies| bodies.map(|body| spread(body.heights())));
@@ -63,7 +69,8 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
         html += &curves::html(curves, charts);
         data["passes"] = of_passes(found);
     }
-    if !found.points.is_empty() {
+    // Those over the speed have a section of their own.
+    if !found.points.is_empty() && found.case.steady.is_none() {
         html += &curves::html(figures::of_sweep(&found.points, &found.case), charts);
     }
     let last = found.passes.len();

@@ -99,13 +99,14 @@ fn page(results: &Results, seen: Option<Seen>) -> asperity_base::Result<(String,
     // What the case asks for comes first.
     let mut sections = capability::sections(&mut found, &mut data, &mut charts);
     let adhesion = ("adhesion", "Adhesion", adhesion::section(&found, &mut charts));
+    let over_speed = ("speed", "Over speed", course::over_speed(&found, &mut charts));
     let loading = ("loading", "Loading", course::loading(&found, &mut charts));
     let running_in = ("running-in", "Running in", course::running_in(&mut found, &mut charts));
     let contact = ("contact", "Contact", contact::section(&mut found, &mut data, &mut charts));
     // Numbers of the attraction without a curve come after the maps.
     let beginning = match figures::of_force_distance(&found.increments) {
-        Some(_) => [adhesion, running_in, loading, contact],
-        None => [running_in, loading, contact, adhesion],
+        Some(_) => [adhesion, running_in, over_speed, loading, contact],
+        None => [running_in, over_speed, loading, contact, adhesion],
     };
     sections.extend(beginning);
     sections.extend([

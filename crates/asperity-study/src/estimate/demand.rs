@@ -126,6 +126,8 @@ const DRAWN: f64 = 6.0;
 /// Numbers of each cell for adhesion: the directions of a step of Newton's iteration, usually 25 or less and 60 at most, and the fields
 /// of two states.
 const ATTRACTED: f64 = 40.0;
+/// Numbers of each cell for steady sliding: the directions of a step of Newton's iteration on half of the cells, and the fields.
+const DIRECTIONS: f64 = 40.0;
 /// Numbers of each cell for an iteration, with the gap; some are in single precision.
 const ITERATION: f64 = 5.7;
 /// Numbers of each cell for the near copy of the operator on a free grid.
@@ -218,6 +220,9 @@ impl Sizes<'_> {
         let mut solver = NUMBER * if self.is_coupled() { normal + coupled } else { normal };
         if case.adhesion.is_some() {
             solver += NUMBER * ATTRACTED * nx * ny;
+        }
+        if case.steady.is_some() {
+            solver += NUMBER * (DIRECTIONS * nx * ny + 6.0 * padded);
         }
         let positions = super::positions(case, [self.lower, self.upper]);
         if let Ok(Some(plan)) = Plan::new(case, [&self.lower, &self.upper], &positions) {
@@ -384,6 +389,10 @@ impl Sizes<'_> {
                         None => normal,
                     };
                     of(shear, increments)
+                }
+                Some(LoadingPath::Sweep(points)) if case.steady.is_some() => {
+                    let larger = (nx * ny / LARGE).powf(STEADY_GROWTH);
+                    of(Cost { convolutions: larger * STEADY.convolutions, ..STEADY }, points.len() as f64)
                 }
                 Some(LoadingPath::Sweep(points)) => {
                     let rolls = points.iter().filter(|point| point.rolling.is_some()).count() as f64;
@@ -579,6 +588,9 @@ const SHEAR_UNLIKE: Cost = Cost { convolutions: 68.0, work: 7.0 };
 const ROLLING: Cost = Cost { convolutions: 85.0, work: 4.6 };
 /// Steady rolling of dissimilar bodies.
 const ROLLING_UNLIKE: Cost = Cost { convolutions: 230.0, work: 5.0 };
+/// Steady sliding of a viscoelastic body, at each speed, and the exponent by which its convolutions grow with the number of cells.
+const STEADY: Cost = Cost { convolutions: 135.0, work: 2.5 };
+const STEADY_GROWTH: f64 = 0.6;
 /// Convolutions of a later pass relative to the first.
 const WARM: f64 = 0.8;
 /// Number of cells from which a contact takes more convolutions, and the exponent of this growth.

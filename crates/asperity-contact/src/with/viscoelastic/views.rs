@@ -65,29 +65,27 @@ pub fn doubts(creep: &Creep, boundary: Boundary, pitch: Metre, extent: Metre, sp
     }
     let mut doubts = Vec::new();
     let relaxed = creep.relaxed();
-    let important = || creep.terms.iter().filter(|term| term.compliance > WEIGHT * relaxed);
+    let important =
+        || creep.terms.iter().filter(|term| term.compliance > WEIGHT * relaxed).map(|term| term.time);
+    let [fastest, slowest] = [important().fold(f64::INFINITY, f64::min), important().fold(0.0, f64::max)];
     let text = |length: Metre| format(length, Dimension::Length);
     let speed = |speed: f64| format(speed, Dimension::Speed);
     let least = speeds.iter().copied().fold(f64::INFINITY, f64::min);
     let largest = speeds.iter().copied().fold(0.0, f64::max);
-    if let Some(term) =
-        important().filter(|term| least * term.time < 0.5 * pitch).min_by(|a, b| a.time.total_cmp(&b.time))
-    {
+    if least * slowest < 0.5 * pitch {
         doubts.push(format!(
-            "at {} a retardation time of {} passes within {}, less than half a cell: its drag is that of a slow body, and a finer pitch or \
-             a larger speed would resolve it",
+            "at {} the body has crept within {}, less than half a cell: the grid does not resolve its drag; take a finer pitch or a \
+             larger speed",
             speed(least),
-            format(term.time, Dimension::Time),
-            text(least * term.time)
+            text(least * slowest)
         ));
     }
-    let slowest = important().map(|term| term.time).fold(0.0, f64::max);
-    if boundary.repeats(0) && largest * slowest > extent {
+    if boundary.repeats(0) && largest * fastest > extent {
         doubts.push(format!(
-            "at {} the body remembers {}, more than the period of {}: waves along y stay relaxed however fast the contact moves, so that it \
-             does not become that of the glassy body",
+            "at {} the body remembers {} or more, beyond the period of {}: waves along y stay relaxed however fast the contact moves, so \
+             that it does not become that of the glassy body",
             speed(largest),
-            text(largest * slowest),
+            text(largest * fastest),
             text(extent)
         ));
     }

@@ -1,0 +1,56 @@
+"""Viscoelastic bodies in steady sliding."""
+
+from __future__ import annotations
+
+import pathlib
+
+import asperity as asp
+import numpy as np
+import pytest
+from asperity import errors
+
+RELAXING = {"moduli": ["9 MPa", "90 MPa"], "times": ["10 ms", "0.2 ms"]}
+
+
+def bodies(**relaxation: object) -> tuple[asp.Body, asp.Body]:
+    rubber, rigid = asp.Material("1 MPa", 0.5), asp.Material("inf", 0.3)
+    slider = asp.generate.self_affine(shape=(32, 32), pitch="10 um", sdq=0.1, hurst=0.8, shortest="80 um")
+    smooth = asp.form.flat((32, 32), pitch="10 um")
+    return asp.Body(smooth, rubber, viscoelastic=relaxation or RELAXING), asp.Body(slider, rigid)  # type: ignore[arg-type]
+
+
+def test_rubber_touches_less_and_resists_most_in_between() -> None:
+    lower, upper = bodies()
+    speeds = {"from": "0.1 mm/s", "to": "1 m/s", "points": 5}
+    c = asp.contact(lower, upper, mean_pressure="50 kPa", boundary="periodic", steady={"speeds": speeds})
+    drag, area = c.sweep["drag_coefficient"], c.sweep["contact_area"]
+    assert c.sweep["speed"] == pytest.approx(np.geomspace(1e-4, 1, 5))
+    assert np.all(drag > 0) and drag.argmax() in (1, 2, 3) and np.all(np.diff(area) < 0)
+    assert c.sweep["drag_power"] == pytest.approx(drag * c.sweep["load"] * c.sweep["speed"])
+
+
+def test_a_master_curve_is_fitted(tmp_path: pathlib.Path) -> None:
+    frequency = np.logspace(-2, 6, 41)
+    z = 2j * np.pi * frequency * 1e-3
+    modulus = 1e6 + 9e6 * z / (1 + z)
+    file = tmp_path / "master.csv"
+    table = np.column_stack([frequency, modulus.real, modulus.imag])
+    np.savetxt(file, table, delimiter=",", header="frequency_Hz,storage_Pa,loss_Pa", comments="")
+
+    def drag(**relaxation: object) -> float:
+        lower, upper = bodies(**relaxation)
+        c = asp.contact(lower, upper, mean_pressure="50 kPa", boundary="periodic", steady={"speed": 0.1})
+        return float(c.sweep["drag_coefficient"][0])
+
+    fitted = drag(file=str(file), terms_per_decade=3)
+    assert fitted == pytest.approx(drag(moduli=[9e6], times=[1e-3]), rel=0.05)
+    file.write_text("frequency,storage_Pa,loss_Pa\n1,2,3\n")
+    with pytest.raises(errors.CaseError, match="the frequency 'frequency' has no unit"):
+        drag(file=str(file))
+
+
+def test_two_rough_bodies_do_not_slide_steadily() -> None:
+    lower, upper = bodies()
+    rough = asp.Body(upper.surface, lower.material, viscoelastic=RELAXING)  # type: ignore[arg-type]
+    with pytest.raises(errors.CaseError, match="needs a body that is smooth along x"):
+        asp.contact(rough, upper, load="10 mN", steady={"speed": 1.0})
