@@ -195,7 +195,10 @@ fn the_case_on_a_page_of_an_example_is_that_case() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("case.toml");
         fs::copy(examples.join(&name).join("case.toml"), &path).unwrap();
-        fs::copy(examples.join("measured/disc.x3p"), folder.path().join("disc.x3p")).unwrap();
+        for file in ["measured/disc.x3p", "viscoelastic/master.csv"] {
+            let file = examples.join(file);
+            fs::copy(&file, folder.path().join(file.file_name().unwrap())).unwrap();
+        }
         let case = Case::load(&path).unwrap();
         let resolved = |case: &Case| {
             asperity_study::resolved(case, &asperity_study::bodies(case, SurfaceInput::default()).unwrap())
