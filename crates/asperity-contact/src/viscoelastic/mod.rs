@@ -1,6 +1,7 @@
 //! Linear viscoelastic bodies: relaxation and creep, steady sliding, memory in time.
 
 mod master_curve;
+mod memory;
 mod operator;
 mod panels;
 mod series;
@@ -10,6 +11,7 @@ mod table;
 mod tests;
 
 pub use master_curve::{MasterFit, MasterPoint, fit_master_curve};
+pub use memory::{CreepMemory, solve_in_time};
 pub use operator::SteadySliding;
 pub use series::{Creep, CreepTerm, Relaxation, RelaxationTerm};
 pub use steady::{SteadyContact, solve_steady};
