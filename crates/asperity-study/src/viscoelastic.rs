@@ -152,7 +152,7 @@ pub(super) fn relax(case: &Case, pair: Pair, curves: &[Option<MasterCurve>; 2]) 
     pair.with_relaxation(materials, [lower, upper].map(|body| body.map(|(relaxation, _)| relaxation)))
 }
 
-/// What is known of steady sliding before it is solved.
+/// Viscoelastic bodies and their steady sliding before anything is solved.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct SteadyEstimate {

@@ -13,6 +13,9 @@ use crate::viscoelastic::{Creep, SteadySliding, solve_steady};
 /// Largest difference of heights along x of a body that counts as smooth, relative to the range of its heights, or to the pitch.
 const SMOOTH: f64 = 1e-9;
 
+/// Drag over load that is the rounding of 0.
+const NOTHING: f64 = 1e-13;
+
 /// One of the two bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MovingBody {
@@ -92,9 +95,11 @@ impl LoadedContact {
         let found = solve_steady(&mut operator, gap, control, start, params, watch)?;
         let solution = found.solution;
         let record = StaticRecord::new(&solution);
-        let drag = found.drag;
-        let steady =
-            SteadyRecord { speed, drag, drag_coefficient: drag / record.load, drag_power: drag * speed };
+        // Rounding leaves some of a drag that is 0.
+        let drag = if found.drag.abs() > NOTHING * record.load { found.drag } else { 0.0 };
+        // Bodies that do not touch have no drag.
+        let drag_coefficient = if record.load > 0.0 { drag / record.load } else { 0.0 };
+        let steady = SteadyRecord { speed, drag, drag_coefficient, drag_power: drag * speed };
         let contact = Self {
             record,
             increments: Vec::new(),

@@ -7,7 +7,7 @@ use crate::solver::{Bounds, Control, Params, Solution, Watch, solve_normal};
 use crate::units::{Dimension, Pascal, PerPascal, Second};
 use crate::viscoelastic::series::Creep;
 
-/// What a body, or a pair at full overlap, remembers of its loads.
+/// Memory of the loads of a body, or of a pair at full overlap.
 ///
 /// For each retardation time a field z on all of its cells, with `ρ ż = Lp − z`, where L is the elastic half-space of a unit modulus. The
 /// displacement is `J_g Lp + Σ J_k z_k`. In a step of the time Δt, in which Lp changes linearly, with e = e^(−Δt/ρ) and φ = (1 − e)ρ/Δt,

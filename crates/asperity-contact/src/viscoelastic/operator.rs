@@ -142,7 +142,7 @@ impl Kernels {
             displacement: SkewKernel::from_transform(grid.shape, |kx, ky| {
                 if zero(kx, ky) { 0.0.into() } else { response(kx, ky) }
             }),
-            // Of the shortest wave of an even number of cells only the even part is known, which has no slope.
+            // Only the even part of the shortest wave of an even number of cells is known, and it has no slope.
             slope: SkewKernel::from_transform(grid.shape, |kx, ky| match zero(kx, ky) || 2 * kx == nx {
                 true => 0.0.into(),
                 false => Complex64::i() * wave(kx, ky)[0] * response(kx, ky),

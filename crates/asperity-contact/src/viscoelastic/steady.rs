@@ -40,7 +40,8 @@ pub struct SteadyContact {
 /// rounds, the last one alone, which ends for every matrix of positive principal minors (Júdice and Pires, Comput. Oper. Res. 21, 587 (1994)).
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for a load or an approach that is not finite, [`Error::NotConverged`], [`Error::Interrupted`].
+/// [`Error::OutOfRange`] for a load or an approach that is not finite, [`Error::PeriodicFullContact`], [`Error::NotConverged`],
+/// [`Error::Interrupted`].
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.
@@ -68,6 +69,11 @@ pub fn solve_steady(
         Control::Approach(approach) => {
             let is_valid = approach.is_finite();
             check_in(Dimension::Length, "approach", approach, is_valid, "a finite length")?;
+            // No pressure displaces the mean of a periodic surface.
+            let mean_gap = initial_gap.mean().unwrap_or(0.0);
+            if operator.boundary().leaves_mean_free() && approach >= mean_gap {
+                return Err(Error::PeriodicFullContact { approach, mean_gap });
+            }
             None
         }
     };

@@ -6,7 +6,7 @@ use crate::units::{MetrePerSecond, Newton, Watt};
 use asperity_base::record::columns;
 
 columns! {
-    /// What steady sliding takes from viscoelastic bodies.
+    /// Drag of viscoelastic bodies in steady sliding.
     #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
     pub struct SteadyRecord {
         /// Speed at which the contact moves over the body that is smooth along x.

@@ -11,7 +11,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[lower.viscoelastic], [upper.viscoelastic]",
         with: "no [steady]",
-        message: "a viscoelastic body needs [steady]: a contact at rest has the relaxed modulus `young`",
+        message: "a viscoelastic body needs [steady]: a static contact has the relaxed modulus `young`",
         hint: "give the `speed` or the `speeds` in [steady], or take the table away",
         at: "lower.viscoelastic",
         example: &[RELAXES],
@@ -42,14 +42,17 @@ pub(super) const RULES: &[Rule] = &[
         this: "[lower.viscoelastic], [upper.viscoelastic]",
         with: "a hardness, a coating or `plasticity` of either body, `wear`, `film`",
         message: "viscoelastic bodies do not support '{key}'",
-        hint: "a body that yields or that is coated has no viscoelastic relaxation here",
+        hint: "the contact is that of elastic and viscoelastic bodies; beside a `material` with a hardness give `hardness = inf`",
         at: "lower.hardness",
         example: &[RELAXES, STEADY, r#"lower.hardness = "3 GPa""#],
         broken: |tables| {
             tables.viscoelastic()?;
             let keys = ["coating", "plasticity", "wear", "film"];
             ["lower", "upper"].iter().find_map(|body| {
-                let yields = tables.yields().then(|| tables.at(&format!("{body}.hardness"))).flatten();
+                let of = if *body == "lower" { &tables.case.lower } else { &tables.case.upper };
+                let hardness =
+                    || ["hardness", "material"].iter().find_map(|key| tables.at(&format!("{body}.{key}")));
+                let yields = of.hardness.yields().then(hardness).flatten();
                 yields.or_else(|| keys.iter().find_map(|key| tables.at(&format!("{body}.{key}"))))
             })
         },
