@@ -150,6 +150,7 @@ pub const CASES: &[Case] = &[
     viscoelastic::WAVE,
     viscoelastic::CYLINDER,
     viscoelastic::FAST,
+    viscoelastic::CREEP,
     shear::COEFFICIENTS,
     shear::FREE_TRANSFORM,
     shear::PERIODIC_TRANSFORM,

@@ -5,11 +5,13 @@ use std::f64::consts::TAU;
 use super::{Case, Check, Expected, PARAMS, relative, study};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
-use crate::operator::{Boundary, Edge};
+use crate::operator::{Boundary, Edge, FreeFft};
 use crate::reference::ViscoelasticCylinder;
-use crate::reference::viscoelastic::fast_sphere;
+use crate::reference::viscoelastic::{fast_sphere, sphere_under_step};
 use crate::solver::Control;
-use crate::viscoelastic::{Relaxation, RelaxationTerm, SteadyContact, SteadySliding, solve_steady};
+use crate::viscoelastic::{
+    CreepMemory, Relaxation, RelaxationTerm, SteadyContact, SteadySliding, solve_in_time, solve_steady,
+};
 
 /// Glassy over relaxed modulus.
 const RATIO: f64 = 10.0;
@@ -103,5 +105,39 @@ fn fast() -> Result<Vec<Check>> {
         let found = slide(grid, Boundary::FREE, &gap, load, SPEED)?;
         let exact = fast_sphere(1.0, load, 1.0 / RATIO, &[(1.0 - 1.0 / RATIO, 1.0)]) / SPEED;
         Ok([relative(found.drag / load, exact)])
+    })
+}
+
+/// A sphere under a load that comes at once and stays: at once, after half of the retardation time, and after two of them.
+pub(super) const CREEP: Case = Case {
+    name: "Viscoelastic body: sphere under a step of load",
+    source: "Lee, Radok (1960)",
+    checks: creep,
+};
+
+fn creep() -> Result<Vec<Check>> {
+    const STEPS: usize = 8;
+    let order = || Expected::Order { order: 0.7..=3.0, finest: 1e-3 };
+    let checks =
+        [("approach, t = 0", order()), ("approach, t = ρ/2", order()), ("approach, t = 2 ρ", order())];
+    study("cells a side", &[12, 24, 48], checks, |n| {
+        let (creep, load) = (standard_solid()?.creep(), 0.01f64);
+        let pitch = 2.3 * (0.75 * load).cbrt() / n as f64;
+        let grid = Grid::new([n, n], [pitch; 2])?;
+        let at = |i: usize| pitch * (i as f64 + 0.5 - 0.5 * n as f64);
+        let gap = Field::from_shape_fn(grid.shape, |(i, j)| 0.5 * (at(i).powi(2) + at(j).powi(2)));
+        let (mut operator, mut memory) =
+            (FreeFft::new(grid, 1.0), CreepMemory::new(creep.clone(), grid.shape));
+        let time = |step: usize| 2.0 * (step as f64 / STEPS as f64).powi(2);
+        let mut errors = Vec::new();
+        for step in 0..=STEPS {
+            let (control, duration) = (Control::Load(load), time(step) - time(step.saturating_sub(1)));
+            let found =
+                solve_in_time(&mut operator, 1.0, &mut memory, &gap, control, duration, None, &PARAMS, &())?;
+            if step % (STEPS / 2) == 0 {
+                errors.push(relative(found.approach, sphere_under_step(1.0, load, creep.at(time(step)))[0]));
+            }
+        }
+        Ok([errors[0], errors[1], errors[2]])
     })
 }

@@ -46,6 +46,7 @@ cases! {
     a_wave_takes_the_loss_of_its_frequency: "Viscoelastic body: wave in full contact",
     rubber_resists_a_cylinder_and_lets_it_go_late: "Viscoelastic body: sliding cylinder",
     a_fast_sphere_meets_the_glassy_body: "Viscoelastic body: fast sphere",
+    a_sphere_sinks_in_as_its_bodies_creep: "Viscoelastic body: sphere under a step of load",
     nine_coefficients_spread_the_point_loads_over_a_cell: "nine coefficients: quadrature",
     zero_padding_frees_the_surface_in_all_directions: "coupled free FFT: the direct sum",
     a_wave_of_shear_displaces_along_and_across_its_crests: "coupled periodic FFT: oblique sinusoids",
