@@ -121,6 +121,12 @@ class Stage(TypedDict, total=False):
     cycles : int
         Number of cycles, in each of which the loading goes there and comes back; whole number ≥ 1. Without it: none:
         the loading goes there once.
+    duration : float or str
+        Time in which the loading goes there, in equal steps, for viscoelastic bodies; time > 0. Without it: none: at
+        once.
+    dwell : float or str
+        Time for which the loading then stays, in `increments` steps that grow, for viscoelastic bodies; time > 0.
+        Without it: none.
     period : float or str
         Time of a cycle, for films that grow; time > 0. Without it: unknown.
     """
@@ -133,6 +139,8 @@ class Stage(TypedDict, total=False):
     sliding: Sequence[float]
     increments: int
     cycles: int
+    duration: Quantity
+    dwell: Quantity
     period: Quantity
 
 
@@ -567,7 +575,7 @@ class Rest(TypedDict, total=False):
         "give a load or an approach."]
     history: Annotated[Sequence[Stage] | None, "",
         "Further stages of the loading of a static contact: `load`, `mean_pressure`, `approach`, `force`, `displacement`, "
-        "`sliding`, `increments`, `cycles`, `period`."]
+        "`sliding`, `increments`, `cycles`, `duration`, `dwell`, `period`."]
     steady: Annotated[Steady | None, "",
         "Steady sliding of viscoelastic bodies: `speed`, `speeds`."]
     acceleration: Annotated[Acceleration | None, "",

@@ -54,3 +54,12 @@ def test_two_rough_bodies_do_not_slide_steadily() -> None:
     rough = asp.Body(upper.surface, lower.material, viscoelastic=RELAXING)  # type: ignore[arg-type]
     with pytest.raises(errors.CaseError, match="needs a body that is smooth along x"):
         asp.contact(rough, upper, load="10 mN", steady={"speed": 1.0})
+
+
+def test_rubber_creeps_under_a_load() -> None:
+    lower, _ = bodies(moduli=["9 MPa"], times=["0.1 s"])
+    ball = asp.Body(asp.form.sphere("10 mm"), asp.Material("inf", 0.3))
+    c = asp.contact(lower, ball, load="1 mN", history=[{"dwell": "20 s", "increments": 8}])
+    time, area = c.increments["time"], c.increments["contact_area"]
+    assert time[0] == 0 and time[-1] == pytest.approx(20) and np.all(np.diff(area) >= 0)
+    assert c.increments["approach"][-1] == pytest.approx(10 ** (2 / 3) * c.increments["approach"][0], rel=0.05)

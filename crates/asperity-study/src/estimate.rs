@@ -145,7 +145,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         gap_slope: slopes.iter().filter(|slope| slope.is_finite()).fold(0.0, |all: f64, s| all.hypot(*s)),
         adhesion: None,
         closed_form: ClosedForm::of(case, lower_grid.extent(), control)
-            .filter(|_| case.adhesion.is_none() && case.steady.is_none())
+            .filter(|_| case.adhesion.is_none() && !case.relaxes())
             .filter(|form| form.max_pressure.is_none_or(|pressure| pressure <= hardness)),
         subsurface: Plan::new(case, [&lower_grid, &upper_grid], &positions)?,
         steady: viscoelastic::estimate(

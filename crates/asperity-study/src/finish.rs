@@ -100,8 +100,7 @@ pub fn closed_form(case: &Case, extent: [Metre; 2], outcome: &Outcome) -> Option
         Outcome::Sweep(points) => points.last().filter(|point| point.plastic_area == 0.0).map(Into::into),
         Outcome::Passes(_) => None,
     }?;
-    let is_plain =
-        case.sliding.is_none() && case.steady.is_none() && case.adhesion.is_none() && !case.runs_in();
+    let is_plain = case.sliding.is_none() && !case.relaxes() && case.adhesion.is_none() && !case.runs_in();
     let form = ClosedForm::of(case, extent, Control::Load(computed.load)).filter(|_| is_plain)?;
     Some(form.beside(computed))
 }

@@ -162,7 +162,7 @@ pub struct SteadyEstimate {
     pub warnings: Vec<String>,
 }
 
-/// Examines the steady sliding of a case; `None` for another one.
+/// Examines the viscoelastic bodies of a case and their steady sliding; `None` without such bodies.
 ///
 /// # Errors
 /// [`Error::Case`] if both bodies are rough along x, and the errors of the fits.
@@ -171,8 +171,15 @@ pub(super) fn estimate(
     bodies: [&Topography; 2],
     curves: &[Option<MasterCurve>; 2],
 ) -> Result<Option<SteadyEstimate>> {
-    let Some(steady) = &case.steady else { return Ok(None) };
+    if !case.relaxes() {
+        return Ok(None);
+    }
     let relaxations = relaxations(case, curves)?;
+    let lines = relaxations.iter().zip(["lower", "upper"]);
+    let lines = lines.filter_map(|(body, name)| Some(described(name, body.as_ref()?))).collect();
+    let Some(steady) = &case.steady else {
+        return Ok(Some(SteadyEstimate { bodies: lines, warnings: Vec::new() }));
+    };
     let grid = bodies[0].grid();
     let heights = bodies.map(Topography::heights);
     let creeps = relaxations.each_ref().map(Option::is_some);
@@ -192,9 +199,7 @@ pub(super) fn estimate(
         grid.extent()[0],
         &steady.all(),
     );
-    let lines = relaxations.iter().zip(["lower", "upper"]);
-    let lines = lines.filter_map(|(body, name)| Some(described(name, body.as_ref()?)));
-    Ok(Some(SteadyEstimate { bodies: lines.collect(), warnings }))
+    Ok(Some(SteadyEstimate { bodies: lines, warnings }))
 }
 
 /// Describes a viscoelastic body.

@@ -11,7 +11,7 @@ use crate::motion::extrapolation::Acceleration;
 use crate::motion::fretting::{ChangedBodies, Laws};
 use crate::motion::law::Law;
 use crate::motion::pair::Pair;
-use crate::motion::record::{AdhesionRecord, IncrementRecord, ShearRecord, StaticRecord};
+use crate::motion::record::{AdhesionRecord, CreepRecord, IncrementRecord, ShearRecord, StaticRecord};
 use crate::motion::stage::{Origin, Progress, Stage};
 use crate::motion::state::{Flattening, LoadedContact, LoadingState};
 use crate::motion::watch::{StaticWatch, Watch};
@@ -20,7 +20,8 @@ use crate::solver::{
     self, Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Rolling, RollingSolution,
     solve_frictional_watched, solve_rolling_watched,
 };
-use crate::units::{Joule, Kelvin};
+use crate::units::{Joule, Kelvin, Second};
+use crate::viscoelastic::{CreepMemory, solve_in_time};
 
 /// Loads a pair at full overlap, stage after stage, from before contact or from a state `under_way`. A resumed loading
 /// gives the same result, bit by bit.
@@ -332,14 +333,24 @@ impl Increments {
         before: Option<LoadingState>,
         watch: &dyn solver::Watch,
     ) -> Result<LoadingState> {
-        let (last, mut flattening, mut increments, slip, error, mut changed) = match before {
+        let (last, mut flattening, mut increments, slip, error, mut changed, mut memory) = match before {
             Some(LoadingState {
-                contact, flattening, increments, slip, dissipation_error, changed, ..
-            }) => (Some(contact), flattening, increments, slip, dissipation_error, changed),
+                contact,
+                flattening,
+                increments,
+                slip,
+                dissipation_error,
+                changed,
+                memory,
+                ..
+            }) => (Some(contact), flattening, increments, slip, dissipation_error, changed, memory),
             None => {
                 let deepest = Field::zeros(self.loading.gap.raw_dim());
                 let begun = self.laws.as_ref().map(|laws| laws.begin(self.loading.pair.clone()));
-                (None, Flattening { kept: None, deepest }, Vec::new(), None, 0.0, begun)
+                let pair = &self.loading.pair;
+                let creep = pair.creep_together();
+                let memory = creep.map(|creep| CreepMemory::new(creep, pair.lower_grid().shape));
+                (None, Flattening { kept: None, deepest }, Vec::new(), None, 0.0, begun, memory)
             }
         };
         let StagedLoading { pair, gap, solver, params, stages, .. } = &mut self.loading;
@@ -347,8 +358,13 @@ impl Increments {
             None => (&*pair, Cow::Borrowed(&*gap)),
             Some(ChangedBodies { pair, .. }) => (pair, Cow::Owned(pair.initial_gap(&pair.at_rest()))),
         };
-        let mut contact =
-            solver.solve(pair, &flattening.open(&gap), loading, last.as_ref(), params, watch)?;
+        let duration = stages[next.stage].duration(next.step, share);
+        let mut contact = match &mut memory {
+            None => solver.solve(pair, &flattening.open(&gap), loading, last.as_ref(), params, watch)?,
+            Some(memory) => {
+                solver.creep(pair, &gap, memory, (loading.normal, duration), last.as_ref(), params, watch)?
+            }
+        };
         let mut stats = contact.normal().stats;
         let mut plastic = contact.normal().plastic_interference();
         let allowed = MAX_DECREASE * params.tolerance * contact.normal().displacement.std(0.0);
@@ -405,8 +421,13 @@ impl Increments {
             changed.last = None;
         }
         let fretting = self.laws.as_ref().zip(changed.as_ref()).map(|(laws, changed)| laws.record(changed));
+        let creep = memory.as_ref().map(|_| {
+            let before = increments.last().and_then(|last| last.creep).unwrap_or_default();
+            CreepRecord { time: before.time + duration }
+        });
         increments.push(IncrementRecord {
             increment: increments.len() + 1,
+            creep,
             stage: next.stage + 1,
             fretting,
             plastic_volume: area * flattening.total(plastic).sum(),
@@ -418,7 +439,17 @@ impl Increments {
         });
         let dissipation_error = error + more_error;
         let next = following;
-        Ok(LoadingState { increments, contact, origin, flattening, slip, dissipation_error, next, changed })
+        Ok(LoadingState {
+            increments,
+            contact,
+            origin,
+            flattening,
+            slip,
+            dissipation_error,
+            next,
+            changed,
+            memory,
+        })
     }
 }
 
@@ -458,6 +489,27 @@ impl StagedLoading {
 }
 
 impl Solver {
+    /// Solves an increment of viscoelastic bodies over the initial `gap` in this time, under this load or at this approach, and advances
+    /// their `memory`.
+    #[expect(clippy::too_many_arguments, reason = "the contact, its memory, and who looks on")]
+    fn creep(
+        &mut self,
+        pair: &Pair,
+        gap: &Field,
+        memory: &mut CreepMemory,
+        (control, duration): (Control, Second),
+        last: Option<&Equilibrium>,
+        params: &Params,
+        watch: &dyn solver::Watch,
+    ) -> Result<Equilibrium> {
+        let Self::Frictionless(operator) = self else {
+            return Err(Error::Unsupported("viscoelastic bodies are loaded without friction"));
+        };
+        let (operator, start) = (operator.as_mut(), last.map(|last| &last.normal().pressure));
+        solve_in_time(operator, pair.modulus(), memory, gap, control, duration, start, params, watch)
+            .map(|solution| Equilibrium::Frictionless(Box::new(solution)))
+    }
+
     /// Solves an increment over the initial `gap`, from the `last` one.
     fn solve(
         &mut self,

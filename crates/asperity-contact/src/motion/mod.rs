@@ -56,7 +56,7 @@ pub use path::{OffsetY, Path, Position, Stroke, overlap_positions, shift_positio
 pub use plastic_volume::PlasticVolume;
 pub use record::lost_volumes::{ENDINGS, is_volume_of_law};
 pub use record::{
-    AdhesionPassRecord, AdhesionRecord, FrettingRecord, HeatRecord, IncrementRecord, LostVolume,
+    AdhesionPassRecord, AdhesionRecord, CreepRecord, FrettingRecord, HeatRecord, IncrementRecord, LostVolume,
     PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Regime, ResidualRecord, RunningRecord,
     ShearRecord, StaticRecord, SteadyRecord, StepRecord, SweepRecord, UpdateRecord,
 };
@@ -66,7 +66,7 @@ pub use rim::Interior;
 pub use simulation::{Simulation, SolvedPass};
 pub use sliding::{Slide, SlidingContact, SlidingOutcome};
 pub use spot::largest_spot;
-pub use stage::{Cycles, Origin, Progress as StageProgress, Stage};
+pub use stage::{Cycles, Origin, Progress as StageProgress, Stage, StageTime};
 pub use state::{Flattening, LoadedContact, LoadingState, SlidingState};
 pub use steady::MovingBody;
 pub use store::{CourseState, StateReader, StateWriter};

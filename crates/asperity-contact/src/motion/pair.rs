@@ -94,6 +94,12 @@ impl Pair {
         Ok(self)
     }
 
+    /// Composite creep compliance of both bodies together, as long as the same cells stay opposite each other; `None` if neither is
+    /// viscoelastic.
+    pub fn creep_together(&self) -> Option<Creep> {
+        self.creep.as_ref().map(|[lower, upper]| lower.plus(upper))
+    }
+
     /// Composite creep compliance of the lower and of the upper body, (1 − ν²) J(t); `None` if neither is viscoelastic.
     pub fn creep(&self) -> Option<&[Creep; 2]> {
         self.creep.as_ref()

@@ -14,6 +14,20 @@ pub struct Stage {
     pub increments: usize,
     /// Cycles, in each of which the loading goes there and comes back; `None` if it goes there once and stays.
     pub cycles: Option<Cycles>,
+    /// Time of the stage, which viscoelastic bodies need.
+    pub time: StageTime,
+}
+
+/// Time of a stage.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum StageTime {
+    /// Its steps take no time.
+    #[default]
+    Sudden,
+    /// All of its steps together take this time, > 0, each the same part of it.
+    Even(Second),
+    /// All of its steps together take this time, > 0; the first k of n steps take (k/n)² of it, as for a body that creeps fast at first.
+    Growing(Second),
 }
 
 /// Cycles of a stage.
@@ -40,7 +54,13 @@ pub struct Progress {
 impl Stage {
     /// Creates a stage that goes to this loading in a number of equal steps, ≥ 1.
     pub const fn new(loading: Loading, increments: usize) -> Self {
-        Self { loading, increments, cycles: None }
+        Self { loading, increments, cycles: None, time: StageTime::Sudden }
+    }
+
+    /// Sets the time of the stage.
+    #[must_use]
+    pub const fn within(self, time: StageTime) -> Self {
+        Self { time, ..self }
     }
 
     /// Lets the loading go there and come back, `count` times.
@@ -69,6 +89,17 @@ impl Stage {
             left -= stage.increments;
         }
         None
+    }
+
+    /// Returns the time of a step, which is this `share` of a cycle in cycles.
+    pub(super) fn duration(&self, step: usize, share: f64) -> Second {
+        let n = self.increments as f64;
+        match (self.cycles, self.time) {
+            (Some(cycles), _) => share * cycles.period.unwrap_or(0.0),
+            (None, StageTime::Sudden) => 0.0,
+            (None, StageTime::Even(time)) => time / n,
+            (None, StageTime::Growing(time)) => time * (2 * step - 1) as f64 / (n * n),
+        }
     }
 
     /// Returns the loading of a step that began at `origin`, and its share of the time of a cycle; 0 without cycles.

@@ -14,6 +14,7 @@ use crate::motion::store::{
 };
 use crate::solver::{Bounds, Equilibrium, FrictionalSolution, Solution, Stats};
 use crate::units::{Joule, Metre};
+use crate::viscoelastic::{Creep, CreepMemory};
 
 /// A static contact at the end of its loading, with its history.
 #[derive(Debug, Clone)]
@@ -56,6 +57,8 @@ pub struct LoadingState {
     pub next: Progress,
     /// Bodies that laws have changed; `None` without laws.
     pub changed: Option<ChangedBodies>,
+    /// Memory of viscoelastic bodies; `None` for others.
+    pub memory: Option<CreepMemory>,
 }
 
 /// Plastic interference of the cells of a contact over its loading.
@@ -146,6 +149,12 @@ impl CourseState for LoadingState {
         if let Some(changed) = &self.changed {
             changed.store(to);
         }
+        if let Some(memory) = &self.memory {
+            to.field("crept_elastic", "Pa m", memory.elastic());
+            for (term, z) in memory.delayed().iter().enumerate() {
+                to.field(&crept(term), "Pa m", z);
+            }
+        }
         let Progress { stage, cycles, step } = self.next;
         to.count("next_stage", stage);
         to.count("next_cycles", cycles);
@@ -197,6 +206,12 @@ impl LoadingState {
                 ..Stats::default()
             },
         };
+        let memory = restore_if(from, "crept_elastic", || {
+            let creep = pair.creep_together().unwrap_or(Creep::elastic(0.0));
+            let delayed = (0..creep.terms.len()).map(|term| from.field(&crept(term)));
+            let delayed = delayed.collect::<Result<Vec<_>>>()?;
+            Ok(CreepMemory::restored(creep, delayed, from.field("crept_elastic")?))
+        })?;
         let has_friction = from.holds("stick");
         let contact = match has_friction {
             false => Equilibrium::Frictionless(Box::new(normal)),
@@ -227,9 +242,15 @@ impl LoadingState {
                 cycles: from.number("next_cycles")? as usize,
                 step: from.number("next_step")? as usize,
             },
+            memory,
             changed,
         })
     }
+}
+
+/// Name of the memory of a retardation time, from 0.
+fn crept(term: usize) -> String {
+    format!("crept_{}", term + 1)
 }
 
 impl ChangedBodies {

@@ -1,9 +1,9 @@
 //! Contact of viscoelastic bodies in time: what they remember of their loads, step by step.
 
-use crate::error::{Error, Result, check_in};
+use crate::error::{Result, check_in};
 use crate::grid::{Field, in_rows};
 use crate::operator::Operator;
-use crate::solver::{Bounds, Control, Params, Solution, Watch, solve_normal};
+use crate::solver::{Bounds, Control, Params, Solution, Watch, solve_normal_watched};
 use crate::units::{Dimension, Pascal, PerPascal, Second};
 use crate::viscoelastic::series::Creep;
 
@@ -31,6 +31,25 @@ impl CreepMemory {
     pub fn new(creep: Creep, shape: [usize; 2]) -> Self {
         let delayed = vec![Field::zeros(shape); creep.terms.len()];
         Self { creep, delayed, elastic: Field::zeros(shape) }
+    }
+
+    /// Restores a body from the field z of each term of its `creep` compliance, and Lp at the end of the last step.
+    ///
+    /// # Panics
+    /// If there is not a field for each term.
+    pub fn restored(creep: Creep, delayed: Vec<Field>, elastic: Field) -> Self {
+        assert_eq!(creep.terms.len(), delayed.len(), "a field for each term");
+        Self { creep, delayed, elastic }
+    }
+
+    /// The field z of each term, Pa m.
+    pub fn delayed(&self) -> &[Field] {
+        &self.delayed
+    }
+
+    /// Lp at the end of the last step, Pa m.
+    pub fn elastic(&self) -> &Field {
+        &self.elastic
     }
 
     /// Returns the compliance with which a step of the time `duration` ≥ 0 answers: `J_g + Σ J_k (1 − φ_k)`.
@@ -81,7 +100,7 @@ fn weights(duration: Second, time: Second) -> [f64; 3] {
 /// `start` is a pressure near the solution.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for a time that is not finite and ≥ 0; the errors of [`solve_normal`].
+/// [`Error::OutOfRange`] for a time that is not finite and ≥ 0; the errors of [`solve_normal`](crate::solver::solve_normal).
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.
@@ -99,9 +118,6 @@ pub fn solve_in_time(
 ) -> Result<Solution> {
     let is_time = duration >= 0.0 && duration.is_finite();
     check_in(Dimension::Time, "duration", duration, is_time, "a finite time of at least 0")?;
-    if watch.stop() {
-        return Err(Error::Interrupted);
-    }
     // The pressures of the elastic contact are those of this one times its compliance over that of the operator.
     let compliance = memory.compliance(duration);
     let scale = compliance * modulus;
@@ -112,7 +128,8 @@ pub fn solve_in_time(
         approach @ Control::Approach(_) => approach,
     };
     let start = start.map(|start| start * scale);
-    let solved = solve_normal(operator, &gap, &Bounds::ELASTIC, control, start.as_ref(), params)?;
+    let start = start.as_ref();
+    let solved = solve_normal_watched(operator, &gap, &Bounds::ELASTIC, control, start, params, watch)?;
     memory.advance(&solved.displacement / compliance, duration);
     Ok(Solution {
         initial_gap: initial_gap.clone(),

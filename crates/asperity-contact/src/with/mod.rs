@@ -37,7 +37,7 @@ pub use law::{BodyLaw, Circumstances, LawRule, Slip, Timeless};
 use serde::{Deserialize, Serialize};
 
 use crate::error::Result;
-use crate::motion::{FrettingRecord, Law, Pair, PassRecord, SweepRecord, UpdateRecord};
+use crate::motion::{FrettingRecord, IncrementRecord, Law, Pair, PassRecord, SweepRecord, UpdateRecord};
 use views::{Answer, Kept};
 
 /// Declares a list of tables, each by its module and its struct: the struct that holds those that are given, and the macro that walks the list.
@@ -194,6 +194,11 @@ pub fn after_passes(passes: &[PassRecord]) -> Vec<Answer> {
     let mut answers = Vec::new();
     each_law!(L => answers.extend(L::after_passes(passes)));
     answers
+}
+
+/// Returns what the increments of a loading show in time.
+pub fn after_increments(increments: &[IncrementRecord]) -> Vec<Answer> {
+    viscoelastic::in_time(increments).into_iter().collect()
 }
 
 /// Returns what the points of a sweep show beside the contact.

@@ -7,8 +7,32 @@ use crate::draw::{Axis, Chart, Charts, Mark, Series};
 
 /// The curves of a loading of several increments.
 pub(crate) fn curves(increments: &[IncrementRecord]) -> Vec<Curves> {
+    if increments.iter().any(|increment| increment.creep.is_some()) {
+        return over_time(increments);
+    }
     let curves = Curves::new("loading", "force over displacement", chart(&fretting::shown(increments)));
     std::iter::once(curves).chain(fretting::curves(increments)).collect()
+}
+
+/// A curve over time: the name of the figure, the column, its axis and its value.
+type OverTime = (&'static str, &'static str, &'static str, fn(&IncrementRecord) -> f64);
+
+/// The curves over the time of viscoelastic bodies.
+const OVER_TIME: [OverTime; 3] = [
+    ("creep", "approach", "approach", |i| i.approach),
+    ("creep_area", "contact_area", "real contact area", |i| i.contact_area),
+    ("creep_load", "load", "load", |i| i.load),
+];
+
+fn over_time(increments: &[IncrementRecord]) -> Vec<Curves> {
+    let time = |increment: &IncrementRecord| increment.creep.map_or(0.0, |creep| creep.time);
+    let curve = |(name, column, label, y): OverTime| {
+        let points = increments.iter().map(|increment| [time(increment), y(increment)]).collect();
+        let series = vec![Series::new("", points, Mark::LineAndPoints)];
+        let chart = Chart::new("", Axis::of("time", "time"), Axis::of(label, column), series);
+        Curves::new(name, format!("{label} over time"), chart)
+    };
+    OVER_TIME.into_iter().map(curve).collect()
 }
 
 /// Force over displacement in the plane, or where nothing acts there, load over approach.

@@ -1,7 +1,7 @@
 //! Captions of the charts and maps of the page, as in a paper.
 
 /// Captions by the names of figures and of the maps of a contact. A capability has its own.
-const CAPTIONS: [(&str, &str); 35] = [
+const CAPTIONS: [(&str, &str); 38] = [
     (
         "approach",
         "Rigid-body approach of each pass, with what the surfaces have lost by plastic deformation.",
@@ -12,6 +12,9 @@ const CAPTIONS: [(&str, &str); 35] = [
         "displacement",
         "Elastic displacement of both surfaces together, positive where they give way to each other.",
     ),
+    ("creep", "Rigid-body approach since the first load. Bodies that creep come closer under the same load."),
+    ("creep_area", "Area of the cells that bear load, since the first load."),
+    ("creep_load", "Load since the first one. At the same approach it relaxes."),
     (
         "drag_coefficient",
         "Force with which the bodies resist the motion over the load: what the viscoelastic body dissipates.",

@@ -9,7 +9,7 @@ use super::schema::tables::known_in;
 use super::{Case, Number};
 use asperity_base::error::Result;
 use asperity_base::units::{Second, SquareMetre};
-use asperity_contact::motion::{Cycles, Point, Stage};
+use asperity_contact::motion::{Cycles, Point, Stage, StageTime};
 use asperity_contact::solver::{Coupling, Creep, Friction, Loading, Rolling, Tangential};
 
 /// Friction, and the tangential loading.
@@ -67,6 +67,12 @@ pub struct StageSpec {
     /// Time of a cycle, > 0; unknown if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub period: Option<Second>,
+    /// Time in which the loading goes there, > 0; at once if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub duration: Option<Second>,
+    /// Time for which the loading then stays, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dwell: Option<Second>,
 }
 
 /// Loading path of a static contact: the sequence of prescribed states.
@@ -157,7 +163,19 @@ impl Case {
                 loading.tangential = tangential;
             }
             let cycles = stage.cycles.map(|count| Cycles { count, period: stage.period });
-            stages.push(Stage::new(loading, stage.increments).with_cycles(cycles));
+            let time = stage.duration.map_or(StageTime::Sudden, StageTime::Even);
+            // A stage that only dwells goes nowhere.
+            if stage.normal.is_some() || stage.in_plane.is_some() {
+                // Steps that take no time change a viscoelastic contact at once.
+                let increments =
+                    if stage.dwell.is_some() && stage.duration.is_none() { 1 } else { stage.increments };
+                stages.push(Stage::new(loading, increments).with_cycles(cycles).within(time));
+            }
+            stages.extend(
+                stage
+                    .dwell
+                    .map(|time| Stage::new(loading, stage.increments).within(StageTime::Growing(time))),
+            );
         }
         Some(LoadingPath::Stages(stages))
     }
@@ -222,7 +240,7 @@ pub(super) fn stages(
     let stage = |table: &Table<'_>| {
         known_in(table)?;
         let gives = |keys: &[&str]| keys.iter().any(|key| table.get(key).is_some());
-        if !gives(&STAGE) {
+        if !gives(&STAGE) && !gives(&["dwell"]) {
             let keys = if friction.is_some() { "'load', 'force' or another" } else { "'load' or another" };
             let hint = format!("give {keys}; what a stage does not name stays");
             return Err(table.error("[[history]] names nothing that changes".to_owned(), Some(hint)));
@@ -234,6 +252,8 @@ pub(super) fn stages(
             increments: history::INCREMENTS.of(table)?.unwrap_or(steps),
             cycles: history::CYCLES.of(table)?,
             period: history::PERIOD.of(table)?,
+            duration: history::DURATION.of(table)?,
+            dwell: history::DWELL.of(table)?,
         })
     };
     entry.tables()?.iter().map(stage).collect()

@@ -349,6 +349,11 @@ impl Case {
         [&self.lower, &self.upper].into_iter().any(|body| body.material.coating.is_some())
     }
 
+    /// Whether a body is viscoelastic.
+    pub(crate) fn relaxes(&self) -> bool {
+        [&self.lower, &self.upper].into_iter().any(|body| body.viscoelastic.is_some())
+    }
+
     /// Whether a body yields at a hardness.
     pub(crate) fn yields(&self) -> bool {
         [&self.lower, &self.upper].into_iter().any(|body| body.hardness.yields())

@@ -21,6 +21,7 @@ mod rolling;
 mod smooth_forms;
 mod subsurface;
 mod sweep;
+mod viscoelastic;
 mod warnings;
 mod watch;
 mod written;

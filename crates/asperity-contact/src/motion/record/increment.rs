@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::adhesion::AdhesionRecord;
+use super::creep::CreepRecord;
 use super::fretting::FrettingRecord;
 use super::plastic::PlasticStepRecord;
 use crate::units::{CubicMetre, Joule, Metre, Newton, Pascal, SquareMetre};
@@ -59,5 +60,8 @@ columns! {
         /// Wear and films; none of bodies that do not change.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub fretting: Option<FrettingRecord>,
+        /// Time of viscoelastic bodies; none of others.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub creep: Option<CreepRecord>,
     }
 }

@@ -4,6 +4,7 @@
 //! unit and its documentation the meaning ([`asperity_base::record`]).
 
 mod adhesion;
+mod creep;
 mod plastic;
 mod fretting;
 mod increment;
@@ -17,6 +18,7 @@ mod sweep;
 mod update;
 
 pub use adhesion::{AdhesionPassRecord, AdhesionRecord};
+pub use creep::CreepRecord;
 pub use fretting::FrettingRecord;
 pub use increment::IncrementRecord;
 pub use lost_volumes::LostVolume;

@@ -4,7 +4,7 @@
 
 mod views;
 
-pub use views::{answers, doubts};
+pub use views::{answers, doubts, in_time};
 
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,6 @@
 //! Steady sliding in words, and reasons not to trust it.
 
-use crate::motion::SweepRecord;
+use crate::motion::{IncrementRecord, SweepRecord};
 use crate::operator::Boundary;
 use crate::units::{Dimension, Metre, format, format_number};
 use crate::viscoelastic::Creep;
@@ -46,6 +46,26 @@ pub fn answers(points: &[SweepRecord]) -> Vec<Answer> {
         sentence,
         value,
     }]
+}
+
+/// Returns how a contact of viscoelastic bodies has changed in time; `None` for other bodies.
+pub fn in_time(increments: &[IncrementRecord]) -> Option<Answer> {
+    let (first, last) = (increments.first()?, increments.last()?);
+    let time = format(last.creep?.time, Dimension::Time);
+    let from_to = |value: fn(&IncrementRecord) -> f64, dimension: Dimension| {
+        format!("from {} to {}", format(value(first), dimension), format(value(last), dimension))
+    };
+    let area = from_to(|increment| increment.contact_area, Dimension::Area);
+    let under = match (first.load - last.load).abs() < 1e-6 * first.load.abs() {
+        true => format!("the bodies approach {}", from_to(|increment| increment.approach, Dimension::Length)),
+        false => format!("the load goes {}", from_to(|increment| increment.load, Dimension::Force)),
+    };
+    Some(Answer {
+        name: "area of contact in time".into(),
+        value: area.clone(),
+        about: format!("After the first load, and {time} later."),
+        sentence: format!("In {time} {under}, and the real area of contact goes {area}."),
+    })
 }
 
 /// Share of the compliance from which on a term matters.

@@ -1,8 +1,11 @@
 //! Rules of viscoelastic bodies and their steady sliding.
 
+use super::super::StageSpec;
 use super::Rule;
-use super::examples::{AT_ANY_SPEED, RELAXES, STEADY};
+use super::examples::{AT_ANY_SPEED, RELAXES, RUBS, STEADY};
 
+/// Keys of the time of a stage.
+const TIMES: [&str; 2] = ["duration", "dwell"];
 /// Tables that a steady contact excludes.
 const OTHERS: [&str; 8] =
     ["motion", "sliding", "history", "friction", "adhesion", "plasticity", "acceleration", "subsurface"];
@@ -10,12 +13,52 @@ const OTHERS: [&str; 8] =
 pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[lower.viscoelastic], [upper.viscoelastic]",
-        with: "no [steady]",
-        message: "a viscoelastic body needs [steady]: a static contact has the relaxed modulus `young`",
-        hint: "give the `speed` or the `speeds` in [steady], or take the table away",
+        with: "no [steady], and no `duration` or `dwell` in a [[history]]",
+        message: "a viscoelastic body needs [steady], or a time: a static contact has the relaxed modulus `young`",
+        hint: "give the `speed` or the `speeds` in [steady], or a [[history]] with a `dwell`",
         at: "lower.viscoelastic",
         example: &[RELAXES],
-        broken: |tables| tables.viscoelastic().filter(|_| tables.case.steady.is_none()),
+        broken: |tables| {
+            let timeless = tables.case.steady.is_none() && tables.of_stage(&TIMES).is_none();
+            tables.viscoelastic().filter(|_| timeless)
+        },
+    },
+    Rule {
+        this: "`duration`, `dwell` of a stage",
+        with: "elastic bodies",
+        message: "'{key}' needs a viscoelastic body: elastic bodies do not change in time",
+        hint: "give `moduli` and `times` in [lower.viscoelastic]",
+        at: "history.dwell",
+        example: &[r#"history = [{ dwell = "1 s" }]"#],
+        broken: |tables| tables.of_stage(&TIMES).filter(|_| tables.viscoelastic().is_none()),
+    },
+    Rule {
+        this: "`duration`, `dwell` of a stage",
+        with: "`cycles`",
+        message: "'{key}' has no meaning with 'cycles', whose time is their `period`",
+        hint: "give the `period`",
+        at: "history.duration",
+        example: &[RELAXES, r#"history = [{ load = "1 N", cycles = 10, duration = "1 s" }]"#],
+        broken: |tables| {
+            let both = |stage: &StageSpec| {
+                stage.cycles.is_some() && (stage.duration.is_some() || stage.dwell.is_some())
+            };
+            tables.of_stage(&TIMES).filter(|_| tables.case.history.iter().any(both))
+        },
+    },
+    Rule {
+        this: "`duration`, `dwell` of a stage",
+        with: "[motion], [sliding], [friction], [adhesion], [plasticity]",
+        message: "viscoelastic bodies in time do not support [{key}]",
+        hint: "they are loaded without friction, and do not move",
+        at: "friction",
+        example: &[RELAXES, r#"history = [{ dwell = "1 s" }]"#, RUBS],
+        broken: |tables| {
+            tables.of_stage(&TIMES)?;
+            ["motion", "sliding", "friction", "adhesion", "plasticity"]
+                .iter()
+                .find_map(|table| tables.at(table))
+        },
     },
     Rule {
         this: "[steady]",

@@ -248,6 +248,20 @@ pub(crate) mod history {
             "10000",
             "number of cycles, in each of which the loading goes there and comes back",
         );
+        DURATION: Optional<f64> = optional(
+            "duration",
+            quantity(Dimension::Time, AboveZero).exists(Exists::Any("a stage of any time")),
+            "none: at once",
+            "\"0.1 s\"",
+            "time in which the loading goes there, in equal steps, for viscoelastic bodies",
+        );
+        DWELL: Optional<f64> = optional(
+            "dwell",
+            quantity(Dimension::Time, AboveZero).exists(Exists::Any("a dwell of any time")),
+            "none",
+            "\"10 s\"",
+            "time for which the loading then stays, in `increments` steps that grow, for viscoelastic bodies",
+        );
         PERIOD: Optional<f64> = optional(
             "period",
             quantity(Dimension::Time, AboveZero).exists(Exists::Any("a cycle of any time")),
