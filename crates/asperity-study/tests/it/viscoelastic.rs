@@ -86,3 +86,38 @@ fn an_interrupted_history_goes_on_to_the_same_bits() {
         }
     }
 }
+
+#[test]
+fn a_warm_body_slides_as_a_cold_one_does_slower() {
+    let text = |shift: &str, speed: f64| {
+        format!(
+            r#"
+temperature = {{ bulk = "40 °C" }}
+contact = {{ mean_pressure = "50 kPa", boundary = "periodic" }}
+steady = {{ speed = {speed} }}
+[lower]
+young = "1 MPa"
+poisson = 0.5
+topography = {{ form = "flat", shape = [32, 32], pitch = "10 um" }}
+viscoelastic = {{ moduli = ["9 MPa"], times = ["0.1 s"], {shift} }}
+[upper]
+young = "inf"
+poisson = 0.3
+topography = {{ generate = "self-affine", sdq = 0.1, hurst = 0.8, shortest = "80 um" }}
+"#
+        )
+    };
+    let drag = |text: &str| {
+        let case = Case::parse(text, "case.toml".as_ref(), "".as_ref()).unwrap();
+        let rest = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
+        let Outcome::Sweep(points) = rest.outcome else { panic!() };
+        points[0].steady.unwrap().drag_coefficient
+    };
+    // Williams, Landel and Ferry: log₁₀ a_T = −8.9 · 20/(102 + 20).
+    let factor = 10f64.powf(-8.9 * 20.0 / 122.0);
+    let warm = drag(&text("wlf_c1 = 8.9, wlf_c2 = \"102 K\", wlf_at = \"20 °C\"", 1e-3 / factor));
+    let shifted =
+        text(&format!("shift = {factor}"), 1e-3 / factor).replace("temperature = { bulk = \"40 °C\" }", "");
+    let cold = text("shift = 1.0", 1e-3).replace("temperature = { bulk = \"40 °C\" }", "");
+    assert!((warm / drag(&shifted) - 1.0).abs() < 1e-9 && (warm / drag(&cold) - 1.0).abs() < 1e-9, "{warm}");
+}

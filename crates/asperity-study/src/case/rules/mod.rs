@@ -240,6 +240,13 @@ impl<'a> Tables<'a> {
         self.of_body("viscoelastic", |body| body.viscoelastic.is_some())
     }
 
+    /// Returns the entry by which the relaxation of a body depends on its temperature.
+    fn shifted(&self) -> Option<Entry<'a>> {
+        self.of_body("viscoelastic.wlf_c1", |body| {
+            body.viscoelastic.as_ref().is_some_and(|body| body.needs_temperature())
+        })
+    }
+
     /// Whether passes are extrapolated.
     fn jumps(&self) -> bool {
         self.case.acceleration.is_some_and(|acceleration| acceleration.max_jump > 1)

@@ -49,13 +49,13 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[temperature]",
         with: "a static contact",
-        message: "[temperature] needs [motion], [sliding], or bodies that wear or grow films by slip",
+        message: "[temperature] needs [motion], [sliding], bodies that wear or grow films by slip, or viscoelastic ones with `wlf_c1`",
         hint: "",
         at: "temperature",
         example: &[WARM],
         broken: |tables| {
             let changes = tables.slides() || tables.frets() && tables.case.runs_in();
-            tables.at("temperature").filter(|_| !changes)
+            tables.at("temperature").filter(|_| !changes && tables.shifted().is_none())
         },
     },
     Rule {

@@ -152,12 +152,6 @@ pub(super) const RULES: &[Rule] = &[
             STEADY,
             r#"lower.viscoelastic = { moduli = ["1 GPa"], times = ["1 s"], wlf_c1 = 8.9, wlf_c2 = "102 K", wlf_at = "20 °C" }"#,
         ],
-        broken: |tables| {
-            let needs = [("lower", &tables.case.lower), ("upper", &tables.case.upper)]
-                .into_iter()
-                .find(|(_, body)| body.viscoelastic.as_ref().is_some_and(|body| body.needs_temperature()));
-            let (name, _) = needs.filter(|_| tables.case.temperature.is_none())?;
-            tables.at(&format!("{name}.viscoelastic.wlf_c1"))
-        },
+        broken: |tables| tables.shifted().filter(|_| tables.case.temperature.is_none()),
     },
 ];
