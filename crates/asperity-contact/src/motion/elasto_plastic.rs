@@ -108,6 +108,7 @@ pub fn press_elasto_plastic(
     outputs: &mut [&mut dyn Output],
 ) -> Result<ElastoPlasticContact> {
     pair.check_no_adhesion()?;
+    pair.check_elastic()?;
     let (operators, initial_gap) = facing(pair, boundary)?;
     let shape = pair.lower_grid().shape;
     let interface = match friction {

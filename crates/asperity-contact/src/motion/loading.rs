@@ -85,12 +85,14 @@ impl StagedLoading {
         params: Params,
     ) -> Result<Self> {
         stages.iter().filter_map(|stage| stage.cycles).try_for_each(|cycles| cycles.checked().map(|_| ()))?;
+        pair.check_creep()?;
         let (operators, gap) = facing(&pair, boundary)?;
         let shape = pair.lower_grid().shape;
         let solver = match friction {
             None => Solver::Frictionless(params.device.operator(&operators, shape)),
             Some(friction) => {
                 pair.check_no_adhesion()?;
+                pair.check_elastic()?;
                 pair.check_shear()?;
                 Solver::Frictional(operators.coupled_on(shape), friction)
             }
@@ -241,6 +243,7 @@ pub fn roll(
 ) -> Result<LoadedContact> {
     let (operators, gap) = facing(pair, boundary)?;
     pair.check_no_adhesion()?;
+    pair.check_elastic()?;
     pair.check_shear()?;
     let mut operator = operators.coupled_on(pair.lower_grid().shape);
     let watch = StaticWatch::new(watch, 0, 1, control);

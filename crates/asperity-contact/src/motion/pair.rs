@@ -187,6 +187,24 @@ impl Pair {
         }
     }
 
+    /// Returns [`Error::Unsupported`] if a body is viscoelastic.
+    pub(super) fn check_elastic(&self) -> Result<()> {
+        match self.creep {
+            Some(_) => Err(Error::Unsupported(
+                "viscoelastic bodies slide steadily, or are loaded in time without friction; nothing else is computed for them",
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// Returns [`Error::Unsupported`] if viscoelastic bodies attract each other or yield.
+    pub(super) fn check_creep(&self) -> Result<()> {
+        match self.creep.is_some() && (self.adhesion.is_some() || self.yields()) {
+            true => Err(Error::Unsupported("viscoelastic bodies with adhesion or a hardness")),
+            false => Ok(()),
+        }
+    }
+
     /// Creates the operators of contacts on grids up to `largest`; [`Error::Unsupported`] if the response does not support
     /// the boundary.
     pub(super) fn operators(&self, largest: Grid, boundary: Boundary) -> Result<Operators> {

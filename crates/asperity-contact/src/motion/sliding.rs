@@ -175,6 +175,7 @@ impl SlidingContact {
     pub fn new(pair: Pair, boundary: Boundary, slide: Slide, params: Params) -> Result<Self> {
         let slide = slide.checked(&pair)?;
         pair.check_no_adhesion()?;
+        pair.check_elastic()?;
         let (operators, _) = facing(&pair, boundary)?;
         let shape = pair.lower_grid().shape;
         let bounds = pair.bounds(&pair.at_rest(), slide.friction.as_ref());

@@ -60,6 +60,7 @@ impl Pair {
     /// # Errors
     /// [`Error::Unsupported`] without viscoelastic bodies, and the errors of [`Pair::moving_body`] and of [`SteadySliding::new`].
     pub fn sliding_steadily(&self, boundary: Boundary, speed: MetrePerSecond) -> Result<SteadySliding> {
+        self.check_creep()?;
         let creeps =
             self.creep().ok_or(Error::Unsupported("steady sliding is computed for viscoelastic bodies"))?;
         let (moving, standing, speed) = match self.moving_body()? {

@@ -64,6 +64,7 @@ pub fn sweep(
     let rolls = points.iter().any(|point| point.rolling.is_some());
     if rolls {
         pair.check_no_adhesion()?;
+        pair.check_elastic()?;
         pair.check_shear()?;
     }
     let SweepState { mut records, start } = under_way;

@@ -1,9 +1,12 @@
 //! Steady sliding of viscoelastic bodies against a dense program, and its symmetries.
 
+use asperity_contact::adhesion::Adhesion;
 use asperity_contact::material::Material;
-use asperity_contact::motion::{MovingBody, Pair};
+use asperity_contact::motion::{
+    Motion, MovingBody, Pair, Simulation, Slide, SlidingContact, Stage, StagedLoading, Strategy,
+};
 use asperity_contact::operator::{Boundary, Edge};
-use asperity_contact::solver::{Control, Params};
+use asperity_contact::solver::{Control, Friction, Loading, Params, Tangential};
 use asperity_contact::viscoelastic::{
     Creep, Relaxation, RelaxationTerm, SteadyContact, SteadySliding, solve_steady,
 };
@@ -178,7 +181,7 @@ fn the_body_that_is_smooth_along_x_moves_through_the_contact() {
     };
     let below = pair(&groove, &rough, [&rubber, &rigid], [Some(relaxation()), None]);
     assert_eq!(below.moving_body().unwrap(), MovingBody::Lower);
-    // The same bodies, turned over: the contact moves the other way, and the drag is the same.
+    // The same bodies, turned over: the contact moves the other way.
     let above = pair(&rough, &groove, [&rigid, &rubber], [None, Some(relaxation())]);
     assert_eq!(above.moving_body().unwrap(), MovingBody::Upper);
     let both = pair(&rough, &rough, [&rubber, &rigid], [Some(relaxation()), None]);
@@ -189,4 +192,38 @@ fn the_body_that_is_smooth_along_x_moves_through_the_contact() {
     let load = Control::Load(1e-6);
     let found = solve_steady(&mut operator, rough.heights(), load, None, &Params::default(), &()).unwrap();
     assert!(found.drag.abs() < 1e-12 * 1e-6, "{}", found.drag);
+}
+
+#[test]
+fn what_viscoelastic_bodies_do_not_support_is_refused_before_anything_is_solved() {
+    let grid = Grid::new([8, 8], [1e-6; 2]).unwrap();
+    let flat = || Topography::new(grid, grid.zeros()).unwrap();
+    let rubber = Material::elastic(1e6, 0.5).unwrap();
+    let relaxation = || Relaxation::new(1e6, [RelaxationTerm { modulus: 9e6, time: 1e-3 }]).unwrap();
+    let pair = || {
+        let pair = Pair::new(flat(), flat(), [&rubber, &rubber]).unwrap();
+        pair.with_relaxation([&rubber, &rubber], [Some(relaxation()), None]).unwrap()
+    };
+    let control = Control::Load(1e-6);
+    let loaded = |pair: Pair, friction: Option<Friction>| {
+        let stage = Stage::new(Loading { normal: control, tangential: Tangential::Force([0.0; 2]) }, 1);
+        StagedLoading::new(pair, Boundary::FREE, friction, vec![stage], Params::default()).map(|_| ())
+    };
+    assert!(loaded(pair(), None).is_ok() && pair().sliding_steadily(Boundary::FREE, 1.0).is_ok());
+    let sticky = || pair().with_adhesion(Adhesion::new(0.05, 1e-8).unwrap());
+    let soft = || pair().with_hardness([1e6.into(), f64::INFINITY.into()]).unwrap();
+    let motion = Motion::new(Strategy::Overlap, control);
+    let slide = Slide::graded(1e-3, 2, control);
+    for (what, found) in [
+        ("adhesion", loaded(sticky(), None)),
+        ("adhesion", sticky().sliding_steadily(Boundary::FREE, 1.0).map(|_| ())),
+        ("a hardness", loaded(soft(), None)),
+        ("a hardness", soft().sliding_steadily(Boundary::FREE, 1.0).map(|_| ())),
+        ("without friction", loaded(pair(), Some(Friction::coulomb(0.3).unwrap()))),
+        ("nothing else", Simulation::new(pair(), Boundary::FREE, motion, Params::default()).map(|_| ())),
+        ("nothing else", SlidingContact::new(pair(), Boundary::FREE, slide, Params::default()).map(|_| ())),
+    ] {
+        let error = found.unwrap_err().to_string();
+        assert!(error.contains("viscoelastic") && error.contains(what), "{what}: {error}");
+    }
 }

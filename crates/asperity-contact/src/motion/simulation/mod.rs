@@ -97,6 +97,7 @@ impl Simulation {
                 "a device does not solve sliding whose shear displaces the bodies normally",
             )?;
         }
+        pair.check_elastic()?;
         let operators = pair.operators(largest, boundary)?;
         if motion.friction.is_some_and(|friction| friction.coupling != Coupling::None) {
             pair.check_shear()?;
