@@ -110,12 +110,18 @@ impl Columns {
             .zip(&self.units)
             .map(|(cell, unit)| match (cell.value, cell.kind) {
                 (None, _) => format!("{:>WIDTH$}", "–"),
-                (Some(value), Kind::Number) => format!("{:>WIDTH$}", format_number(value)),
+                (Some(value), Kind::Number) => format!("{:>WIDTH$}", pure(value)),
                 (Some(value), _) => aligned(value / unit.factor),
             })
             .collect();
         text + format!("{number:>first$}{numbers}").trim_end() + "\n"
     }
+}
+
+/// Returns a pure number with four significant digits, or with three and a power of ten where these would fill the column.
+fn pure(value: f64) -> String {
+    let text = format_number(value);
+    if text.chars().count() < WIDTH { text } else { format!("{value:.2e}") }
 }
 
 /// Returns four significant digits with an aligned decimal point. If they do not fit into the column, or if few of
@@ -145,6 +151,17 @@ mod tests {
     #[test]
     fn a_number_has_four_digits_after_rounding() {
         assert_eq!([9.9996, 999.96].map(aligned).map(|text| text.trim().to_owned()), ["10.00", "1000"]);
+    }
+
+    #[test]
+    fn a_small_number_does_not_touch_the_column_before_it() {
+        let row =
+            |value| Columns::default().row("point", 1, &[Cell::of("drag/W", "drag_coefficient", value)]);
+        for (value, text) in
+            [(0.0001475, "1.48e-4"), (-0.0001475, "-1.48e-4"), (0.01475, "0.01475"), (0.0, "0")]
+        {
+            assert_eq!(row(value).lines().last().unwrap(), format!("    1{text:>WIDTH$}"));
+        }
     }
 
     #[test]
