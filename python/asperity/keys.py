@@ -116,8 +116,8 @@ class Stage(TypedDict, total=False):
     sliding : pair of float
         As in [friction], which it requires; at most one of the three; `[x, y]` of any length. Without it: unchanged.
     increments : int
-        Equal steps from the end of the previous stage; in a cycle of each way; whole number ≥ 1. Without it: 1; for
-        elasto-plastic bodies, the number in [plasticity].
+        Equal steps from the end of the previous stage; in a cycle of each way; whole number ≥ 1. Without it: 1; with a
+        `duration` or a `dwell` 16; for elasto-plastic bodies the number in [plasticity].
     cycles : int
         Number of cycles, in each of which the loading goes there and comes back; whole number ≥ 1. Without it: none:
         the loading goes there once.
@@ -128,7 +128,7 @@ class Stage(TypedDict, total=False):
         Time for which the loading then stays, in `increments` steps that grow, for viscoelastic bodies; time > 0.
         Without it: none.
     period : float or str
-        Time of a cycle, for films that grow; time > 0. Without it: unknown.
+        Time of a cycle, for films that grow and for viscoelastic bodies; time > 0. Without it: unknown.
     """
 
     load: Quantity

@@ -140,7 +140,7 @@ fn pair(case: &Case, estimate: &Estimate) -> String {
         return format!("{modulus}; {}, in {} layers down to {depth}", bodies.join(", "), volume.layers);
     }
     if estimate.hardness.is_infinite() {
-        return match &estimate.steady {
+        return match &estimate.viscoelastic {
             None => format!("{modulus}, elastic"),
             Some(steady) => format!("{modulus} relaxed; {}", steady.bodies.join("; ")),
         };

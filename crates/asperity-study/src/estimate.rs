@@ -12,7 +12,7 @@ use super::case::{Body, Case, Hardness, Layer, LoadingPath, Source, TopographySp
 use super::closed_form::ClosedForm;
 use super::prepare::{Bodies, MountedSurface};
 use crate::subsurface::Plan;
-use crate::viscoelastic::{self, SteadyEstimate};
+use crate::viscoelastic::{self, ViscoelasticEstimate};
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::{CellValues, Field, Grid};
 use asperity_base::math::parallel;
@@ -69,8 +69,8 @@ pub struct Estimate {
     pub closed_form: Option<ClosedForm>,
     /// Requested output of the stress under the surface.
     pub subsurface: Option<Plan>,
-    /// Steady sliding of viscoelastic bodies; `None` for others.
-    pub steady: Option<SteadyEstimate>,
+    /// Viscoelastic bodies; `None` if both are elastic.
+    pub viscoelastic: Option<ViscoelasticEstimate>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
     /// Warnings from Hertz' estimate, which a result shows by itself.
@@ -148,7 +148,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
             .filter(|_| case.adhesion.is_none() && !case.relaxes())
             .filter(|form| form.max_pressure.is_none_or(|pressure| pressure <= hardness)),
         subsurface: Plan::new(case, [&lower_grid, &upper_grid], &positions)?,
-        steady: viscoelastic::estimate(
+        viscoelastic: viscoelastic::estimate(
             case,
             [&bodies.lower.topography, &bodies.upper.topography],
             &bodies.master_curves,
@@ -157,7 +157,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         predicted: Vec::new(),
     };
     estimate.warnings = warnings(case, bodies, &estimate);
-    estimate.warnings.extend(estimate.steady.iter().flat_map(|steady| steady.warnings.clone()));
+    estimate.warnings.extend(estimate.viscoelastic.iter().flat_map(|bodies| bodies.warnings.clone()));
     if let Some(table) = case.adhesion {
         let adhesion = table.on(&lower_grid, estimate.modulus)?;
         let heights = [&bodies.lower, &bodies.upper].map(|body| body.topography.heights());

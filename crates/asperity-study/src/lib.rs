@@ -137,4 +137,4 @@ pub use results::{
 pub use run::run;
 pub use subsurface::{Plan, SubsurfaceRecord};
 pub use summary::{Outcome, RunningIn, Summary};
-pub use viscoelastic::{MasterCurve, SteadyEstimate};
+pub use viscoelastic::{MasterCurve, ViscoelasticEstimate};

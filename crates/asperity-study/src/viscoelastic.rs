@@ -1,13 +1,14 @@
 //! Viscoelastic bodies of a case: their master curves from text files, and what a check says of their steady sliding.
 
-use crate::case::{Body, Case};
+use crate::case::{Body, Case, StageSpec};
 use crate::given::SurfaceInput;
 use crate::io::{regular, sha256};
 use asperity_base::error::{Error, Result};
-use asperity_base::units::{self, Dimension};
+use asperity_base::units::{self, Dimension, Kelvin};
 use asperity_contact::motion::{MovingBody, Pair};
 use asperity_contact::viscoelastic::{Creep, MasterFit, MasterPoint, Relaxation};
 use asperity_contact::with;
+use asperity_contact::with::viscoelastic::Steady;
 use asperity_surface::Topography;
 
 /// A master curve with the digest of its file, hexadecimal.
@@ -20,6 +21,8 @@ pub struct MasterCurve {
     pub sha256: String,
 }
 
+/// Fewest steps of a stage in time with which its load and area are within some per cent.
+const STEPS: usize = 8;
 /// Largest accepted file.
 const MAX_BYTES: u64 = 16 << 20;
 /// Units of a frequency, and how many hertz they are.
@@ -119,12 +122,17 @@ pub(super) fn relaxations(
 ) -> Result<[Option<BodyRelaxation>; 2]> {
     let of = |index: usize, name: &str, body: &Body| {
         let Some(viscoelastic) = &body.viscoelastic else { return Ok(None) };
-        let temperature = case.temperature.map(|temperature| temperature.bulk[index]);
+        let temperature = temperature(case, index);
         let curve = curves[index].as_ref().map(|curve| &curve.points[..]);
         let found = viscoelastic.relaxation(body.material.young, temperature, curve);
         found.map(Some).map_err(|source| at(case, name, &source))
     };
     Ok([of(0, "lower", &case.lower)?, of(1, "upper", &case.upper)?])
+}
+
+/// Returns the temperature of a body, lower one first, if it is known.
+fn temperature(case: &Case, index: usize) -> Option<Kelvin> {
+    case.temperature.map(|temperature| temperature.bulk[index])
 }
 
 /// Returns an error of a fit at the key that it concerns.
@@ -134,6 +142,7 @@ fn at(case: &Case, name: &str, source: &Error) -> Error {
         Error::OutOfRange { quantity: "terms_per_decade", .. } => {
             format!("{name}.viscoelastic.terms_per_decade")
         }
+        Error::OutOfRange { quantity: "bulk", .. } => "temperature.bulk".to_owned(),
         _ => format!("{name}.viscoelastic.file"),
     };
     case.error_at(&key, source.to_string(), source.hint())
@@ -152,17 +161,17 @@ pub(super) fn relax(case: &Case, pair: Pair, curves: &[Option<MasterCurve>; 2]) 
     pair.with_relaxation(materials, [lower, upper].map(|body| body.map(|(relaxation, _)| relaxation)))
 }
 
-/// Viscoelastic bodies and their steady sliding before anything is solved.
+/// Viscoelastic bodies, their steady sliding and their history before anything is solved.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
-pub struct SteadyEstimate {
+pub struct ViscoelasticEstimate {
     /// A line for each viscoelastic body: its moduli and times, and the fit of its master curve.
     pub bodies: Vec<String>,
     /// Reasons to doubt the answer.
     pub warnings: Vec<String>,
 }
 
-/// Examines the viscoelastic bodies of a case and their steady sliding; `None` without such bodies.
+/// Examines the viscoelastic bodies of a case, their steady sliding and their history; `None` without such bodies.
 ///
 /// # Errors
 /// [`Error::Case`] if both bodies are rough along x, and the errors of the fits.
@@ -170,16 +179,48 @@ pub(super) fn estimate(
     case: &Case,
     bodies: [&Topography; 2],
     curves: &[Option<MasterCurve>; 2],
-) -> Result<Option<SteadyEstimate>> {
+) -> Result<Option<ViscoelasticEstimate>> {
     if !case.relaxes() {
         return Ok(None);
     }
     let relaxations = relaxations(case, curves)?;
-    let lines = relaxations.iter().zip(["lower", "upper"]);
-    let lines = lines.filter_map(|(body, name)| Some(described(name, body.as_ref()?))).collect();
-    let Some(steady) = &case.steady else {
-        return Ok(Some(SteadyEstimate { bodies: lines, warnings: Vec::new() }));
-    };
+    let mut estimate = ViscoelasticEstimate::default();
+    for (index, (name, body)) in [("lower", &case.lower), ("upper", &case.upper)].into_iter().enumerate() {
+        estimate.bodies.extend(relaxations[index].as_ref().map(|found| described(name, found)));
+        let doubt = body.viscoelastic.as_ref().and_then(|body| body.doubt(name, temperature(case, index)));
+        estimate.warnings.extend(doubt);
+    }
+    estimate.warnings.extend(case.history.iter().flat_map(coarse));
+    if let Some(steady) = &case.steady {
+        estimate.warnings.extend(doubts(case, steady, bodies, &relaxations)?);
+    }
+    Ok(Some(estimate))
+}
+
+/// Returns reasons not to trust a stage that takes its time in few steps.
+fn coarse(stage: &StageSpec) -> impl Iterator<Item = String> {
+    let steps = stage.increments;
+    let times = [("duration", stage.duration), ("dwell", stage.dwell), ("period", stage.period)];
+    times.into_iter().filter(move |_| steps < STEPS).filter_map(move |(key, time)| {
+        Some(format!(
+            "a `{key}` of {} is computed in {}: in a step the displacement of every cell changes evenly, and with fewer than {STEPS} steps \
+             load, area and pressures may be far off; give the stage more `increments`",
+            units::format(time?, Dimension::Time),
+            if steps == 1 { "a single step".to_owned() } else { format!("{steps} steps") }
+        ))
+    })
+}
+
+/// Returns reasons not to trust the steady sliding of a case.
+///
+/// # Errors
+/// [`Error::Case`] if both bodies are rough along x.
+fn doubts(
+    case: &Case,
+    steady: &Steady,
+    bodies: [&Topography; 2],
+    relaxations: &[Option<BodyRelaxation>; 2],
+) -> Result<Vec<String>> {
     let grid = bodies[0].grid();
     let heights = bodies.map(Topography::heights);
     let creeps = relaxations.each_ref().map(Option::is_some);
@@ -192,14 +233,8 @@ pub(super) fn estimate(
         Some((relaxation, _)) => relaxation.creep(),
         None => Creep::elastic(1.0),
     };
-    let warnings = with::viscoelastic::doubts(
-        &creep,
-        case.contact.boundary,
-        grid.pitch[0],
-        grid.extent()[0],
-        &steady.all(),
-    );
-    Ok(Some(SteadyEstimate { bodies: lines, warnings }))
+    let (boundary, [pitch, _], [extent, _]) = (case.contact.boundary, grid.pitch, grid.extent());
+    Ok(with::viscoelastic::doubts(&creep, boundary, pitch, extent, &steady.all()))
 }
 
 /// Describes a viscoelastic body.

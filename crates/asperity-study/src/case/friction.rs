@@ -212,6 +212,8 @@ pub(super) const IN_PLANE: [&str; 6] =
     ["force", "displacement", "sliding", "creepage", "creepages", "rolling_force"];
 /// Keys that a stage may change: normal, then tangential.
 const STAGE: [&str; 6] = ["load", "mean_pressure", "approach", "force", "displacement", "sliding"];
+/// Default number of steps in a time, with which pressures are within some per cent.
+const STEPS_IN_TIME: usize = 16;
 
 pub(super) fn friction(table: &Table<'_>) -> Result<FrictionSpec> {
     known_in(table)?;
@@ -230,7 +232,7 @@ pub(super) fn friction(table: &Table<'_>) -> Result<FrictionSpec> {
     })
 }
 
-/// Returns the stages after the first; by default each has `steps` steps.
+/// Returns the stages after the first; by default each that takes no time has `steps` steps.
 pub(super) fn stages(
     entry: &Entry<'_>,
     friction: Option<&FrictionSpec>,
@@ -242,14 +244,20 @@ pub(super) fn stages(
         let gives = |keys: &[&str]| keys.iter().any(|key| table.get(key).is_some());
         if !gives(&STAGE) && !gives(&["dwell"]) {
             let keys = if friction.is_some() { "'load', 'force' or another" } else { "'load' or another" };
-            let hint = format!("give {keys}; what a stage does not name stays");
+            let hint = match gives(&["duration"]) {
+                true => format!(
+                    "give {keys}, to which it goes in the `duration`; a `dwell` is the time for which it stays"
+                ),
+                false => format!("give {keys}; what a stage does not name stays"),
+            };
             return Err(table.error("[[history]] names nothing that changes".to_owned(), Some(hint)));
         }
         at_most_one(table, plane)?;
+        let default = if gives(&["duration", "dwell"]) { STEPS_IN_TIME } else { steps };
         Ok(StageSpec {
             normal: gives(normal).then(|| of_stage(table)).transpose()?,
             in_plane: in_plane(table)?,
-            increments: history::INCREMENTS.of(table)?.unwrap_or(steps),
+            increments: history::INCREMENTS.of(table)?.unwrap_or(default),
             cycles: history::CYCLES.of(table)?,
             period: history::PERIOD.of(table)?,
             duration: history::DURATION.of(table)?,

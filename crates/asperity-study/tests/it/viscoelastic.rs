@@ -121,3 +121,83 @@ topography = {{ generate = "self-affine", sdq = 0.1, hurst = 0.8, shortest = "80
     let cold = text("shift = 1.0", 1e-3).replace("temperature = { bulk = \"40 °C\" }", "");
     assert!((warm / drag(&shifted) - 1.0).abs() < 1e-9 && (warm / drag(&cold) - 1.0).abs() < 1e-9, "{warm}");
 }
+
+/// A sphere on rubber under a load, with what a test adds.
+fn case(history: &str, body: &str) -> Case {
+    let text = format!(
+        r#"
+contact = {{ load = "1 mN" }}
+{history}
+[lower]
+young = "1 MPa"
+poisson = 0.5
+topography = {{ form = "flat", shape = [24, 24], pitch = "10 um" }}
+viscoelastic = {{ moduli = ["9 MPa"], times = ["10 ms"]{body} }}
+[upper]
+young = "inf"
+poisson = 0.3
+topography = {{ form = "sphere", radius = "1 mm" }}
+"#
+    );
+    Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap()
+}
+
+#[test]
+fn a_stage_in_time_has_enough_steps_unless_it_is_given_fewer_which_is_told() {
+    let increments = |history: &str| {
+        let case = case(history, "");
+        let rest = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
+        let told = rest.warnings.iter().any(|warning| warning.contains("in a step"));
+        (rest.increments, told)
+    };
+    let (dwell, told) = increments(r#"history = [{ dwell = "50 ms" }]"#);
+    assert!(dwell.len() == 17 && !told);
+    let (both, told) = increments(r#"history = [{ load = "2 mN", duration = "5 ms", dwell = "50 ms" }]"#);
+    assert!(both.len() == 33 && !told);
+    let (sudden, told) = increments(r#"history = [{ load = "2 mN", dwell = "50 ms" }]"#);
+    assert!(sudden.len() == 18 && !told);
+    let (coarse, told) = increments(r#"history = [{ dwell = "50 ms", increments = 1 }]"#);
+    assert!(coarse.len() == 2 && told);
+}
+
+#[test]
+fn a_cycle_is_a_stage_there_and_one_back_in_half_of_its_period() {
+    let loads = |history: &str| {
+        let rest = asperity_study::rest(&case(history, ""), SurfaceInput::default(), &()).unwrap();
+        rest.increments
+            .iter()
+            .map(|row| [row.creep.unwrap().time, row.load, row.approach])
+            .collect::<Vec<_>>()
+    };
+    let cycles = loads(r#"history = [{ load = "2 mN", cycles = 2, period = "20 ms", increments = 8 }]"#);
+    let there = r#"{ load = "2 mN", duration = "10 ms", increments = 8 }"#;
+    let back = r#"{ load = "1 mN", duration = "10 ms", increments = 8 }"#;
+    let stages = loads(&format!("history = [{there}, {back}, {there}, {back}]"));
+    assert!(cycles.len() == 33 && stages.len() == 33);
+    for (one, other) in cycles.iter().flatten().zip(stages.iter().flatten()) {
+        assert!((one - other).abs() <= 1e-7 * other.abs(), "{one} {other}");
+    }
+    // The second cycle begins deeper than the first one, and loses energy.
+    assert!(cycles[16][2] > cycles[0][2]);
+    let work: f64 =
+        cycles[16..].windows(2).map(|pair| 0.5 * (pair[0][1] + pair[1][1]) * (pair[1][2] - pair[0][2])).sum();
+    assert!(work > 0.0, "{work}");
+}
+
+#[test]
+fn the_shift_of_williams_landel_and_ferry_has_its_temperatures() {
+    let body = r#", wlf_c1 = 8.86, wlf_c2 = "101.6 K", wlf_at = "50 °C""#;
+    let found = |bulk: &str| {
+        let steady = format!("steady = {{ speed = \"10 mm/s\" }}\ntemperature = {{ bulk = \"{bulk}\" }}");
+        asperity_study::rest(&case(&steady, body), SurfaceInput::default(), &())
+            .map(|rest| rest.warnings.iter().any(|warning| warning.contains("Williams, Landel and Ferry")))
+    };
+    for (bulk, told) in [("50 °C", false), ("20 °C", false), ("-20 °C", true), ("200 °C", true)] {
+        assert_eq!(found(bulk).unwrap(), told, "{bulk}");
+    }
+    // Tᵣ − c₂ is −51.6 °C. Just above it no number holds the times.
+    for bulk in ["-51 °C", "-51.6 °C", "-60 °C"] {
+        let error = found(bulk).unwrap_err().to_string();
+        assert!(error.contains("bulk") && error.contains("Tᵣ − c₂"), "{bulk}: {error}");
+    }
+}

@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use crate::error::Result;
-use crate::units::{Kelvin, MetrePerSecond, Pascal, Second};
+use crate::error::{Error, Result};
+use crate::units::{Kelvin, MetrePerSecond, Pascal, Second, format};
 use crate::viscoelastic::{MasterFit, MasterPoint, Relaxation, RelaxationTerm, fit_master_curve};
 use asperity_base::exists;
 use asperity_base::table::{Bounds, Exists, Key, Kind, Source, Value, list, require};
@@ -143,20 +143,33 @@ impl Viscoelasticity {
         self.wlf_c1.is_some()
     }
 
+    /// Returns how far a `temperature` of the body is above Tᵣ − c₂, where the times of Williams, Landel and Ferry become infinite.
+    pub(super) fn above_infinite_times(&self, temperature: Option<Kelvin>) -> Option<Kelvin> {
+        Some(temperature? - self.wlf_at? + self.wlf_c2?)
+    }
+
     /// Returns the factor of the times at a `temperature` of the body.
-    fn factor(&self, temperature: Option<Kelvin>) -> f64 {
-        let wlf = self.wlf_c1.zip(self.wlf_c2).zip(self.wlf_at).zip(temperature);
-        let shifted = wlf.map_or(0.0, |(((c1, c2), at), temperature)| {
-            let above = temperature - at;
-            -c1 * above / (c2 + above)
-        });
-        self.shift * 10f64.powf(shifted)
+    fn factor(&self, temperature: Option<Kelvin>) -> Result<f64> {
+        let wlf = self.wlf_c1.zip(self.wlf_c2).zip(self.above_infinite_times(temperature));
+        let Some(((c1, c2), above)) = wlf else { return Ok(self.shift) };
+        let factor = self.shift * 10f64.powf(c1 * (c2 / above - 1.0));
+        if above > 0.0 && factor > 0.0 && factor.is_finite() {
+            return Ok(factor);
+        }
+        let value = temperature.unwrap_or_default();
+        let infinite = format(value - above, Dimension::Temperature);
+        let expected = format!(
+            "a temperature well above Tᵣ − c₂, {infinite}, where the relaxation times become infinite"
+        );
+        let dimension = Some(Dimension::Temperature);
+        Err(Error::OutOfRange { quantity: "bulk", value, dimension, expected: expected.into() })
     }
 
     /// Returns the relaxation of a body with this `relaxed` modulus at a `temperature`, and the fit if it has a master `curve`.
     ///
     /// # Errors
-    /// The errors of [`Relaxation::new`] and of [`fit_master_curve`].
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) for a temperature at which the times are infinite; the errors of [`Relaxation::new`] and
+    /// of [`fit_master_curve`].
     pub fn relaxation(
         &self,
         relaxed: Pascal,
@@ -171,7 +184,7 @@ impl Viscoelasticity {
                 terms.map(|(modulus, time)| RelaxationTerm { modulus: *modulus, time: *time }).collect()
             }
         };
-        let factor = self.factor(temperature);
+        let factor = self.factor(temperature)?;
         let shifted = terms.into_iter().map(|term| RelaxationTerm { time: factor * term.time, ..term });
         Ok((Relaxation::new(relaxed, shifted)?, fit))
     }

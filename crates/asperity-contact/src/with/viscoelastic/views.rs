@@ -2,9 +2,10 @@
 
 use crate::motion::{IncrementRecord, SweepRecord};
 use crate::operator::Boundary;
-use crate::units::{Dimension, Metre, format, format_number};
+use crate::units::{Dimension, Kelvin, Metre, format, format_number};
 use crate::viscoelastic::Creep;
 use crate::with::views::Answer;
+use crate::with::viscoelastic::Viscoelasticity;
 
 /// Returns what the points of a sweep show of steady sliding: the largest drag, and its speed.
 pub fn answers(points: &[SweepRecord]) -> Vec<Answer> {
@@ -68,11 +69,32 @@ pub fn in_time(increments: &[IncrementRecord]) -> Option<Answer> {
     })
 }
 
+/// Temperatures above that of infinite times at which the shift of Williams, Landel and Ferry usually holds: from the glass transition to 100 K
+/// above it, with a margin (Ferry, Viscoelastic Properties of Polymers).
+const WLF: [f64; 2] = [40.0, 200.0];
+
+impl Viscoelasticity {
+    /// Returns a reason not to trust the shift of the body `name` at its `temperature`.
+    pub fn doubt(&self, name: &str, temperature: Option<Kelvin>) -> Option<String> {
+        let above =
+            self.above_infinite_times(temperature).filter(|above| !(WLF[0]..=WLF[1]).contains(above))?;
+        Some(format!(
+            "the {name} body at {} is {} above Tᵣ − c₂: the shift of Williams, Landel and Ferry usually holds from 50 K to 150 K above \
+             it, which is from the glass transition to 100 K more",
+            format(temperature?, Dimension::Temperature),
+            format(above, Dimension::TemperatureDifference)
+        ))
+    }
+}
+
 /// Share of the compliance from which on a term matters.
 const WEIGHT: f64 = 0.05;
 /// Ratio of a modulus to what is softer from which on its relaxation must be resolved, and the length that resolves it, in cells.
 const STIFF: f64 = 30.0;
 const RESOLVED: f64 = 0.4;
+/// Density of rubber, kg/m³, and the share of the speed of its shear waves from which on its inertia matters.
+const DENSITY: f64 = 1000.0;
+const SLOW: f64 = 0.3;
 
 /// Returns reasons not to trust the steady sliding of bodies with this `creep` compliance of the body that the contact moves over, at the
 /// `speeds`, on a grid with this pitch and extent along x.
@@ -109,6 +131,16 @@ pub fn doubts(creep: &Creep, boundary: Boundary, pitch: Metre, extent: Metre, sp
             text(extent)
         ));
     }
+    // The shear modulus of an incompressible body is a third of Young's.
+    let waves = (1.0 / (3.0 * creep.glassy * DENSITY)).sqrt();
+    if largest > SLOW * waves {
+        doubts.push(format!(
+            "at {} the contact moves at {} times the speed of shear waves in the glassy body, about {} for 1 g/cm³: the model has no inertia",
+            speed(largest),
+            format_number(largest / waves),
+            speed(waves)
+        ));
+    }
     let mut softer = creep.glassy;
     // From the fastest term on: what is softer than the glassy body by more than this in one time.
     for term in creep.terms.iter().rev() {
@@ -129,4 +161,30 @@ pub fn doubts(creep: &Creep, boundary: Boundary, pitch: Metre, extent: Metre, sp
         softer += term.compliance;
     }
     doubts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::viscoelastic::{Relaxation, RelaxationTerm};
+
+    #[test]
+    fn steady_sliding_is_doubted_where_the_grid_or_the_model_ends() {
+        let creep = |terms: &[(f64, f64)]| {
+            let terms = terms.iter().map(|&(modulus, time)| RelaxationTerm { modulus, time });
+            Relaxation::new(1e6, terms).unwrap().creep()
+        };
+        let rubber = creep(&[(9e6, 1e-3), (9e7, 2e-5)]);
+        let told =
+            |creep: &Creep, boundary, speed: f64| doubts(creep, boundary, 1e-6, 1e-3, &[speed]).join("; ");
+        assert_eq!(told(&rubber, Boundary::PERIODIC, 0.01), "");
+        assert!(told(&rubber, Boundary::FREE, 1e-5).contains("less than half a cell"));
+        assert!(told(&rubber, Boundary::PERIODIC, 10.0).contains("beyond the period of 1 mm"));
+        assert_eq!(told(&rubber, Boundary::FREE, 10.0), "");
+        // Shear waves pass glass of 100 MPa at √(100 MPa/(3 · 1 g/cm³)), 183 m/s.
+        assert!(told(&rubber, Boundary::FREE, 50.0).is_empty());
+        assert!(told(&rubber, Boundary::FREE, 60.0).contains("0.3286 times the speed of shear waves"));
+        assert!(told(&creep(&[(1e9, 1e-2)]), Boundary::FREE, 1e-5).contains("leading edge"));
+        assert!(told(&Creep::elastic(1e-6), Boundary::FREE, 1.0).contains("stands still"));
+    }
 }

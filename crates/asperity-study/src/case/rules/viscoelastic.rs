@@ -4,7 +4,7 @@ use super::super::StageSpec;
 use super::Rule;
 use super::examples::{AT_ANY_SPEED, RELAXES, RUBS, STEADY};
 
-/// Keys of the time of a stage.
+/// Keys of the time of a stage that only viscoelastic bodies have.
 const TIMES: [&str; 2] = ["duration", "dwell"];
 /// Tables that a steady contact excludes.
 const OTHERS: [&str; 8] =
@@ -13,13 +13,14 @@ const OTHERS: [&str; 8] =
 pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[lower.viscoelastic], [upper.viscoelastic]",
-        with: "no [steady], and no `duration` or `dwell` in a [[history]]",
+        with: "no [steady], and no `duration`, `dwell` or `period` in a [[history]]",
         message: "a viscoelastic body needs [steady], or a time: a static contact has the relaxed modulus `young`",
         hint: "give the `speed` or the `speeds` in [steady], or a [[history]] with a `dwell`",
         at: "lower.viscoelastic",
         example: &[RELAXES],
         broken: |tables| {
-            let timeless = tables.case.steady.is_none() && tables.of_stage(&TIMES).is_none();
+            let timed = tables.of_stage(&TIMES).or(tables.of_stage(&["period"]));
+            let timeless = tables.case.steady.is_none() && timed.is_none();
             tables.viscoelastic().filter(|_| timeless)
         },
     },
@@ -47,14 +48,29 @@ pub(super) const RULES: &[Rule] = &[
         },
     },
     Rule {
-        this: "`duration`, `dwell` of a stage",
+        this: "`cycles` of viscoelastic bodies",
+        with: "no `period`",
+        message: "the cycles of viscoelastic bodies need a time",
+        hint: "give the `period`",
+        at: "history.cycles",
+        example: &[RELAXES, r#"history = [{ dwell = "1 s" }, { load = "1 N", cycles = 10 }]"#],
+        broken: |tables| {
+            let timeless = |stage: &StageSpec| stage.cycles.is_some() && stage.period.is_none();
+            tables
+                .viscoelastic()
+                .and(tables.of_stage(&["cycles"]))
+                .filter(|_| tables.case.history.iter().any(timeless))
+        },
+    },
+    Rule {
+        this: "[[history]] of viscoelastic bodies",
         with: "[motion], [sliding], [friction], [adhesion], [plasticity]",
         message: "viscoelastic bodies in time do not support [{key}]",
         hint: "they are loaded without friction, and do not move",
         at: "friction",
         example: &[RELAXES, r#"history = [{ dwell = "1 s" }]"#, RUBS],
         broken: |tables| {
-            tables.of_stage(&TIMES)?;
+            tables.viscoelastic().and(tables.at("history"))?;
             ["motion", "sliding", "friction", "adhesion", "plasticity"]
                 .iter()
                 .find_map(|table| tables.at(table))

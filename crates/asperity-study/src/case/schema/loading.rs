@@ -237,7 +237,7 @@ pub(crate) mod history {
         INCREMENTS: Optional<usize> = optional(
             "increments",
             count(1),
-            "1; for elasto-plastic bodies, the number in [plasticity]",
+            "1; with a `duration` or a `dwell` 16; for elasto-plastic bodies the number in [plasticity]",
             "10",
             "equal steps from the end of the previous stage; in a cycle of each way",
         );
@@ -267,7 +267,7 @@ pub(crate) mod history {
             quantity(Dimension::Time, AboveZero).exists(Exists::Any("a cycle of any time")),
             "unknown",
             "\"50 ms\"",
-            "time of a cycle, for films that grow",
+            "time of a cycle, for films that grow and for viscoelastic bodies",
         );
     }
 }
