@@ -1,14 +1,15 @@
-//! Steady sliding of viscoelastic bodies against a dense program, and its symmetries.
+//! Viscoelastic bodies in steady sliding and in time against dense programs, and their symmetries.
 
 use asperity_contact::adhesion::Adhesion;
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
     Motion, MovingBody, Pair, Simulation, Slide, SlidingContact, Stage, StagedLoading, Strategy,
 };
-use asperity_contact::operator::{Boundary, Edge};
+use asperity_contact::operator::{Boundary, Edge, Operators};
 use asperity_contact::solver::{Control, Friction, Loading, Params, Tangential};
 use asperity_contact::viscoelastic::{
-    Creep, Relaxation, RelaxationTerm, SteadyContact, SteadySliding, solve_steady,
+    Creep, CreepMemory, CreepTerm, Relaxation, RelaxationTerm, SteadyContact, SteadySliding, solve_in_time,
+    solve_steady,
 };
 use asperity_contact::{Field, Grid};
 use asperity_surface::Topography;
@@ -128,6 +129,86 @@ fn three_hundred_random_contacts_are_those_of_a_dense_program() {
         let error = p.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(error < 1e-7 * largest, "case {case}: {}", error / largest);
         assert!(found.drag > -1e-12 * load, "case {case}: {}", found.drag);
+    }
+}
+
+/// Mean of the compliance J(t − s) over the times s from `begin` to `end`, or its value where these are one time.
+fn mean_compliance(creep: &Creep, t: f64, begin: f64, end: f64) -> f64 {
+    let term = |term: &CreepTerm| {
+        let e = |s: f64| ((s - t) / term.time).exp();
+        let left = match end > begin {
+            true => term.time * (e(end) - e(begin)) / (end - begin),
+            false => e(end),
+        };
+        term.compliance * (1.0 - left)
+    };
+    creep.glassy + creep.terms.iter().map(term).sum::<f64>()
+}
+
+#[test]
+fn a_hundred_random_histories_are_those_of_boltzmanns_superposition() {
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    for case in 0..100 {
+        let shape = [random.random_range(3..8), random.random_range(3..8)];
+        let grid = Grid::new(shape, [1.0, random.random_range(0.5..2.0)]).unwrap();
+        let boundary = BOUNDARIES[case % 2];
+        let creep = body(&mut random).creep().plus(&body(&mut random).creep());
+        let gap = gap(&mut random, shape);
+        let elastic = matrix(grid, boundary, &Creep::elastic(1.0), 1.0);
+        let times =
+            |c: f64| elastic.iter().map(|row| row.iter().map(|e| c * e).collect()).collect::<Vec<Vec<f64>>>();
+        let mut operator = Operators::new(grid, 1.0, boundary).on(shape);
+        let mut memory = CreepMemory::new(creep.clone(), shape);
+        // The steps so far: their begin and end, and the change of the elastic displacement in them.
+        let mut steps: Vec<(f64, f64, Vec<f64>)> = Vec::new();
+        let (mut now, mut before) = (0.0, vec![0.0; grid.cells()]);
+        for step in 0..8 {
+            let is_sudden = step == 0 || random.random_bool(0.2);
+            let duration = if is_sudden { 0.0 } else { 10f64.powf(random.random_range(-2.0..1.5)) };
+            let control = match random.random_bool(0.5) {
+                true => Control::Load(
+                    10f64.powf(random.random_range(-2.0..0.0)) * grid.extent()[0] * grid.extent()[1],
+                ),
+                false => Control::Approach(random.random_range(0.2..0.9) * gap.mean().unwrap()),
+            };
+            let params = Params::default().with_tolerance(1e-10);
+            let found = solve_in_time(
+                operator.as_mut(),
+                1.0,
+                &mut memory,
+                &gap,
+                control,
+                duration,
+                None,
+                &params,
+                &(),
+            )
+            .unwrap();
+            if let Control::Load(load) = control {
+                assert!((found.load() / load - 1.0).abs() < 1e-10);
+            }
+            let (begin, end) = (now, now + duration);
+            now = end;
+            let mut opened = gap.as_slice().unwrap().to_vec();
+            for (begin, end, change) in &steps {
+                let j = mean_compliance(&creep, now, *begin, *end);
+                opened.iter_mut().zip(change).for_each(|(gap, change)| *gap += j * change);
+            }
+            // What is borne already does not change in this step.
+            let j = mean_compliance(&creep, now, begin, end);
+            opened.iter_mut().zip(&before).for_each(|(gap, before)| *gap -= j * before);
+            let p = found.pressure.as_slice().unwrap();
+            let displaced: Vec<f64> =
+                elastic.iter().map(|row| row.iter().zip(p).map(|(e, p)| e * p).sum()).collect();
+            if boundary == Boundary::FREE || p.contains(&0.0) {
+                let expected = dense(&times(j), &opened, found.approach);
+                let largest = expected.iter().copied().fold(1e-3, f64::max);
+                let error = p.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                assert!(error < 1e-6 * largest, "case {case}, step {step}: {}", error / largest);
+            }
+            steps.push((begin, end, displaced.iter().zip(&before).map(|(now, then)| now - then).collect()));
+            before = displaced;
+        }
     }
 }
 
