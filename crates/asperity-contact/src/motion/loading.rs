@@ -265,15 +265,7 @@ impl LoadedContact {
         let plastic = solution.plastic_interference();
         let record = StaticRecord::new(&solution).attracted(pair, &solution);
         let solution = Equilibrium::Frictionless(Box::new(solution));
-        Ok(Self {
-            record,
-            increments: Vec::new(),
-            solution,
-            plastic,
-            slip: None,
-            dissipation_error: 0.0,
-            changed: None,
-        })
+        Ok(Self::at_once(record, solution, plastic, None))
     }
 
     /// Solves the contact in steady rolling along x, over the initial `gap`.
@@ -304,15 +296,7 @@ impl LoadedContact {
         let slip = Some(solution.slip.clone());
         let solution = Equilibrium::Frictional(Box::new(solution));
         let record = StaticRecord { shear: Some(shear), ..static_record(&solution, &plastic) };
-        Ok(Self {
-            record,
-            increments: Vec::new(),
-            solution,
-            plastic,
-            slip,
-            dissipation_error: 0.0,
-            changed: None,
-        })
+        Ok(Self::at_once(record, solution, plastic, slip))
     }
 }
 

@@ -38,6 +38,19 @@ pub struct LoadedContact {
     pub changed: Option<ChangedBodies>,
 }
 
+impl LoadedContact {
+    /// Creates a contact that has been solved at once.
+    pub(super) fn at_once(
+        record: StaticRecord,
+        solution: Equilibrium,
+        plastic: Field,
+        slip: Option<[Field; 2]>,
+    ) -> Self {
+        let increments = Vec::new();
+        Self { record, increments, solution, plastic, slip, dissipation_error: 0.0, changed: None }
+    }
+}
+
 /// State of a loading: everything that its next increment depends on.
 #[derive(Debug, Clone)]
 pub struct LoadingState {

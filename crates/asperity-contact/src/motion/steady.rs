@@ -101,15 +101,8 @@ impl LoadedContact {
         // Bodies that do not touch have no drag.
         let drag_coefficient = if record.load > 0.0 { drag / record.load } else { 0.0 };
         let steady = SteadyRecord { speed, drag, drag_coefficient, drag_power: drag * speed };
-        let contact = Self {
-            record,
-            increments: Vec::new(),
-            plastic: pair.lower_grid().zeros(),
-            solution: Equilibrium::Frictionless(Box::new(solution)),
-            slip: None,
-            dissipation_error: 0.0,
-            changed: None,
-        };
-        Ok((contact, steady))
+        let plastic = pair.lower_grid().zeros();
+        let solution = Equilibrium::Frictionless(Box::new(solution));
+        Ok((Self::at_once(record, solution, plastic, None), steady))
     }
 }

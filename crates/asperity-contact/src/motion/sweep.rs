@@ -39,8 +39,8 @@ pub struct SweepState {
 ///
 /// Each point is an independent contact of undeformed bodies, solved from zero. It has the bits of [`crate::motion::press`]
 /// or [`crate::motion::roll`], whatever the other points are. Pressures of another load would not be a better start than
-/// those of coarser grids: from 1.5 times the load up they cost more convolutions. The contact of viscoelastic bodies at a speed starts
-/// from that at the speed before.
+/// those of coarser grids: from 1.5 times the load up they cost more convolutions. Viscoelastic bodies that slide steadily are the
+/// exception: each speed starts from the pressures of the speed before.
 ///
 /// # Errors
 /// [`Error::AtPoint`] with the error of [`crate::solver::solve_normal`] or [`crate::solver::solve_rolling`],
@@ -67,9 +67,9 @@ pub fn sweep(
         pair.check_elastic()?;
         pair.check_shear()?;
     }
-    let SweepState { mut records, start } = under_way;
-    records.truncate(points.len().saturating_sub(1));
-    records.iter().for_each(|record| watch.point(record));
+    let mut state = under_way;
+    state.records.truncate(points.len().saturating_sub(1));
+    state.records.iter().for_each(|record| watch.point(record));
     let mut sweep = Sweep {
         pair,
         boundary,
@@ -79,7 +79,7 @@ pub fn sweep(
         gap,
         normal: params.device.operator(&operators, shape),
         coupled: rolls.then(|| operators.coupled_on(shape)),
-        state: SweepState { records, start },
+        state,
         last: None,
     };
     course::run(&mut sweep, watch, outputs)?;
@@ -98,7 +98,7 @@ struct Sweep<'a> {
     normal: Box<dyn Operator>,
     /// The coupled operator of bodies that roll.
     coupled: Option<Box<dyn CoupledOperator>>,
-    /// The finished points.
+    /// The state after the last finished point.
     state: SweepState,
     /// The contact of the last finished point.
     last: Option<LoadedContact>,
@@ -139,8 +139,8 @@ impl Sweep<'_> {
 
 /// A solved point.
 struct Solved {
-    record: SweepRecord,
     contact: LoadedContact,
+    /// The state after it.
     state: SweepState,
 }
 
@@ -156,23 +156,21 @@ impl Course for Sweep<'_> {
         let points = self.points.len();
         let solved = self.contact(point, &StaticWatch::new(watch, done, points, point.control)).and_then(
             |(contact, steady)| {
-                let record = record(
-                    self.boundary,
-                    self.normal.as_mut(),
-                    done + 1,
-                    (&contact, steady.is_some()),
-                    self.params,
-                )?;
-                let record = SweepRecord { steady, ..record };
-                let start = steady.map(|_| contact.solution.normal().pressure.clone());
-                Ok(Solved { record, contact, state: SweepState { records: Vec::new(), start } })
+                let operator = self.normal.as_mut();
+                let record = record(self.boundary, operator, done + 1, &contact, steady, self.params)?;
+                Ok((record, contact))
             },
         );
         let at = |source| Error::AtPoint { point: done + 1, points, source };
-        solved.map(Some).map_err(|error| error.unless_interrupted(at))
+        let (record, contact) = solved.map_err(|error| error.unless_interrupted(at))?;
+        let start = record.steady.map(|_| contact.solution.normal().pressure.clone());
+        let mut records = std::mem::take(&mut self.state.records);
+        records.push(record);
+        Ok(Some(Solved { contact, state: SweepState { records, start } }))
     }
 
-    fn report<'a>(&'a self, Solved { record, contact, state }: &'a Self::Solved) -> Step<'a> {
+    fn report<'a>(&'a self, Solved { contact, state }: &'a Self::Solved) -> Step<'a> {
+        let record = state.records.last().expect("the point just done");
         Step {
             contact: Some(contact.solution.normal()),
             state: Some(state),
@@ -180,9 +178,8 @@ impl Course for Sweep<'_> {
         }
     }
 
-    fn take(&mut self, Solved { record, contact, state }: Self::Solved) {
-        self.state.records.push(record);
-        self.state.start = state.start;
+    fn take(&mut self, Solved { contact, state }: Self::Solved) {
+        self.state = state;
         self.last = Some(contact);
     }
 }
@@ -211,11 +208,12 @@ fn record(
     boundary: Boundary,
     operator: &mut dyn Operator,
     point: usize,
-    (contact, is_steady): (&LoadedContact, bool),
+    contact: &LoadedContact,
+    steady: Option<SteadyRecord>,
     params: &Params,
 ) -> Result<SweepRecord> {
     // The attraction of open cells changes with the approach, too.
-    let (stiffness, stats) = match contact.record.adhesion.is_some() || is_steady {
+    let (stiffness, stats) = match contact.record.adhesion.is_some() || steady.is_some() {
         true => (None, Stats::default()),
         false => normal_stiffness(operator, &contact.solution.normal().elastic_cells(), params)?,
     };
@@ -251,6 +249,6 @@ fn record(
         convolutions: contact.record.convolutions + stats.convolutions,
         residual: contact.record.residual,
         adhesion: contact.record.adhesion,
-        steady: None,
+        steady,
     })
 }

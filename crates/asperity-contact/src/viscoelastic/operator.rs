@@ -206,8 +206,7 @@ fn cyclic(table: &Field, padded: [usize; 2], backwards: bool, factor: f64, bound
     for ((row, j), value) in table.indexed_iter() {
         let i = row as isize - (nx as isize - 1);
         let i = (if backwards { -i } else { i }).rem_euclid(padded[0] as isize) as usize;
-        let repeats = boundary.repeats(1);
-        if repeats && j > padded[1] / 2 {
+        if boundary.repeats(1) && j > padded[1] / 2 {
             continue;
         }
         values[[i, j]] = factor * value;

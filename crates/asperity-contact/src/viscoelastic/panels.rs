@@ -7,9 +7,10 @@ use crate::units::Metre;
 const POINTS: usize = 16;
 /// Number of points of an interval on which the weights are integrated.
 const FINE: usize = 20;
-/// Lengths of the exponential's decay of the first interval of the weights, and where nothing of it is left.
+/// Length of the first interval of the weights, in lengths of the exponential's decay.
 const FIRST: f64 = 0.5;
-const REACH: f64 = 45.0;
+/// Reach of an exponential, in lengths of its decay: further away nothing of it is left.
+pub(super) const REACH: f64 = 45.0;
 
 /// An interval 0 ≤ begin < end.
 #[derive(Debug, Clone, Copy, PartialEq)]

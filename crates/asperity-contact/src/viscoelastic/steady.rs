@@ -55,16 +55,10 @@ pub fn solve_steady(
 ) -> Result<SteadyContact> {
     let grid = *operator.grid();
     assert_eq!(initial_gap.shape(), grid.shape, "shape of the gap");
-    let sum = match control {
+    match control {
         Control::Load(load) => {
-            check_in(
-                Dimension::Force,
-                "load",
-                load,
-                load > 0.0 && load.is_finite(),
-                "a finite load above 0",
-            )?;
-            Some(load / grid.cell_area())
+            let is_valid = load > 0.0 && load.is_finite();
+            check_in(Dimension::Force, "load", load, is_valid, "a finite load above 0")?;
         }
         Control::Approach(approach) => {
             let is_valid = approach.is_finite();
@@ -74,12 +68,11 @@ pub fn solve_steady(
             if operator.boundary().leaves_mean_free() && approach >= mean_gap {
                 return Err(Error::PeriodicFullContact { approach, mean_gap });
             }
-            None
         }
-    };
+    }
     let before = operator.convolutions();
     let (initial_gap, start) = (&*in_rows(initial_gap), start.map(in_rows));
-    let mut rounds = Rounds::new(operator, initial_gap, sum, control, start.as_deref());
+    let mut rounds = Rounds::new(operator, initial_gap, control, start.as_deref());
     rounds.solve(params, watch)?;
     let residual = rounds.finish();
     let Rounds { pressure, displacement, done: iterations, .. } = rounds;
@@ -102,15 +95,10 @@ pub fn solve_steady(
     Ok(SteadyContact { solution, drag })
 }
 
-/// Convolves the values of some cells with the operator, or with its preconditioner.
-type Convolve<'a> = dyn FnMut(&mut SteadySliding, &[f64], bool) -> Vec<f64> + 'a;
-
 /// The present pressure and displacement, and the rounds so far.
 struct Rounds<'a> {
     operator: &'a mut SteadySliding,
     gap: &'a Field,
-    /// Σ p under a load.
-    sum: Option<f64>,
     control: Control,
     pressure: Field,
     displacement: Field,
@@ -128,25 +116,35 @@ struct Sets {
 }
 
 impl<'a> Rounds<'a> {
-    fn new(
-        operator: &'a mut SteadySliding,
-        gap: &'a Field,
-        sum: Option<f64>,
-        control: Control,
-        start: Option<&Field>,
-    ) -> Self {
-        let shape = gap.raw_dim();
-        let mut pressure = match (start, sum) {
-            (Some(start), _) => start.clone(),
-            (None, Some(sum)) => Field::from_elem(shape, sum / gap.len() as f64),
-            (None, None) => Field::zeros(shape),
-        };
-        rescale(&mut pressure, sum);
-        let scratch = [Field::zeros(shape), Field::zeros(shape)];
-        let displacement = Field::zeros(shape);
-        let mut this = Self { operator, gap, sum, control, pressure, displacement, done: 0, scratch };
+    fn new(operator: &'a mut SteadySliding, gap: &'a Field, control: Control, start: Option<&Field>) -> Self {
+        let zeros = || Field::zeros(gap.raw_dim());
+        let scratch = [zeros(), zeros()];
+        let (pressure, displacement) = (zeros(), zeros());
+        let mut this = Self { operator, gap, control, pressure, displacement, done: 0, scratch };
+        match (start, this.sum()) {
+            (Some(start), _) => this.pressure.assign(start),
+            (None, Some(sum)) => this.pressure.fill(sum / gap.len() as f64),
+            (None, None) => {}
+        }
+        this.rescale();
         this.displace();
         this
+    }
+
+    /// Returns Σ p under a load.
+    fn sum(&self) -> Option<f64> {
+        match self.control {
+            Control::Load(load) => Some(load / self.operator.grid().cell_area()),
+            Control::Approach(_) => None,
+        }
+    }
+
+    /// Scales the pressure to the load.
+    fn rescale(&mut self) {
+        let now = self.pressure.sum();
+        if let Some(sum) = self.sum().filter(|_| now > 0.0) {
+            self.pressure *= sum / now;
+        }
     }
 
     /// Computes the displacement of the present pressure.
@@ -202,13 +200,16 @@ impl<'a> Rounds<'a> {
         Ok(())
     }
 
-    /// Predicts which cells touch: those whose pressure stays above 0 when the gap is closed by a compliance of its own, at the
-    /// approach at which they bear the load.
-    fn predict(&self, caution: f64, approach: f64) -> Vec<bool> {
-        let compliance = caution * self.operator.self_influence();
+    /// Returns the pressures that close the gap if each cell gives way by itself, with this `compliance`.
+    fn closing(&self, compliance: f64, approach: f64) -> impl Iterator<Item = f64> {
         let cells = self.pressure.iter().zip(self.gap).zip(&self.displacement);
-        let predicted: Vec<f64> = cells.map(|((p, h), u)| p + (approach - h - u) / compliance).collect();
-        let offset = self.sum.map_or(0.0, |sum| {
+        cells.map(move |((p, h), u)| p + (approach - h - u) / compliance)
+    }
+
+    /// Predicts which cells touch: those whose pressure stays above 0 when they close the gap, at the approach at which they bear the load.
+    fn predict(&self, caution: f64, approach: f64) -> Vec<bool> {
+        let predicted: Vec<f64> = self.closing(caution * self.operator.self_influence(), approach).collect();
+        let offset = self.sum().map_or(0.0, |sum| {
             let most = predicted.iter().fold(sum, |most, p| most.max(p.abs() + sum));
             let sums = |offset: f64| {
                 let above = predicted.iter().map(|p| p + offset).filter(|p| *p > 0.0);
@@ -221,9 +222,7 @@ impl<'a> Rounds<'a> {
 
     /// Lets cells on the wrong side change sides.
     fn correct(&self, sets: &mut Sets, approach: f64) {
-        let c0 = self.operator.self_influence();
-        let cells = self.pressure.iter().zip(self.gap).zip(&self.displacement);
-        let touches = cells.map(|((p, h), u)| p + (approach - h - u) / c0 > 0.0);
+        let touches = self.closing(self.operator.self_influence(), approach).map(|p| p > 0.0);
         let wrong = touches.zip(&sets.touching).enumerate().filter(|(_, (now, then))| now != *then);
         let wrong: Vec<usize> = wrong.map(|(cell, _)| cell).collect();
         let Some(last) = wrong.last() else { return };
@@ -243,14 +242,11 @@ impl<'a> Rounds<'a> {
         let cells: Vec<usize> = (0..touching.len()).filter(|cell| touching[*cell]).collect();
         let count = cells.len() as f64;
         self.lift(touching, count);
-        let approach = match (self.control, self.sum) {
-            (Control::Approach(approach), None) => approach,
-            _ => {
-                let (h, u) = (flat(self.gap), flat(&self.displacement));
-                cells.iter().map(|cell| h[*cell] + u[*cell]).sum::<f64>() / count
-            }
-        };
         let (h, u) = (flat(self.gap), flat(&self.displacement));
+        let approach = match self.control {
+            Control::Approach(approach) => approach,
+            Control::Load(_) => cells.iter().map(|cell| h[*cell] + u[*cell]).sum::<f64>() / count,
+        };
         let right: Vec<f64> = cells.iter().map(|cell| approach - h[*cell] - u[*cell]).collect();
         let largest = right.iter().fold(0.0f64, |most, r| most.max(r.abs()));
         if largest == 0.0 {
@@ -259,35 +255,11 @@ impl<'a> Rounds<'a> {
         let wanted = if residual.eta > NEAR && !is_exact { 0.1 } else { 1e-2 * residual.eta.min(NEAR) };
         let reduction =
             (wanted.max(0.3 * tolerance) * residual.scale / largest).clamp(REDUCTION[0], REDUCTION[1]);
-        let under_load = self.sum.is_some();
-        let Self { operator, scratch: [input, output], .. } = self;
-        let mut convolve = |operator: &mut SteadySliding, x: &[f64], inverse: bool| -> Vec<f64> {
-            input.fill(0.0);
-            let all = input.as_slice_mut().expect("standard layout");
-            cells.iter().zip(x).for_each(|(cell, x)| all[*cell] = *x);
-            match inverse {
-                true => operator.precondition(input, output),
-                false => operator.displace(input, output),
-            }
-            let all = output.as_slice().expect("standard layout");
-            cells.iter().map(|cell| all[*cell]).collect()
-        };
-        let one = under_load.then(|| {
-            let one = convolve(operator, &vec![1.0; cells.len()], true);
-            let sum: f64 = one.iter().sum();
-            (one, sum)
-        });
-        let precondition = |operator: &mut SteadySliding, x: &[f64], convolve: &mut Convolve<'_>| {
-            let mut z = convolve(operator, x, true);
-            if let Some((one, sum)) = &one {
-                let share = z.iter().sum::<f64>() / sum;
-                z.iter_mut().zip(one).for_each(|(z, one)| *z -= share * one);
-            }
-            z
-        };
+        let under_load = self.sum().is_some();
+        let mut response = Response::of(self.operator, &cells, &mut self.scratch, under_load);
         let product = |x: &[f64]| {
-            let z = precondition(operator, x, &mut convolve);
-            let mut y = convolve(operator, &z, false);
+            let z = response.precondition(x);
+            let mut y = response.displace(&z);
             if under_load {
                 let mean = y.iter().sum::<f64>() / count;
                 y.iter_mut().for_each(|y| *y -= mean);
@@ -295,14 +267,15 @@ impl<'a> Rounds<'a> {
             y
         };
         let found = gmres(product, right, reduction, MAX_PRODUCTS);
-        let z = precondition(operator, &found.solution, &mut convolve);
-        convolve(operator, &z, false);
+        let z = response.precondition(&found.solution);
+        response.displace(&z);
         self.add();
     }
 
     /// Takes the pressure off the cells that do not touch; those that touch bear it.
     fn lift(&mut self, touching: &[bool], count: f64) {
-        let Self { pressure, scratch: [change, _], sum, .. } = self;
+        let sum = self.sum();
+        let Self { pressure, scratch: [change, _], .. } = self;
         let mut lifted = 0.0;
         let changes = change.iter_mut().zip(pressure.iter()).zip(touching);
         changes.for_each(|((change, p), touches)| {
@@ -310,7 +283,7 @@ impl<'a> Rounds<'a> {
             lifted += *change;
         });
         if let Some(sum) = sum {
-            let each = (*sum - pressure.sum() - lifted) / count;
+            let each = (sum - pressure.sum() - lifted) / count;
             change
                 .iter_mut()
                 .zip(touching)
@@ -334,17 +307,61 @@ impl<'a> Rounds<'a> {
     /// Clips the pressure to its bound, and returns the residual of its displacement, computed anew.
     fn finish(&mut self) -> Residual {
         self.pressure.mapv_inplace(|p| p.max(0.0));
-        rescale(&mut self.pressure, self.sum);
+        self.rescale();
         self.displace();
         self.residual()
     }
 }
 
-/// Scales a pressure to its sum.
-fn rescale(pressure: &mut Field, sum: Option<f64>) {
-    let now = pressure.sum();
-    if let (Some(sum), true) = (sum, now > 0.0) {
-        *pressure *= sum / now;
+/// Response of the bodies to pressures on some cells alone.
+struct Response<'a> {
+    operator: &'a mut SteadySliding,
+    cells: &'a [usize],
+    /// The last field that was convolved, and its image.
+    fields: &'a mut [Field; 2],
+    /// Under a load the preconditioned unit displacement, and its sum.
+    one: Option<(Vec<f64>, f64)>,
+}
+
+impl<'a> Response<'a> {
+    fn of(
+        operator: &'a mut SteadySliding,
+        cells: &'a [usize],
+        fields: &'a mut [Field; 2],
+        under_load: bool,
+    ) -> Self {
+        let mut this = Self { operator, cells, fields, one: None };
+        this.one = under_load.then(|| {
+            let one = this.precondition(&vec![1.0; cells.len()]);
+            let sum = one.iter().sum();
+            (one, sum)
+        });
+        this
+    }
+
+    /// Returns the displacement under a pressure.
+    fn displace(&mut self, pressure: &[f64]) -> Vec<f64> {
+        self.image(pressure, SteadySliding::displace)
+    }
+
+    /// Returns an approximate pressure under a displacement; one that bears nothing in sum, where the load is given.
+    fn precondition(&mut self, displacement: &[f64]) -> Vec<f64> {
+        let mut pressure = self.image(displacement, SteadySliding::precondition);
+        if let Some((one, sum)) = &self.one {
+            let share = pressure.iter().sum::<f64>() / sum;
+            pressure.iter_mut().zip(one).for_each(|(p, one)| *p -= share * one);
+        }
+        pressure
+    }
+
+    fn image(&mut self, values: &[f64], convolve: fn(&mut SteadySliding, &Field, &mut Field)) -> Vec<f64> {
+        let Self { operator, cells, fields: [field, image], .. } = self;
+        field.fill(0.0);
+        let all = field.as_slice_mut().expect("standard layout");
+        cells.iter().zip(values).for_each(|(cell, value)| all[*cell] = *value);
+        convolve(operator, field, image);
+        let all = flat(image);
+        cells.iter().map(|cell| all[*cell]).collect()
     }
 }
 

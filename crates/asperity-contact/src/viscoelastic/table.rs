@@ -4,10 +4,8 @@ use crate::grid::Field;
 use crate::kernel::Influence;
 use crate::math::parallel;
 use crate::units::Metre;
-use crate::viscoelastic::panels::{Panel, lagrange_weights};
+use crate::viscoelastic::panels::{Panel, REACH, lagrange_weights};
 
-/// Reach of the memory, in lengths of its decay: further away nothing is left.
-const REACH: f64 = 45.0;
 /// Cells on both sides of the loaded one in which the panels are graded.
 const NEAR: isize = 2;
 /// Number of halvings of a graded panel.

@@ -88,15 +88,16 @@ fn is_one(value: &f64) -> bool {
 }
 
 fn moduli(value: &dyn Value, key: &Key) -> Result<Vec<Pascal>> {
-    list(value, "a list of moduli such as [\"9 MPa\", \"90 MPa\"]", |item| {
-        item.real(key, &Kind::Quantity(Dimension::Pressure, Bounds::AboveZero))
-    })
+    positive(value, key, Dimension::Pressure, "a list of moduli such as [\"9 MPa\", \"90 MPa\"]")
 }
 
 fn times(value: &dyn Value, key: &Key) -> Result<Vec<Second>> {
-    list(value, "a list of times such as [\"1 s\", \"20 ms\"]", |item| {
-        item.real(key, &Kind::Quantity(Dimension::Time, Bounds::AboveZero))
-    })
+    positive(value, key, Dimension::Time, "a list of times such as [\"1 s\", \"20 ms\"]")
+}
+
+/// Reads a list of quantities above 0.
+fn positive(value: &dyn Value, key: &Key, dimension: Dimension, expected: &str) -> Result<Vec<f64>> {
+    list(value, expected, |item| item.real(key, &Kind::Quantity(dimension, Bounds::AboveZero)))
 }
 
 fn path(value: &dyn Value, _key: &Key) -> Result<PathBuf> {
