@@ -3,37 +3,15 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use asperity_base::{Error, Grid};
-use asperity_contact::motion::{Progress, Watch};
 use asperity_study::Existing;
 use asperity_study::case;
 use asperity_surface::{Form, Topography};
 
+use crate::support::StopAfter;
+
 // ---- interruptions ---------------------------------------------------------------------------------------
-
-/// Stops after a number of increments of a run, or never.
-struct Until {
-    solved: AtomicUsize,
-    most: usize,
-}
-
-impl Until {
-    fn increment(most: usize) -> Self {
-        Self { solved: AtomicUsize::new(0), most }
-    }
-}
-
-impl Watch for Until {
-    fn at(&self, progress: &Progress) {
-        self.solved.store(progress.solved, Relaxed);
-    }
-
-    fn stop(&self) -> bool {
-        self.solved.load(Relaxed) >= self.most
-    }
-}
 
 const BODIES: &str = "
 [lower]
@@ -117,7 +95,7 @@ fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
                     asperity_study::SurfaceInput::default(),
                     &directory,
                     existing,
-                    &Until::increment(most),
+                    &StopAfter::steps(most),
                 )
             };
             assert!(matches!(outcome_of(Existing::Keep, stopped), Err(Error::Interrupted)));

@@ -20,6 +20,7 @@ mod resume;
 mod rolling;
 mod smooth_forms;
 mod subsurface;
+mod support;
 mod sweep;
 mod viscoelastic;
 mod warnings;

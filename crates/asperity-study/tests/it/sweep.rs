@@ -1,14 +1,15 @@
 //! A load sweep of a static contact: each point is an independent contact, and its stiffness is the slope of the curve.
 
 use std::fs;
-use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use asperity_base::Error;
-use asperity_contact::motion::{Progress, Watch};
+use asperity_contact::motion::Watch;
 use asperity_contact::reference::HertzLine;
 use asperity_study::Case;
 use asperity_study::Outcome;
 use asperity_study::{Existing, Results};
+
+use crate::support::StopAfter;
 
 // ---- from the case to its results ------------------------------------------------------------------------
 
@@ -27,25 +28,6 @@ loads = { from = "1 mN", to = "0.3 N", points = 6 }
 [output]
 pressure_every = 2
 "#;
-
-/// Stops after a number of points.
-struct StopAfter(usize, AtomicUsize);
-
-impl StopAfter {
-    fn points(count: usize) -> Self {
-        Self(count, AtomicUsize::new(0))
-    }
-}
-
-impl Watch for StopAfter {
-    fn at(&self, progress: &Progress) {
-        self.1.store(progress.solved, Relaxed);
-    }
-
-    fn stop(&self) -> bool {
-        self.1.load(Relaxed) >= self.0
-    }
-}
 
 /// A cylinder rolling at several creepages, with few outputs.
 const ROLLING: &str = r#"
@@ -109,7 +91,7 @@ fn through_creepages_a_cylinder_draws_carters_curve() {
             asperity_study::SurfaceInput::default(),
             &broken,
             Existing::Keep,
-            &StopAfter::points(count),
+            &StopAfter::steps(count),
         );
         assert!(matches!(stopped, Err(Error::Interrupted)));
         asperity_study::run(&case, asperity_study::SurfaceInput::default(), &broken, Existing::Resume, &())
@@ -162,7 +144,7 @@ fn an_interrupted_curve_over_speed_goes_on_to_the_same_bits() {
     assert!(points.iter().all(|point| point.stiffness.is_none()));
     for count in 1..4 {
         let broken = folder.path().join(format!("broken-{count}"));
-        assert!(matches!(run(&broken, Existing::Keep, &StopAfter::points(count)), Err(Error::Interrupted)));
+        assert!(matches!(run(&broken, Existing::Keep, &StopAfter::steps(count)), Err(Error::Interrupted)));
         run(&broken, Existing::Resume, &()).unwrap();
         for file in ["sweep.csv", "fields.h5"] {
             assert!(
@@ -193,7 +175,7 @@ fn an_interrupted_sweep_goes_on_to_the_same_bits() {
             asperity_study::SurfaceInput::default(),
             &broken,
             Existing::Keep,
-            &StopAfter::points(count),
+            &StopAfter::steps(count),
         );
         assert!(matches!(stopped, Err(Error::Interrupted)));
         assert_eq!(Results::open(&broken).unwrap().sweep().unwrap(), points[..count]);

@@ -2,11 +2,12 @@
 
 use std::fs;
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use asperity_base::Error;
-use asperity_contact::motion::{Progress, Watch};
+use asperity_contact::motion::Watch;
 use asperity_study::{Case, Existing, Outcome, Results, SurfaceInput};
+
+use crate::support::StopAfter;
 
 const CASE: &str = r#"
 [lower]
@@ -31,19 +32,6 @@ increments = 2
 dwell = "200 s"
 increments = 12
 "#;
-
-/// Stops after some increments.
-struct StopAfter(usize, AtomicUsize);
-
-impl Watch for StopAfter {
-    fn at(&self, progress: &Progress) {
-        self.1.store(progress.solved, Relaxed);
-    }
-
-    fn stop(&self) -> bool {
-        self.1.load(Relaxed) >= self.0
-    }
-}
 
 fn run(out: &Path, existing: Existing, watch: &dyn Watch) -> Result<Outcome, Error> {
     let case = Case::parse(CASE, "case.toml".as_ref(), "".as_ref()).unwrap();
@@ -77,7 +65,7 @@ fn an_interrupted_history_goes_on_to_the_same_bits() {
     run(&whole, Existing::Keep, &()).unwrap();
     for count in [1, 7, 14, 20] {
         let broken = folder.path().join(format!("broken-{count}"));
-        let stopped = run(&broken, Existing::Keep, &StopAfter(count, AtomicUsize::new(0)));
+        let stopped = run(&broken, Existing::Keep, &StopAfter::steps(count));
         assert!(matches!(stopped, Err(Error::Interrupted)), "{count}");
         run(&broken, Existing::Resume, &()).unwrap();
         for file in ["increments.csv", "fields.h5"] {
