@@ -7,8 +7,8 @@ use crate::units::{Metre, Newton, Pascal, PerPascal, Second};
 
 /// A rigid cylinder that slides or rolls without friction over a standard linear solid, in plane strain.
 ///
-/// The composite creep compliance of the solid is `J_g + J₁(1 − e^(−t/ρ))`, so that a pressure p = 1 on half-plane displaces it by J instead
-/// of 1/E*. The contact reaches from −b behind the lowest point of the cylinder to a ahead of it. With λ = vρ, λ′ = λJ_g/(J_g + J₁),
+/// The composite creep compliance of the solid is `J(t) = J_g + J₁(1 − e^(−t/ρ))`. It takes the place of the 1/E* of elastic bodies. The contact
+/// reaches from the distance b behind the lowest point of the cylinder to the distance a ahead of it. With λ = vρ, λ′ = λJ_g/(J_g + J₁),
 /// c = (a + b)/2 and x₀ = (a − b)/2:
 ///
 /// ```text
