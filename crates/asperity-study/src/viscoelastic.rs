@@ -4,7 +4,7 @@ use crate::case::{Body, Case, StageSpec};
 use crate::given::SurfaceInput;
 use crate::io::{regular, sha256};
 use asperity_base::error::{Error, Result};
-use asperity_base::units::{self, Dimension, Kelvin};
+use asperity_base::units::{self, Dimension, Kelvin, MetrePerSecond, Pascal};
 use asperity_contact::motion::{MovingBody, Pair};
 use asperity_contact::viscoelastic::{Creep, MasterFit, MasterPoint, Relaxation};
 use asperity_contact::with;
@@ -23,6 +23,10 @@ pub struct MasterCurve {
 
 /// Fewest steps of a stage in time with which its load and area are within some per cent.
 const STEPS: usize = 8;
+/// Storage modulus at the first frequency of a master curve over the relaxed modulus from which on it has not relaxed there.
+const FALLEN: f64 = 1.2;
+/// Largest error of a fit that is not told.
+const POOR: f64 = 0.15;
 /// Largest accepted file.
 const MAX_BYTES: u64 = 16 << 20;
 /// Units of a frequency, and how many hertz they are.
@@ -188,11 +192,12 @@ pub(super) fn estimate(
     for (index, (name, body)) in [("lower", &case.lower), ("upper", &case.upper)].into_iter().enumerate() {
         estimate.bodies.extend(relaxations[index].as_ref().map(|found| described(name, found)));
         let doubt = body.viscoelastic.as_ref().and_then(|body| body.doubt(name, temperature(case, index)));
-        estimate.warnings.extend(doubt);
+        let fit = relaxations[index].as_ref().and_then(|(_, fit)| fit.as_ref());
+        estimate.warnings.extend(doubt.into_iter().chain(fit.and_then(|fit| poor(name, fit))));
     }
     estimate.warnings.extend(case.history.iter().flat_map(coarse));
     if let Some(steady) = &case.steady {
-        estimate.warnings.extend(doubts(case, steady, bodies, &relaxations)?);
+        estimate.warnings.extend(doubts(case, steady, bodies, &relaxations, curves)?);
     }
     Ok(Some(estimate))
 }
@@ -220,6 +225,7 @@ fn doubts(
     steady: &Steady,
     bodies: [&Topography; 2],
     relaxations: &[Option<BodyRelaxation>; 2],
+    curves: &[Option<MasterCurve>; 2],
 ) -> Result<Vec<String>> {
     let grid = bodies[0].grid();
     let heights = bodies.map(Topography::heights);
@@ -228,13 +234,66 @@ fn doubts(
         let hint = "give one body heights that do not change along x, such as `form = \"flat\"`".to_owned();
         case.error_at("steady", source.to_string(), Some(hint))
     })?;
-    let index = if moving == MovingBody::Lower { 0 } else { 1 };
+    let (index, name, body) = match moving {
+        MovingBody::Lower => (0, "lower", &case.lower),
+        MovingBody::Upper => (1, "upper", &case.upper),
+    };
     let creep = match &relaxations[index] {
         Some((relaxation, _)) => relaxation.creep(),
         None => Creep::elastic(1.0),
     };
     let (boundary, [pitch, _], [extent, _]) = (case.contact.boundary, grid.pitch, grid.extent());
-    Ok(with::viscoelastic::doubts(&creep, boundary, pitch, extent, &steady.all()))
+    let mut doubts = with::viscoelastic::doubts(&creep, boundary, pitch, extent, &steady.all());
+    if let (Some(curve), Some(viscoelastic)) = (&curves[index], &body.viscoelastic) {
+        let factor = viscoelastic.shift_factor(temperature(case, index))?;
+        let rough = bodies[1 - index];
+        doubts.extend(beyond(name, curve, factor, body.material.young, rough, &steady.all()));
+    }
+    Ok(doubts)
+}
+
+/// Returns reasons not to trust a master curve, whose times are multiplied by a `factor`, at the frequencies at which a `rough` body passes.
+fn beyond(
+    name: &str,
+    MasterCurve { points, .. }: &MasterCurve,
+    factor: f64,
+    young: Pascal,
+    rough: &Topography,
+    speeds: &[MetrePerSecond],
+) -> Vec<String> {
+    let (Some(first), Some(last), true) = (points.first(), points.last(), rough.sdq() > 0.0) else {
+        return Vec::new();
+    };
+    let wave = std::f64::consts::TAU * rough.sq() / rough.sdq();
+    let told = |speed: MetrePerSecond, end: &MasterPoint, verb: &str| {
+        format!(
+            "at {} the waves of the roughness, about {} long, deform the {name} body at {} Hz, and its master curve {verb} at {} Hz: the fit \
+             beyond it is a guess",
+            units::format(speed, Dimension::Speed),
+            units::format(wave, Dimension::Length),
+            units::format_number(speed / wave),
+            units::format_number(end.frequency / factor)
+        )
+    };
+    let slowest = speeds.iter().copied().fold(f64::INFINITY, f64::min);
+    let fastest = speeds.iter().copied().fold(0.0, f64::max);
+    // Below the curve the modulus can only fall to the relaxed one.
+    let begins = slowest / wave < first.frequency / factor && first.storage > FALLEN * young;
+    let ends = fastest / wave > last.frequency / factor;
+    let begins = begins.then(|| told(slowest, first, "begins"));
+    begins.into_iter().chain(ends.then(|| told(fastest, last, "ends"))).collect()
+}
+
+/// Returns a reason not to trust a fit to the master curve of the body `name`.
+fn poor(name: &str, fit: &MasterFit) -> Option<String> {
+    let worst = fit.errors[0].max(fit.errors[1]);
+    (worst > POOR).then(|| {
+        format!(
+            "the fit to the master curve of the {name} body is off by up to {} %: more `terms_per_decade` help, or a `young` that is what the \
+             storage modulus falls to",
+            units::format_number(100.0 * worst)
+        )
+    })
 }
 
 /// Describes a viscoelastic body.

@@ -100,7 +100,7 @@ fn weights(duration: Second, time: Second) -> [f64; 3] {
 /// `start` is a pressure near the solution.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for a time that is not finite and ≥ 0; the errors of [`solve_normal`](crate::solver::solve_normal).
+/// [`Error::OutOfRange`](crate::Error::OutOfRange) for a time that is not finite and ≥ 0; the errors of [`solve_normal`](crate::solver::solve_normal).
 ///
 /// # Panics
 /// If a field has another shape than the operator's grid.

@@ -189,3 +189,50 @@ fn the_shift_of_williams_landel_and_ferry_has_its_temperatures() {
         assert!(error.contains("bulk") && error.contains("Tᵣ − c₂"), "{bulk}: {error}");
     }
 }
+
+#[test]
+fn a_master_curve_is_doubted_beyond_its_frequencies_and_where_its_fit_is_poor() {
+    const FINE: &str = "terms_per_decade = 4";
+    let folder = tempfile::tempdir().unwrap();
+    // A body with E₀ = 1 MPa, and 9 MPa that relax in 0.1 s.
+    let points = (0..=30).map(|n| 10f64.powf(-1.0 + 0.1 * f64::from(n))).map(|frequency| {
+        let z = std::f64::consts::TAU * frequency * 0.1;
+        let [storage, loss] = [1.0 + 9.0 * z * z / (1.0 + z * z), 9.0 * z / (1.0 + z * z)];
+        format!("{frequency}, {storage}, {loss}\n")
+    });
+    let curve = format!("frequency_Hz, storage_MPa, loss_MPa\n{}", points.collect::<String>());
+    fs::write(folder.path().join("master.csv"), curve).unwrap();
+    let told = |young: &str, more: &str, speeds: &str| {
+        let text = format!(
+            r#"
+contact = {{ mean_pressure = "50 kPa", boundary = "periodic" }}
+steady = {{ speeds = {speeds} }}
+[lower]
+young = "{young}"
+poisson = 0.5
+topography = {{ form = "flat", shape = [32, 32], pitch = "10 um" }}
+viscoelastic = {{ file = "master.csv", {more} }}
+[upper]
+young = "inf"
+poisson = 0.3
+topography = {{ generate = "self-affine", sdq = 0.1, hurst = 0.8, shortest = "80 um" }}
+"#
+        );
+        let case = Case::parse(&text, "case.toml".as_ref(), folder.path()).unwrap();
+        let rest = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
+        rest.warnings
+            .into_iter()
+            .filter(|warning| warning.contains("master curve"))
+            .collect::<Vec<_>>()
+            .join("; ")
+    };
+    assert_eq!(told("1 MPa", FINE, r#"["1 mm/s", "10 mm/s"]"#), "");
+    assert!(told("1 MPa", FINE, r#"["1 mm/s", "1 m/s"]"#).contains("its master curve ends at 100 Hz"));
+    // The same speed of a warm body, whose times are shorter.
+    assert_eq!(told("1 MPa", "terms_per_decade = 4, shift = 0.01", r#"["1 m/s"]"#), "");
+    // At 0.1 Hz it has relaxed to 1.04 MPa.
+    assert_eq!(told("1 MPa", FINE, r#"["1 um/s"]"#), "");
+    assert!(told("0.5 MPa", FINE, r#"["1 um/s"]"#).contains("its master curve begins at 0.1 Hz"));
+    let poor = told("1 MPa", "terms_per_decade = 1", r#"["1 mm/s"]"#);
+    assert!(poor.contains("more `terms_per_decade` help"), "{poor}");
+}

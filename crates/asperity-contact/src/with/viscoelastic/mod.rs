@@ -149,8 +149,11 @@ impl Viscoelasticity {
         Some(temperature? - self.wlf_at? + self.wlf_c2?)
     }
 
-    /// Returns the factor of the times at a `temperature` of the body.
-    fn factor(&self, temperature: Option<Kelvin>) -> Result<f64> {
+    /// Returns the shift factor a_T: that of all times at a `temperature` of the body.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a temperature at which the times are infinite.
+    pub fn shift_factor(&self, temperature: Option<Kelvin>) -> Result<f64> {
         let wlf = self.wlf_c1.zip(self.wlf_c2).zip(self.above_infinite_times(temperature));
         let Some(((c1, c2), above)) = wlf else { return Ok(self.shift) };
         let factor = self.shift * 10f64.powf(c1 * (c2 / above - 1.0));
@@ -169,8 +172,7 @@ impl Viscoelasticity {
     /// Returns the relaxation of a body with this `relaxed` modulus at a `temperature`, and the fit if it has a master `curve`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`](crate::Error::OutOfRange) for a temperature at which the times are infinite; the errors of [`Relaxation::new`] and
-    /// of [`fit_master_curve`].
+    /// The errors of [`Self::shift_factor`], [`Relaxation::new`] and [`fit_master_curve`].
     pub fn relaxation(
         &self,
         relaxed: Pascal,
@@ -185,7 +187,7 @@ impl Viscoelasticity {
                 terms.map(|(modulus, time)| RelaxationTerm { modulus: *modulus, time: *time }).collect()
             }
         };
-        let factor = self.factor(temperature)?;
+        let factor = self.shift_factor(temperature)?;
         let shifted = terms.into_iter().map(|term| RelaxationTerm { time: factor * term.time, ..term });
         Ok((Relaxation::new(relaxed, shifted)?, fit))
     }
