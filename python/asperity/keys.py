@@ -635,7 +635,11 @@ class Motion(TypedDict, total=False):
     speed_upper: Annotated[Quantity | None, "motion",
         "`\"shift\"` only: speed of the upper surface along x; at most one speed may be 0; speed. By default `\"1 m/s\"`."]
     speed: Annotated[Quantity | None, "motion",
-        "`\"overlap\"` only: speed of the upper body; required for growing films and temperature; speed > 0. Without it: unknown."]
+        "`\"overlap\"` only: speed of the upper body; required for growing films, temperature and viscoelastic bodies; speed > 0. "
+        "Without it: unknown."]
+    pause: Annotated[Quantity | None, "motion",
+        "Viscoelastic bodies only: time for which they are apart between two passes; without it the passes of a shift follow each "
+        "other in contact; time ≥ 0. By default `0`."]
     path: Annotated[Literal["one-way", "reciprocating"] | None, "motion",
         "`\"reciprocating\"`: a pass goes forth and back. By default `\"one-way\"`."]
     offset_y: Annotated[int | Literal["random"] | None, "motion",

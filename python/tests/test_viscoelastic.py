@@ -63,3 +63,17 @@ def test_rubber_creeps_under_a_load() -> None:
     time, area = c.increments["time"], c.increments["contact_area"]
     assert time[0] == 0 and time[-1] == pytest.approx(20) and np.all(np.diff(area) >= 0)
     assert c.increments["approach"][-1] == pytest.approx(10 ** (2 / 3) * c.increments["approach"][0], rel=0.05)
+
+
+def test_passes_of_rubber_remember_the_ones_before() -> None:
+    lower, upper = bodies(moduli=["9 MPa"], times=["1 ms"])
+    keywords = {"mean_pressure": "50 kPa", "boundary": "periodic", "strategy": "shift", "speed_upper": "20 mm/s"}
+    run = asp.simulate(lower, upper, passes=3, stride=1, progress=False, **keywords)
+    drag = run.passes["drag_coefficient"]
+    assert np.all(drag > 0) and np.isnan(run.steps["drag"][0]) and np.all(np.isfinite(run.steps["drag"][1:]))
+    c = asp.contact(lower, upper, mean_pressure="50 kPa", boundary="periodic", steady={"speed": "20 mm/s"})
+    assert drag[-1] == pytest.approx(c.sweep["drag_coefficient"][0], rel=0.2)
+    apart = asp.simulate(lower, upper, passes=2, stride=1, pause="1 s", progress=False, **keywords)
+    assert apart.passes["approach"][1] == pytest.approx(apart.passes["approach"][0], rel=1e-3)
+    with pytest.raises(errors.CaseError, match="passes of viscoelastic bodies need a speed"):
+        asp.simulate(lower, upper, load="1 mN", progress=False)

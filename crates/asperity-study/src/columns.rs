@@ -8,10 +8,10 @@ use super::summary::{CONVERGED, RunningIn};
 use asperity_base::units::Dimension;
 use asperity_contact::each_capability;
 use asperity_contact::motion::{
-    AdhesionPassRecord, AdhesionRecord, Column, CreepRecord, ENDINGS, FrettingRecord, HeatRecord,
-    IncrementRecord, PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Presence,
-    ResidualRecord, RunningRecord, ShearRecord, StaticRecord, SteadyRecord, StepRecord, SweepRecord,
-    UpdateRecord,
+    AdhesionPassRecord, AdhesionRecord, Column, CreepRecord, DragRecord, ENDINGS, FrettingRecord, HeatRecord,
+    IncrementRecord, PassDragRecord, PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord,
+    Presence, ResidualRecord, RunningRecord, ShearRecord, StaticRecord, SteadyRecord, StepRecord,
+    SweepRecord, UpdateRecord,
 };
 use asperity_contact::with::adhesion::AdhesionSummary;
 use asperity_contact::with::{Capability, Row as _};
@@ -36,6 +36,8 @@ pub fn records() -> &'static [(&'static str, &'static [Column])] {
             ("SweepRecord", SweepRecord::OWN_COLUMNS),
             ("SteadyRecord", SteadyRecord::OWN_COLUMNS),
             ("CreepRecord", CreepRecord::OWN_COLUMNS),
+            ("DragRecord", DragRecord::OWN_COLUMNS),
+            ("PassDragRecord", PassDragRecord::OWN_COLUMNS),
             ("IncrementRecord", IncrementRecord::OWN_COLUMNS),
             ("PlasticStepRecord", PlasticStepRecord::OWN_COLUMNS),
             ("FrettingRecord", FrettingRecord::OWN_COLUMNS),

@@ -4,8 +4,9 @@ use crate::case::{Body, Case, StageSpec};
 use crate::given::SurfaceInput;
 use crate::io::{regular, sha256};
 use asperity_base::error::{Error, Result};
-use asperity_base::units::{self, Dimension, Kelvin, MetrePerSecond, Pascal};
+use asperity_base::units::{self, Dimension, Kelvin, Metre, MetrePerSecond, Pascal};
 use asperity_contact::motion::{MovingBody, Pair};
+use asperity_contact::operator::Boundary;
 use asperity_contact::viscoelastic::{Creep, MasterFit, MasterPoint, Relaxation};
 use asperity_contact::with;
 use asperity_contact::with::viscoelastic::Steady;
@@ -197,7 +198,17 @@ pub(super) fn estimate(
     }
     estimate.warnings.extend(case.history.iter().flat_map(coarse));
     if let Some(steady) = &case.steady {
-        estimate.warnings.extend(doubts(case, steady, bodies, &relaxations, curves)?);
+        estimate.warnings.extend(of_steady(case, steady, bodies, &relaxations, curves)?);
+    }
+    if let Some(motion) = case.motion(1.0) {
+        let step = motion.stride as f64 * bodies[0].grid().pitch[0];
+        let speed =
+            motion.sliding_distance(bodies[0].grid().pitch[0]) / motion.step_time(bodies[0].grid().pitch[0]);
+        for index in [0, 1].into_iter().filter(|index| relaxations[*index].is_some() && speed > 0.0) {
+            // Waves along y do not matter: bodies that pass over each other come apart from everywhere.
+            let passed = Passed { boundary: Boundary::FREE, step, speeds: &[speed] };
+            estimate.warnings.extend(doubts(case, index, &passed, bodies, &relaxations, curves)?);
+        }
     }
     Ok(Some(estimate))
 }
@@ -216,11 +227,19 @@ fn coarse(stage: &StageSpec) -> impl Iterator<Item = String> {
     })
 }
 
+/// How a contact passes over a body.
+struct Passed<'a> {
+    boundary: Boundary,
+    /// Length of the steps that resolve it.
+    step: Metre,
+    speeds: &'a [MetrePerSecond],
+}
+
 /// Returns reasons not to trust the steady sliding of a case.
 ///
 /// # Errors
 /// [`Error::Case`] if both bodies are rough along x.
-fn doubts(
+fn of_steady(
     case: &Case,
     steady: &Steady,
     bodies: [&Topography; 2],
@@ -234,20 +253,31 @@ fn doubts(
         let hint = "give one body heights that do not change along x, such as `form = \"flat\"`".to_owned();
         case.error_at("steady", source.to_string(), Some(hint))
     })?;
-    let (index, name, body) = match moving {
-        MovingBody::Lower => (0, "lower", &case.lower),
-        MovingBody::Upper => (1, "upper", &case.upper),
-    };
+    let index = if moving == MovingBody::Lower { 0 } else { 1 };
+    let passed = Passed { boundary: case.contact.boundary, step: grid.pitch[0], speeds: &steady.all() };
+    doubts(case, index, &passed, bodies, relaxations, curves)
+}
+
+/// Returns reasons not to trust the contact that passes over a body, 0 for the lower one.
+fn doubts(
+    case: &Case,
+    index: usize,
+    passed: &Passed<'_>,
+    bodies: [&Topography; 2],
+    relaxations: &[Option<BodyRelaxation>; 2],
+    curves: &[Option<MasterCurve>; 2],
+) -> Result<Vec<String>> {
+    let (name, body) = [("lower", &case.lower), ("upper", &case.upper)][index];
     let creep = match &relaxations[index] {
         Some((relaxation, _)) => relaxation.creep(),
         None => Creep::elastic(1.0),
     };
-    let (boundary, [pitch, _], [extent, _]) = (case.contact.boundary, grid.pitch, grid.extent());
-    let mut doubts = with::viscoelastic::doubts(&creep, boundary, pitch, extent, &steady.all());
+    let Passed { boundary, step, speeds } = *passed;
+    let mut doubts =
+        with::viscoelastic::doubts(&creep, boundary, step, bodies[index].grid().extent()[0], speeds);
     if let (Some(curve), Some(viscoelastic)) = (&curves[index], &body.viscoelastic) {
         let factor = viscoelastic.shift_factor(temperature(case, index))?;
-        let rough = bodies[1 - index];
-        doubts.extend(beyond(name, curve, factor, body.material.young, rough, &steady.all()));
+        doubts.extend(beyond(name, curve, factor, body.material.young, bodies[1 - index], speeds));
     }
     Ok(doubts)
 }

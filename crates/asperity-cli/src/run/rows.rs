@@ -79,6 +79,9 @@ impl Rows {
                 ranked.push((Rank::Always, Cell::of("drag", "adhesive_drag", adhesion.adhesive_drag)));
             }
         }
+        if let Some(drag) = &pass.drag {
+            ranked.push((Rank::Always, Cell::of("drag/W", "drag_coefficient", drag.drag_coefficient)));
+        }
         ranked.push((Rank::Roughness, Cell::of("Sq lower", "sq_lower_interior", pass.sq_lower_interior)));
         ranked
             .push((Rank::UpperRoughness, Cell::of("Sq upper", "sq_upper_interior", pass.sq_upper_interior)));

@@ -77,6 +77,7 @@ impl Solver<'_> {
             lost: self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect(),
             has_changed: false,
             plastic_pass: None,
+            drag: None,
         }
     }
 }

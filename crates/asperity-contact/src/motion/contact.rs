@@ -241,6 +241,7 @@ impl Contact {
             heat: None,
             adhesion: self.adhesion,
             plastic: None,
+            drag: None,
         }
     }
 }

@@ -138,7 +138,9 @@ impl GridCompliance {
             let shortest = pitch.map(|pitch| PI / pitch);
             checkerboard = checkerboard.min(response.harmonic_displacement(shortest[0], shortest[1]));
         }
-        Self { single: influence.at(0.0, 0.0), checkerboard }
+        // At once viscoelastic bodies answer as glass.
+        let glassy = pair.creep_together().map_or(1.0, |creep| creep.glassy / creep.relaxed());
+        Self { single: glassy * influence.at(0.0, 0.0), checkerboard: glassy * checkerboard }
     }
 }
 

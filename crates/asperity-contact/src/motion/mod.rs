@@ -6,6 +6,7 @@ mod batch;
 mod body;
 mod contact;
 mod course;
+mod creeping;
 mod fretting;
 mod plastic_volume;
 mod elasto_plastic;
@@ -56,9 +57,10 @@ pub use path::{OffsetY, Path, Position, Stroke, overlap_positions, shift_positio
 pub use plastic_volume::PlasticVolume;
 pub use record::lost_volumes::{ENDINGS, is_volume_of_law};
 pub use record::{
-    AdhesionPassRecord, AdhesionRecord, CreepRecord, FrettingRecord, HeatRecord, IncrementRecord, LostVolume,
-    PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Regime, ResidualRecord, RunningRecord,
-    ShearRecord, StaticRecord, SteadyRecord, StepRecord, SweepRecord, UpdateRecord,
+    AdhesionPassRecord, AdhesionRecord, CreepRecord, DragRecord, FrettingRecord, HeatRecord, IncrementRecord,
+    LostVolume, PassDragRecord, PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Regime,
+    ResidualRecord, RunningRecord, ShearRecord, StaticRecord, SteadyRecord, StepRecord, SweepRecord,
+    UpdateRecord,
 };
 pub use record::{FILM, WEAR};
 pub use report::PassReport;
@@ -184,6 +186,9 @@ pub struct Motion {
     pub offset_y: OffsetY,
     /// Where bodies that attract each other come from at each position.
     pub adhesion_history: AdhesionHistory,
+    /// Time, ≥ 0, for which viscoelastic bodies are apart between two passes. Without it the next pass of a shift begins from the last contact;
+    /// the bodies of an overlap then come apart for no time.
+    pub pause: Second,
 }
 
 impl Motion {
@@ -204,6 +209,7 @@ impl Motion {
             path: Path::OneWay,
             offset_y: OffsetY::NONE,
             adhesion_history: AdhesionHistory::None,
+            pause: 0.0,
         }
     }
 
@@ -283,6 +289,17 @@ impl Motion {
     #[must_use]
     pub const fn with_adhesion_history(self, adhesion_history: AdhesionHistory) -> Self {
         Self { adhesion_history, ..self }
+    }
+
+    /// Sets the time, ≥ 0, for which viscoelastic bodies are apart between two passes.
+    #[must_use]
+    pub const fn with_pause(self, pause: Second) -> Self {
+        Self { pause, ..self }
+    }
+
+    /// Time for which the bodies are apart before a pass; `None` if they stay in contact.
+    fn apart(&self) -> Option<Second> {
+        (self.strategy == Strategy::Overlap || self.pause > 0.0).then_some(self.pause)
     }
 
     /// Returns the positions of a `pass`, from 1, for a lower and an upper body of `columns` columns, `width` cells across.

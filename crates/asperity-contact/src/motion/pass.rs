@@ -32,6 +32,16 @@ pub(super) struct Pass {
     pub(super) lost: Vec<LostVolume>,
     /// Results for elasto-plastic bodies; `None` for others.
     pub(super) plastic_pass: Option<ElastoPlasticPass>,
+    /// Drag of viscoelastic bodies; `None` for others.
+    pub(super) drag: Option<Drag>,
+}
+
+/// Drag of viscoelastic bodies in a pass.
+pub(super) struct Drag {
+    /// Drag at each position, NaN where it is unknown.
+    pub(super) positions: Vec<Newton>,
+    /// Drag while the bodies come apart, after the last position; 0 if they stay in contact, or if they are lifted.
+    pub(super) leaving: Newton,
 }
 
 impl Pass {
@@ -50,6 +60,8 @@ pub(super) struct Solver<'a> {
     pub(super) laws: &'a [Box<dyn Law>],
     /// Whether the gap of each position is kept.
     pub(super) gaps: &'a [bool],
+    /// The last contact of the pass before, if viscoelastic bodies go on from it.
+    pub(super) last: Option<Contact>,
     pub(super) watch: &'a dyn Watch,
     /// Pass and trial, for progress reports.
     pub(super) progress: Progress,
@@ -189,7 +201,14 @@ impl Solver<'_> {
                 law::advance(self.laws, &mut after, &sums, 1.0, self.interiors, &mut lost);
                 contacts.push(contact);
             }
-            return Ok(Pass { contacts, pair: after, lost, has_changed: true, plastic_pass: None });
+            return Ok(Pass {
+                contacts,
+                pair: after,
+                lost,
+                has_changed: true,
+                plastic_pass: None,
+                drag: None,
+            });
         }
         let positions = 0..self.positions.len();
         let contacts: Vec<Contact> = if self.follows(pair) {
@@ -205,7 +224,7 @@ impl Solver<'_> {
                 positions.into_par_iter().map(|index| solve(pair, index, None).map(|(contact, _)| contact));
             alone.collect::<Result<_>>()?
         };
-        Ok(Pass { contacts, pair: after, lost, has_changed: false, plastic_pass: None })
+        Ok(Pass { contacts, pair: after, lost, has_changed: false, plastic_pass: None, drag: None })
     }
 }
 
@@ -215,7 +234,12 @@ const MIN_EXTRAPOLATION: f64 = -0.5;
 const MAX_EXTRAPOLATION: f64 = 1.0;
 
 /// Extrapolates the pressure at a position over the approach from those of earlier trials.
-fn first_guess(earlier: &[Vec<Contact>], index: usize, control: Control, width: usize) -> Option<Field> {
+pub(super) fn first_guess(
+    earlier: &[Vec<Contact>],
+    index: usize,
+    control: Control,
+    width: usize,
+) -> Option<Field> {
     let latest = &earlier.first()?[index];
     if latest.pressure.is_empty() {
         return None;

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use crate::error::Result;
 use crate::grid::{CellValues, Field};
+use crate::motion::creeping;
 use crate::motion::extrapolation::LastExtrapolation;
 use crate::motion::fretting::{ChangedBodies, LastCycle};
 use crate::motion::pair::Pair;
@@ -163,9 +164,9 @@ impl CourseState for LoadingState {
             changed.store(to);
         }
         if let Some(memory) = &self.memory {
-            to.field("crept_elastic", "Pa m", memory.elastic());
+            to.field(creeping::ELASTIC, "Pa m", memory.elastic());
             for (term, z) in memory.delayed().iter().enumerate() {
-                to.field(&crept(term), "Pa m", z);
+                to.field(&creeping::crept(term), "Pa m", z);
             }
         }
         let Progress { stage, cycles, step } = self.next;
@@ -219,11 +220,11 @@ impl LoadingState {
                 ..Stats::default()
             },
         };
-        let memory = restore_if(from, "crept_elastic", || {
+        let memory = restore_if(from, creeping::ELASTIC, || {
             let creep = pair.creep_together().unwrap_or(Creep::elastic(0.0));
-            let delayed = (0..creep.terms.len()).map(|term| from.field(&crept(term)));
+            let delayed = (0..creep.terms.len()).map(|term| from.field(&creeping::crept(term)));
             let delayed = delayed.collect::<Result<Vec<_>>>()?;
-            Ok(CreepMemory::restored(creep, delayed, from.field("crept_elastic")?))
+            Ok(CreepMemory::restored(creep, delayed, from.field(creeping::ELASTIC)?))
         })?;
         let has_friction = from.holds("stick");
         let contact = match has_friction {
@@ -259,11 +260,6 @@ impl LoadingState {
             changed,
         })
     }
-}
-
-/// Name of the memory of a retardation time, from 0.
-fn crept(term: usize) -> String {
-    format!("crept_{}", term + 1)
 }
 
 impl ChangedBodies {

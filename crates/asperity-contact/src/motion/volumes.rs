@@ -136,7 +136,7 @@ impl Solver<'_> {
         let record = PassPlasticRecord::of(&after, volumes.states(), work, at_rim);
         let lost = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
         let plastic_pass = Some(ElastoPlasticPass { volumes: after, steps, record, states_under_load });
-        Ok(Pass { contacts, pair: bodies, lost, has_changed: true, plastic_pass })
+        Ok(Pass { contacts, pair: bodies, lost, has_changed: true, plastic_pass, drag: None })
     }
 
     /// Returns how the bodies of a `pair` are placed at a position.

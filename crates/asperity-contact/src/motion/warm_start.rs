@@ -74,6 +74,13 @@ impl WarmStart {
         }
     }
 
+    /// Returns the last contact of the pass; `None` before the first pass.
+    pub(super) fn last(&self, pair: &Pair, positions: &[Position]) -> Option<Contact> {
+        let (loaded_cells, position) = self.positions.last().zip(positions.last())?;
+        let LoadedCells { approach, pressure, .. } = loaded_cells;
+        Some(Contact::from_pressure(pair, *position, *approach, pressure.clone(), Stats::default()))
+    }
+
     /// Number of passes over which the last computed one was extrapolated.
     fn extrapolated_passes(&self) -> f64 {
         self.extrapolation.as_ref().map_or(1.0, |last| last.passes as f64)

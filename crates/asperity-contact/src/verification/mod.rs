@@ -149,6 +149,7 @@ pub const CASES: &[Case] = &[
     adhesion::NO_WORK,
     viscoelastic::WAVE,
     viscoelastic::CYLINDER,
+    viscoelastic::PASS,
     viscoelastic::FAST,
     viscoelastic::CREEP,
     shear::COEFFICIENTS,

@@ -1,14 +1,17 @@
-//! Steady sliding of viscoelastic bodies.
+//! Steady sliding of viscoelastic bodies, their passes and their creep.
 
 use std::f64::consts::TAU;
 
 use super::{Case, Check, Expected, PARAMS, relative, study};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
+use crate::material::Material;
+use crate::motion::{LoadControl, Motion, Pair, Simulation, Strategy};
 use crate::operator::{Boundary, Edge, FreeFft};
 use crate::reference::ViscoelasticCylinder;
 use crate::reference::viscoelastic::{fast_sphere, sphere_under_step};
 use crate::solver::Control;
+use crate::surface::Topography;
 use crate::viscoelastic::{
     CreepMemory, Relaxation, RelaxationTerm, SteadyContact, SteadySliding, solve_in_time, solve_steady,
 };
@@ -82,6 +85,45 @@ fn cylinder() -> Result<Vec<Check>> {
             errors[1] = relative(touching.map_or(0.0, at) + 0.5 * pitch, ahead);
         }
         Ok(errors)
+    })
+}
+
+/// A cylinder that passes over a body which has not been touched before. In the end it slides as if it always had.
+pub(super) const PASS: Case =
+    Case { name: "Viscoelastic body: cylinder in a pass", source: "Hunter (1961)", checks: pass };
+
+fn pass() -> Result<Vec<Check>> {
+    const SPEED: f64 = 0.3;
+    let checks = [("drag", Expected::Order { order: 1.0..=3.0, finest: 5e-3 })];
+    study("cells of the cylinder", &[16, 32, 64], checks, |n| {
+        let decay = SPEED;
+        let (glassy, delayed) = (1.0 / RATIO, 1.0 - 1.0 / RATIO);
+        let exact = ViscoelasticCylinder { radius: 1.0, load_per_length: LOAD, glassy, delayed, decay };
+        let [ahead, behind] = exact.reach();
+        let pitch = 2.6 * ahead.max(behind) / n as f64;
+        let at = |i: usize| pitch * (i as f64 + 0.5 - 0.5 * n as f64);
+        let body = |columns: usize, height: &dyn Fn(usize) -> f64| {
+            let grid = Grid::new([columns, 1], [pitch; 2])?;
+            Topography::new(grid, Field::from_shape_fn(grid.shape, |(i, _)| height(i)))
+        };
+        let (long, cylinder) = (body(5 * n, &|_| 0.0)?, body(n, &|i| 0.5 * at(i).powi(2))?);
+        // Half of an incompressible body, whose composite modulus is 1.
+        let young = 0.75;
+        let [soft, rigid] = [Material::elastic(young, 0.5)?, Material::elastic(f64::INFINITY, 0.3)?];
+        let relaxation =
+            Relaxation::new(young, [RelaxationTerm { modulus: young * (RATIO - 1.0), time: 1.0 / RATIO }])?;
+        let materials = [&soft, &rigid];
+        let pair =
+            Pair::new(long, cylinder, materials)?.with_relaxation(materials, [Some(relaxation), None])?;
+        let motion = Motion::new(Strategy::Overlap, Control::Load(LOAD * pitch))
+            .with_load_control(LoadControl::Step)
+            .with_speed(SPEED);
+        let line = Boundary([Edge::Free, Edge::Periodic]);
+        let passed = Simulation::new(pair, line, motion, PARAMS)?.solve(&())?;
+        // The last position at which the whole cylinder is over the body.
+        let step = passed.steps().iter().rev().find(|step| step.overlap_columns == n);
+        let drag = step.and_then(|step| step.drag).map_or(f64::NAN, |record| record.drag);
+        Ok([relative(drag / pitch, exact.drag_per_length())])
     })
 }
 

@@ -52,6 +52,11 @@ impl CreepMemory {
         &self.elastic
     }
 
+    /// Returns the field z of each term, and Lp at the end of the last step, Pa m.
+    pub fn into_fields(self) -> (Vec<Field>, Field) {
+        (self.delayed, self.elastic)
+    }
+
     /// Returns the compliance with which a step of the time `duration` ≥ 0 answers: `J_g + Σ J_k (1 − φ_k)`.
     pub fn compliance(&self, duration: Second) -> PerPascal {
         let terms = self.creep.terms.iter().map(|term| term.compliance * weights(duration, term.time)[2]);
@@ -68,6 +73,19 @@ impl CreepMemory {
             history.scaled_add(before, &self.elastic);
         }
         history
+    }
+
+    /// Computes the present displacement: `J_g Lp + Σ J_k z_k`, m.
+    pub fn displacement(&self) -> Field {
+        let mut displacement = self.history(0.0);
+        displacement.scaled_add(self.creep.glassy, &self.elastic);
+        displacement
+    }
+
+    /// Unloads the body at once, and leaves it alone for the time `duration`.
+    pub fn recover(&mut self, duration: Second) {
+        self.advance(Field::zeros(self.elastic.raw_dim()), 0.0);
+        self.advance(Field::zeros(self.elastic.raw_dim()), duration);
     }
 
     /// Advances by the time `duration`, at the end of which the elastic half-space of a unit modulus would be displaced by `elastic`, Pa m.
@@ -118,11 +136,29 @@ pub fn solve_in_time(
 ) -> Result<Solution> {
     let is_time = duration >= 0.0 && duration.is_finite();
     check_in(Dimension::Time, "duration", duration, is_time, "a finite time of at least 0")?;
+    let (compliance, history) = (memory.compliance(duration), memory.history(duration));
+    let (solution, elastic) =
+        solve_step(operator, modulus, (compliance, &history), initial_gap, control, start, params, watch)?;
+    memory.advance(elastic, duration);
+    Ok(solution)
+}
+
+/// Solves the contact at the end of a step in which the bodies answer with this compliance, beyond their displacement by earlier loads.
+/// Returns it with the displacement Lp of the elastic half-space of a unit modulus.
+#[expect(clippy::too_many_arguments, reason = "the contact, the answer of the bodies, and who looks on")]
+pub(crate) fn solve_step(
+    operator: &mut dyn Operator,
+    modulus: Pascal,
+    (compliance, history): (PerPascal, &Field),
+    initial_gap: &Field,
+    control: Control,
+    start: Option<&Field>,
+    params: &Params,
+    watch: &dyn Watch,
+) -> Result<(Solution, Field)> {
     // The pressures of the elastic contact are those of this one times its compliance over that of the operator.
-    let compliance = memory.compliance(duration);
     let scale = compliance * modulus;
-    let history = memory.history(duration);
-    let gap = &history + &*in_rows(initial_gap);
+    let gap = history + &*in_rows(initial_gap);
     let control = match control {
         Control::Load(load) => Control::Load(scale * load),
         approach @ Control::Approach(_) => approach,
@@ -130,13 +166,14 @@ pub fn solve_in_time(
     let start = start.map(|start| start * scale);
     let start = start.as_ref();
     let solved = solve_normal_watched(operator, &gap, &Bounds::ELASTIC, control, start, params, watch)?;
-    memory.advance(&solved.displacement / compliance, duration);
-    Ok(Solution {
+    let elastic = &solved.displacement / compliance;
+    let solution = Solution {
         initial_gap: initial_gap.clone(),
         pressure: solved.pressure / scale,
         displacement: solved.displacement + history,
         ..solved
-    })
+    };
+    Ok((solution, elastic))
 }
 
 #[cfg(test)]

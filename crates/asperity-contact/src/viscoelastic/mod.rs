@@ -1,7 +1,7 @@
 //! Linear viscoelastic bodies: relaxation and creep, steady sliding, memory in time.
 
 mod master_curve;
-mod memory;
+pub(crate) mod memory;
 mod operator;
 mod panels;
 mod series;

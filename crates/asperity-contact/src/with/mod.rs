@@ -192,6 +192,7 @@ pub fn kept() -> Vec<Kept> {
 /// Returns what these passes have done to the bodies, as far as it answers a question of the user.
 pub fn after_passes(passes: &[PassRecord]) -> Vec<Answer> {
     let mut answers = Vec::new();
+    answers.extend(viscoelastic::in_passes(passes));
     each_law!(L => answers.extend(L::after_passes(passes)));
     answers
 }

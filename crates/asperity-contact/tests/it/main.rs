@@ -26,5 +26,6 @@ mod solver;
 mod steady_rolling;
 mod sweep;
 mod viscoelastic;
+mod viscoelastic_passes;
 mod watch;
 mod support;

@@ -1,5 +1,6 @@
 //! Viscoelastic bodies in steady sliding and in time against dense programs, and their symmetries.
 
+use crate::support::dense::{dense, mean_compliance, relaxation as body};
 use asperity_contact::adhesion::Adhesion;
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
@@ -8,8 +9,7 @@ use asperity_contact::motion::{
 use asperity_contact::operator::{Boundary, Edge, Operators};
 use asperity_contact::solver::{Control, Friction, Loading, Params, Tangential};
 use asperity_contact::viscoelastic::{
-    Creep, CreepMemory, CreepTerm, Relaxation, RelaxationTerm, SteadyContact, SteadySliding, solve_in_time,
-    solve_steady,
+    Creep, CreepMemory, Relaxation, RelaxationTerm, SteadyContact, SteadySliding, solve_in_time, solve_steady,
 };
 use asperity_contact::{Field, Grid};
 use asperity_surface::Topography;
@@ -19,15 +19,6 @@ use rand_chacha::ChaCha8Rng;
 
 const BOUNDARIES: [Boundary; 3] =
     [Boundary::FREE, Boundary::PERIODIC, Boundary([Edge::Free, Edge::Periodic])];
-
-/// A random body with one to three times, E₀ = 1.
-fn body(random: &mut ChaCha8Rng) -> Relaxation {
-    let terms = (0..random.random_range(1..4)).map(|_| RelaxationTerm {
-        modulus: 10f64.powf(random.random_range(-0.5..1.2)),
-        time: 10f64.powf(random.random_range(-2.0..1.0)),
-    });
-    Relaxation::new(1.0, terms.collect::<Vec<_>>()).unwrap()
-}
 
 fn gap(random: &mut ChaCha8Rng, shape: [usize; 2]) -> Field {
     Field::from_shape_simple_fn(shape, || random.random_range(0.0..1.0))
@@ -59,51 +50,6 @@ fn matrix(grid: Grid, boundary: Boundary, creep: &Creep, speed: f64) -> Vec<Vec<
     (0..grid.cells()).map(|row| columns.iter().map(|column| column[row]).collect()).collect()
 }
 
-/// Solves the dense equations A x = b by elimination with row pivots.
-fn eliminated(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
-    let n = b.len();
-    for k in 0..n {
-        let pivot = (k..n).max_by(|i, j| a[*i][k].abs().total_cmp(&a[*j][k].abs())).unwrap();
-        a.swap(k, pivot);
-        b.swap(k, pivot);
-        for i in k + 1..n {
-            let factor = a[i][k] / a[k][k];
-            let (above, below) = a.split_at_mut(i);
-            below[0][k..].iter_mut().zip(&above[k][k..]).for_each(|(x, y)| *x -= factor * y);
-            b[i] -= factor * b[k];
-        }
-    }
-    for k in (0..n).rev() {
-        let known: f64 = (k + 1..n).map(|j| a[k][j] * b[j]).sum();
-        b[k] = (b[k] - known) / a[k][k];
-    }
-    b
-}
-
-/// The pressures p ≥ 0 with h + Cp − δ ≥ 0, by Murty's pivots of least index, which end for every matrix of positive principal minors.
-fn dense(c: &[Vec<f64>], gap: &[f64], approach: f64) -> Vec<f64> {
-    let n = gap.len();
-    let mut touches = vec![false; n];
-    for _ in 0..100_000 {
-        let cells: Vec<usize> = (0..n).filter(|cell| touches[*cell]).collect();
-        let a = cells.iter().map(|i| cells.iter().map(|j| c[*i][*j]).collect()).collect();
-        let found = eliminated(a, cells.iter().map(|i| approach - gap[*i]).collect());
-        let mut p = vec![0.0; n];
-        cells.iter().zip(found).for_each(|(cell, value)| p[*cell] = value);
-        let is_wrong = |cell: &usize| match touches[*cell] {
-            true => p[*cell] < -1e-12,
-            false => {
-                gap[*cell] + c[*cell].iter().zip(&p).map(|(c, p)| c * p).sum::<f64>() - approach < -1e-12
-            }
-        };
-        match (0..n).find(is_wrong) {
-            None => return p,
-            Some(cell) => touches[cell] = !touches[cell],
-        }
-    }
-    panic!("no end");
-}
-
 #[test]
 fn three_hundred_random_contacts_are_those_of_a_dense_program() {
     let mut random = ChaCha8Rng::seed_from_u64(3);
@@ -130,19 +76,6 @@ fn three_hundred_random_contacts_are_those_of_a_dense_program() {
         assert!(error < 1e-7 * largest, "case {case}: {}", error / largest);
         assert!(found.drag > -1e-12 * load, "case {case}: {}", found.drag);
     }
-}
-
-/// Mean of the compliance J(t − s) over the times s from `begin` to `end`, or its value where these are one time.
-fn mean_compliance(creep: &Creep, t: f64, begin: f64, end: f64) -> f64 {
-    let term = |term: &CreepTerm| {
-        let e = |s: f64| ((s - t) / term.time).exp();
-        let left = match end > begin {
-            true => term.time * (e(end) - e(begin)) / (end - begin),
-            false => e(end),
-        };
-        term.compliance * (1.0 - left)
-    };
-    creep.glassy + creep.terms.iter().map(term).sum::<f64>()
 }
 
 #[test]
@@ -301,7 +234,10 @@ fn what_viscoelastic_bodies_do_not_support_is_refused_before_anything_is_solved(
         ("a hardness", loaded(soft(), None)),
         ("a hardness", soft().sliding_steadily(Boundary::FREE, 1.0).map(|_| ())),
         ("without friction", loaded(pair(), Some(Friction::coulomb(0.3).unwrap()))),
-        ("nothing else", Simulation::new(pair(), Boundary::FREE, motion, Params::default()).map(|_| ())),
+        (
+            "speed of their motion",
+            Simulation::new(pair(), Boundary::FREE, motion, Params::default()).map(|_| ()),
+        ),
         ("nothing else", SlidingContact::new(pair(), Boundary::FREE, slide, Params::default()).map(|_| ())),
     ] {
         let error = found.unwrap_err().to_string();

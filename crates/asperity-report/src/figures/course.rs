@@ -13,9 +13,10 @@ pub(super) type OfStep = fn(&StepRecord) -> f64;
 type OfPass = fn(&PassRecord) -> f64;
 
 /// What is drawn over the positions: its figure, its name, its column.
-pub(crate) const OVER_POSITIONS: [(&str, &str, &str, OfStep); 4] = [
+pub(crate) const OVER_POSITIONS: [(&str, &str, &str, OfStep); 5] = [
     ("load", "load", "load", |s| s.load),
     ("friction", "friction force", "tangential_force", |s| s.tangential_force.abs()),
+    ("drag", "drag", "drag", |s| s.drag.map_or(f64::NAN, |of| of.drag)),
     ("contact_area", "real contact area", "contact_area", |s| s.contact_area),
     ("max_pressure", "largest pressure", "max_pressure", |s| s.max_pressure),
 ];
@@ -24,7 +25,12 @@ pub(crate) const OVER_POSITIONS: [(&str, &str, &str, OfStep); 4] = [
 pub(crate) fn curves(passes: &[PassRecord], steps: &[StepRecord], sq: [f64; 2]) -> Vec<Curves> {
     let done = done(passes);
     let slides = steps.iter().any(|step| step.tangential_force != 0.0);
-    let shown = OVER_POSITIONS.into_iter().filter(|(name, ..)| *name != "friction" || slides);
+    let drags = steps.iter().any(|step| step.drag.is_some());
+    let shown = OVER_POSITIONS.into_iter().filter(|(name, ..)| match *name {
+        "friction" => slides,
+        "drag" => drags,
+        _ => true,
+    });
     let mut curves: Vec<Curves> = shown
         .map(|(name, title, column, value)| {
             let charts = over_positions(steps, &done, title, column, value);
@@ -35,6 +41,7 @@ pub(crate) fn curves(passes: &[PassRecord], steps: &[StepRecord], sq: [f64; 2]) 
     let what = if yields(passes) { "approach and plastic volume" } else { "approach" };
     curves.push(Curves::new("approach", format!("{what} over the passes"), approach(passes, &done)));
     curves.push(Curves::new("mean_contact_area", "contact area over the passes", area(passes, &done)));
+    curves.extend(mean_drag(passes, &done));
     curves.extend(running::curves(passes, sq));
     curves
 }
@@ -123,6 +130,15 @@ fn area(passes: &[PassRecord], done: &[usize]) -> Charts {
     }
     let y = Axis::of("mean contact area", "mean_contact_area");
     Chart::new("", Axis::linear("pass", Unit::Count), y, series).into()
+}
+
+/// The drag of viscoelastic bodies over their passes; none of others.
+fn mean_drag(passes: &[PassRecord], done: &[usize]) -> Option<Curves> {
+    let points = passes.iter().map(|pass| Some([done[pass.pass] as f64, pass.drag?.drag_coefficient]));
+    let series = vec![Series::new("", points.collect::<Option<_>>()?, Mark::LineAndPoints)];
+    let y = Axis::of("mean drag over load", "drag_coefficient");
+    let chart: Charts = Chart::new("", Axis::linear("pass", Unit::Count), y, series).into();
+    Some(Curves::new("mean_drag", "drag over the passes", chart))
 }
 
 fn approach(passes: &[PassRecord], done: &[usize]) -> Charts {

@@ -144,6 +144,9 @@ fn of_passes(found: &PageData, first: &PassRecord, last: &PassRecord) -> Vec<Car
     if let Some(adhesion) = last.adhesion.filter(|adhesion| adhesion.adhesive_drag > 0.0) {
         cards.push(Card::of("drag", "adhesive_drag", format(adhesion.adhesive_drag, Dimension::Force)));
     }
+    if let Some(drag) = last.drag {
+        cards.push(Card::of("mean drag", "mean_drag", format(drag.mean_drag, Dimension::Force)));
+    }
     if last.mean_tangential_force != 0.0 && last.friction_coefficient.is_finite() {
         let coefficient = format_number(last.friction_coefficient);
         cards.push(Card::of("coefficient of friction", "friction_coefficient", coefficient));

@@ -1,7 +1,7 @@
 //! Captions of the charts and maps of the page, as in a paper.
 
 /// Captions by the names of figures and of the maps of a contact. A capability has its own.
-const CAPTIONS: [(&str, &str); 38] = [
+const CAPTIONS: [(&str, &str); 40] = [
     (
         "approach",
         "Rigid-body approach of each pass, with what the surfaces have lost by plastic deformation.",
@@ -15,6 +15,10 @@ const CAPTIONS: [(&str, &str); 38] = [
     ("creep", "Rigid-body approach since the first load. Bodies that creep come closer under the same load."),
     ("creep_area", "Area of the cells that bear load, since the first load."),
     ("creep_load", "Load since the first one. At the same approach it relaxes."),
+    (
+        "drag",
+        "Force against the motion since the position before. Its mean is that of the dissipation; what rough bodies store, they give back.",
+    ),
     (
         "drag_coefficient",
         "Force with which the bodies resist the motion over the load: what the viscoelastic body dissipates.",
@@ -37,6 +41,10 @@ const CAPTIONS: [(&str, &str); 38] = [
     ("material_ratio", "Share of the surface that lies above a height."),
     ("max_pressure", "Pressure of the most loaded cell."),
     ("mean_contact_area", "Mean of the real area of contact over the positions of each pass."),
+    (
+        "mean_drag",
+        "Mean force over the positions of each pass with which the bodies resist the motion, over the load. It settles as the bodies remember more passes.",
+    ),
     ("mean_gap", "Mean distance of the deformed surfaces over the whole grid."),
     ("plastic", "Depth that yields at the hardness, both bodies together."),
     ("plastic_flow", "Plastic strain and work of each step. Bodies that have shaken down flow no more."),

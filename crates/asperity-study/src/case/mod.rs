@@ -243,6 +243,9 @@ pub struct MotionSpec {
     /// Speed of the upper body over the lower one in an overlap, if given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<f64>,
+    /// Time for which viscoelastic bodies are apart between two passes, ≥ 0.
+    #[serde(skip_serializing_if = "is_nothing")]
+    pub pause: f64,
     /// Forward stroke alone, or forward and return stroke.
     #[serde(skip_serializing_if = "is_one_way")]
     pub path: MotionPath,
@@ -287,6 +290,7 @@ impl MotionSpec {
             path: self.path,
             offset_y: self.offset_y,
             adhesion_history: AdhesionHistory::None,
+            pause: self.pause,
         }
     }
 }
@@ -518,6 +522,10 @@ fn is_cpu(device: &Device) -> bool {
 
 fn is_as_prepared(grid: &GridMatch) -> bool {
     *grid == GridMatch::AsPrepared
+}
+
+fn is_nothing(value: &f64) -> bool {
+    *value == 0.0
 }
 
 fn is_one_way(path: &MotionPath) -> bool {

@@ -29,6 +29,7 @@ pub(super) fn motion(table: &Table<'_>, prescribed: Prescribed) -> Result<Motion
         plastic_update: keys::PLASTIC_UPDATE.of(table)?,
         load_tolerance: keys::LOAD_TOLERANCE.of(table)?,
         speed: keys::SPEED.of(table)?,
+        pause: keys::PAUSE.of(table)?,
         path: keys::PATH.of(table)?,
         offset_y,
         counter: keys::COUNTER.of(table)?,

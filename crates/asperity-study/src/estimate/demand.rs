@@ -128,6 +128,9 @@ const DRAWN: f64 = 6.0;
 const ATTRACTED: f64 = 40.0;
 /// Numbers of each cell for steady sliding: the directions of a step of Newton's iteration on half of the cells, and the fields.
 const DIRECTIONS: f64 = 40.0;
+/// Terms of a fit to a master curve, and the fields of a term in a motion.
+const FITTED: usize = 24;
+const REMEMBERED: f64 = 4.0;
 /// Numbers of each cell for an iteration, with the gap; some are in single precision.
 const ITERATION: f64 = 5.7;
 /// Numbers of each cell for the near copy of the operator on a free grid.
@@ -234,6 +237,7 @@ impl Sizes<'_> {
         let volumes: f64 = self.volumes().map(volume).sum();
         let motion = case.motion(nx * ny * self.lower.cell_area());
         let together = motion
+            .filter(|_| !case.relaxes())
             .and_then(|motion| {
                 memory_together(
                     &motion,
@@ -255,15 +259,27 @@ impl Sizes<'_> {
             let kept = if case.friction.is_some() { 2.0 * kept } else { kept };
             2.0 * (cells[0] + cells[1]) + 2.0 * kept
         });
-        let results = NUMBER * results + volumes + self.memory_of_capabilities(threads);
+        let results = NUMBER * (results + self.remembered()) + volumes + self.memory_of_capabilities(threads);
         Memory { solver, together, results, volumes }
+    }
+
+    /// Numbers that viscoelastic bodies remember in a motion: before a pass, in it and after it.
+    fn remembered(&self) -> f64 {
+        let of = |(body, grid): (&Body, &Grid)| {
+            let given = body.viscoelastic.as_ref()?.moduli.len();
+            let terms = if given > 0 { given } else { FITTED };
+            Some(REMEMBERED * (terms + 1) as f64 * grid.cells() as f64)
+        };
+        let bodies = [(&self.case.lower, &self.lower), (&self.case.upper, &self.upper)];
+        if self.case.motion.is_some() { bodies.into_iter().filter_map(of).sum() } else { 0.0 }
     }
 
     /// Number of overlap columns at the solved positions.
     fn solved(&self) -> &[usize] {
         let couples = self.compliances().is_some_and(|compliances| compliances.coupling != 0.0);
         let (yields, all) = (self.case.yields(), self.overlaps.len());
-        &self.overlaps[..self.case.motion(1.0).map_or(all, |motion| motion.distinct(all, yields, couples))]
+        let motion = self.case.motion(1.0).filter(|_| !self.case.relaxes());
+        &self.overlaps[..motion.map_or(all, |motion| motion.distinct(all, yields, couples))]
     }
 
     /// Number of cells in all layers of each elasto-plastic body, and whether its boundary is periodic.
@@ -361,10 +377,8 @@ impl Sizes<'_> {
         let rolling = if unlike { ROLLING_UNLIKE } else { ROLLING };
         let [convolutions, mut effort] = match (case.motion, &case.friction) {
             (Some(motion), _) => {
-                let searches = match (motion.control, motion.plastic_update) {
-                    (ControlKind::PassLoad, PlasticUpdate::Step) => 5.0,
-                    _ => 1.0,
-                };
+                let changes = motion.plastic_update == PlasticUpdate::Step || case.relaxes();
+                let searches = if motion.control == ControlKind::PassLoad && changes { 5.0 } else { 1.0 };
                 let positions = self.solved().len();
                 let passes = self.computed_passes(motion.passes);
                 let mut cost = if self.is_coupled() { SLIDING } else { normal };
@@ -373,7 +387,9 @@ impl Sizes<'_> {
                 let [convolutions, effort] = of(cost, passes * searches);
                 let effort = effort + POSITION * passes * positions as f64;
                 let beside = passes * self.running(motion.passes);
-                [convolutions * positions as f64, effort / together(positions) + beside]
+                // Viscoelastic bodies remember one position after the other.
+                let together = if case.relaxes() { 1.0 } else { together(positions) };
+                [convolutions * positions as f64, effort / together + beside]
             }
             (None, _) if case.sliding.is_some() => {
                 let updates = case.sliding.map_or(0, |sliding| sliding.updates) as f64;

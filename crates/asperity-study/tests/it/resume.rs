@@ -86,6 +86,31 @@ fn every_motion_goes_on_with_the_same_bits() {
 }
 
 #[test]
+fn passes_of_viscoelastic_bodies_go_on_with_the_same_bits() {
+    let shift = format!("{SHIFT}, control = \"step-load\", stride = 2");
+    for (keys, boundary) in [(&*shift, "periodic"), ("speed = 1, pause = \"1 us\", stride = 4", "free")] {
+        let case = |passes: usize| {
+            format!(
+                r#"
+lower = {{ young = "1 MPa", poisson = 0.5, viscoelastic = {{ moduli = ["9 MPa"], times = ["10 us"] }}, topography = {{ form = "flat" }} }}
+upper = {{ young = "inf", poisson = 0.3, topography = {{ generate = "low-pass", shape = [24, 24], pitch = "1 um", sq = "0.2 um", cutoff = "8 um" }} }}
+contact = {{ mean_pressure = "50 kPa", boundary = "{boundary}" }}
+motion = {{ passes = {passes}, {keys} }}
+"#
+            )
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let whole = run(&folder, &case(3), "whole", Existing::Keep);
+        run(&folder, &case(1), "parts", Existing::Keep);
+        run(&folder, &case(2), "parts", Existing::Resume);
+        let parts = on_threads(1, || run(&folder, &case(3), "parts", Existing::Resume));
+        assert_same(&parts, &whole, keys);
+        let drag = whole.passes().unwrap()[2].drag.unwrap();
+        assert!(drag.drag_coefficient > 1e-3, "{keys}: {drag:?}");
+    }
+}
+
+#[test]
 fn dissimilar_bodies_slide_alike_on_any_number_of_threads_and_after_a_break() {
     let case = |passes| {
         moving(passes, TOLERANCE).replacen("210 GPa", "70 GPa", 1) + "friction = { coefficient = 0.3 }\n"

@@ -191,6 +191,45 @@ fn the_shift_of_williams_landel_and_ferry_has_its_temperatures() {
 }
 
 #[test]
+fn passes_become_steady_sliding_and_tell_where_their_steps_are_long() {
+    let text = |tables: &str| {
+        format!(
+            r#"
+contact = {{ mean_pressure = "50 kPa", boundary = "periodic" }}
+{tables}
+[lower]
+young = "1 MPa"
+poisson = 0.5
+topography = {{ form = "flat", shape = [128, 32], pitch = "0.5 um" }}
+viscoelastic = {{ moduli = ["9 MPa"], times = ["2 us"] }}
+[upper]
+young = "inf"
+poisson = 0.3
+topography = {{ generate = "self-affine", sdq = 0.1, hurst = 0.8, shortest = "16 um" }}
+"#
+        )
+    };
+    let parse = |tables: &str| Case::parse(&text(tables), "case.toml".as_ref(), "".as_ref()).unwrap();
+    let steady = parse("steady = { speed = \"1 m/s\" }");
+    let rest = asperity_study::rest(&steady, SurfaceInput::default(), &()).unwrap();
+    let Outcome::Sweep(points) = rest.outcome else { panic!() };
+    let steady = points[0].steady.unwrap().drag_coefficient;
+    let passes = |stride: usize| {
+        let folder = tempfile::tempdir().unwrap();
+        let keys = format!("passes = 3, strategy = \"shift\", speed_upper = \"1 m/s\", stride = {stride}");
+        let case = parse(&format!("motion = {{ {keys} }}"));
+        let input = SurfaceInput::default();
+        let (summary, _) = asperity_study::run(&case, input, folder.path(), Existing::Keep, &()).unwrap();
+        let Outcome::Passes(passes) = &summary.outcome else { panic!() };
+        let told = summary.warnings.iter().any(|warning| warning.contains("their widest spot of contact"));
+        (passes[2].drag.unwrap().drag_coefficient / steady - 1.0, told)
+    };
+    let (fine, coarse) = (passes(1), passes(8));
+    assert!(fine.0.abs() < 0.05 && !fine.1, "{fine:?}");
+    assert!((-0.4..-0.05).contains(&coarse.0) && coarse.1, "{coarse:?}");
+}
+
+#[test]
 fn a_master_curve_is_doubted_beyond_its_frequencies_and_where_its_fit_is_poor() {
     const FINE: &str = "terms_per_decade = 4";
     let folder = tempfile::tempdir().unwrap();

@@ -1,9 +1,9 @@
-//! Time of a loading of viscoelastic bodies.
+//! Time and drag of viscoelastic bodies.
 
 use serde::{Deserialize, Serialize};
 
-use crate::units::Second;
-use asperity_base::record::columns;
+use crate::units::{Newton, Second};
+use asperity_base::record::{columns, number_or_none};
 
 columns! {
     /// Time of an increment of viscoelastic bodies.
@@ -11,5 +11,41 @@ columns! {
     pub struct CreepRecord {
         /// Time since the first load.
         pub time: Second,
+    }
+}
+
+columns! {
+    /// Drag of viscoelastic bodies at a position of a pass.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+    pub struct DragRecord {
+        /// Force against the motion since the position before, without friction: the work on the bodies over the distance. Its mean is that
+        /// of the dissipation; of rough bodies, it also has what they store and give back. Unknown where the bodies are pressed together.
+        #[serde(deserialize_with = "number_or_none")]
+        pub drag: Newton,
+    }
+}
+
+columns! {
+    /// Drag of viscoelastic bodies in a pass.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+    pub struct PassDragRecord {
+        /// Mean drag over the positions at which it is known, with what bodies that come apart give back.
+        pub mean_drag: Newton,
+        /// Mean drag over the mean load at these positions; unknown without contact.
+        #[serde(deserialize_with = "number_or_none")]
+        pub drag_coefficient: f64,
+    }
+}
+
+impl PassDragRecord {
+    /// Creates the record of a pass from the drag and the load of its positions, and the drag of bodies that come apart after them.
+    pub(in crate::motion) fn of(positions: impl Iterator<Item = (Newton, Newton)>, leaving: Newton) -> Self {
+        let (mut count, mut drags, mut loads) = (0.0, leaving, 0.0);
+        for (drag, load) in positions.filter(|(drag, _)| drag.is_finite()) {
+            count += 1.0;
+            drags += drag;
+            loads += load;
+        }
+        Self { mean_drag: drags / f64::max(count, 1.0), drag_coefficient: drags / loads }
     }
 }

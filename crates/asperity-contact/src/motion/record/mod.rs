@@ -18,7 +18,7 @@ mod sweep;
 mod update;
 
 pub use adhesion::{AdhesionPassRecord, AdhesionRecord};
-pub use creep::CreepRecord;
+pub use creep::{CreepRecord, DragRecord, PassDragRecord};
 pub use fretting::FrettingRecord;
 pub use increment::IncrementRecord;
 pub use lost_volumes::LostVolume;

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::adhesion::AdhesionPassRecord;
+use super::creep::PassDragRecord;
 use super::lost_volumes::{self, LostVolume};
 use super::plastic::PassPlasticRecord;
 use super::running::RunningRecord;
@@ -52,6 +53,9 @@ columns! {
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PassPlasticRecord>,
+        /// Drag of viscoelastic bodies; none of others.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub drag: Option<PassDragRecord>,
         /// Rms height of the lower surface about its mean after the pass.
         pub sq_lower: Metre,
         /// Rms height of the upper surface about its mean after the pass.

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::adhesion::AdhesionRecord;
+use super::creep::DragRecord;
 use super::plastic::PlasticStepRecord;
 use super::running::HeatRecord;
 use crate::units::{CubicMetre, Metre, Newton, Pascal, SquareMetre};
@@ -58,5 +59,8 @@ columns! {
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PlasticStepRecord>,
+        /// Drag of viscoelastic bodies; none of others.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub drag: Option<DragRecord>,
     }
 }

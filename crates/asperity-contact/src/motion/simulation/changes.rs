@@ -55,6 +55,10 @@ impl Changes {
 const DEEP_WEAR: &str = "a single pass wears more than the width of a cell off a whole body, far beyond the model: check the wear coefficient, \
      a volume over load and distance, or give a shorter pass";
 
+/// Message for a pass that wears viscoelastic bodies more than explicit steps allow.
+const FAST_WEAR: &str = "a single pass wears viscoelastic bodies so much that their pressures change with it: check the wear coefficient, or give \
+     a shorter pass";
+
 /// Wear in a pass by the laws that repeat.
 pub(super) struct PassWear {
     compliance_of_grid: GridCompliance,
@@ -85,6 +89,10 @@ impl Simulation {
         let stable = compliance_of_grid.checkerboard / relaxation;
         if stable > 0.5 {
             return Ok(Some(PassWear { compliance_of_grid, stable, explicit: None }));
+        }
+        if outcome.pair.creep().is_some() {
+            let source = Box::new(Error::Unsupported(FAST_WEAR));
+            return Err(Error::AtPass { pass: self.passes_done + 1, source });
         }
         let (sums, _) = law::sums(laws, &outcome.pair, &outcome.contacts, &position_data, None)?;
         // The return stroke wears as much again at the same pressures.

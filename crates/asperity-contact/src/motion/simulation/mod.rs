@@ -19,7 +19,7 @@ use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::{OffsetY, Position, Stroke};
 use crate::motion::plastic_volume::PlasticVolume;
-use crate::motion::record::{RunningRecord, StepRecord};
+use crate::motion::record::{DragRecord, RunningRecord, StepRecord};
 use crate::motion::rim::Interior;
 use crate::motion::together::memory_together;
 use crate::motion::volumes::Volumes;
@@ -77,9 +77,16 @@ impl Simulation {
         let positions = positions(&pair, boundary, &motion)?;
         let max_load: Vec<Newton> = positions.iter().map(|p| max_load(&pair, &motion, p)).collect();
         check_limit(motion.control, motion.load_control.plastic_limit(&max_load))?;
-        let distinct = motion.distinct(positions.len(), pair.yields(), pair.couples());
+        let distinct = match pair.creep() {
+            None => motion.distinct(positions.len(), pair.yields(), pair.couples()),
+            Some(_) => positions.len(),
+        };
         let columns: Vec<usize> = positions[..distinct].iter().map(|p| p.columns).collect();
-        let largest = pair.grid(pair.lower.columns().min(pair.upper.columns()));
+        // Viscoelastic bodies are displaced beyond the overlap, too.
+        let largest = pair.grid(match pair.creep() {
+            None => pair.lower.columns().min(pair.upper.columns()),
+            Some(_) => pair.lower.columns().max(pair.upper.columns()),
+        });
         if pair.adhesion().is_some() {
             params.device.only_processor("a device does not solve adhesive contacts")?;
             let follows = motion.adhesion_history == AdhesionHistory::Path;
@@ -97,13 +104,14 @@ impl Simulation {
                 "a device does not solve sliding whose shear displaces the bodies normally",
             )?;
         }
-        pair.check_elastic()?;
+        check_creep(&pair, boundary, &motion, &params)?;
         let operators = pair.operators(largest, boundary)?;
         if motion.friction.is_some_and(|friction| friction.coupling != Coupling::None) {
             pair.check_shear()?;
         }
         let together = params.device == Device::Cpu
             && pair.adhesion().is_none()
+            && pair.creep().is_none()
             && memory_together(&motion, params.method, pair.yields(), &columns, pair.lower.width()).is_some();
         Ok(Self {
             together,
@@ -254,7 +262,9 @@ impl Simulation {
     /// # Panics
     /// If no body is given, or if the grid of one differs from that of its surface.
     pub fn with_plastic(self, bodies: [Option<PlasticBody>; 2], plastic: PlasticParams) -> Result<Self> {
-        let refused = if self.pair.yields() {
+        let refused = if self.pair.creep().is_some() {
+            "viscoelastic bodies do not flow plastically"
+        } else if self.pair.yields() {
             "elasto-plastic bodies do not take a hardness"
         } else if self.changes.laws.len() > 1 {
             "elasto-plastic bodies do not support wear and films yet"
@@ -317,6 +327,9 @@ impl Simulation {
                 "a flash temperature needs friction, a speed and the temperatures of the bodies",
             ));
         };
+        if self.pair.creep().is_some() {
+            return Err(Error::Unsupported("viscoelastic bodies do not support a flash temperature"));
+        }
         if self.changes_at_every_step() {
             return Err(Error::Unsupported(
                 "a flash temperature needs plastic deformation that is applied after each pass",
@@ -397,6 +410,8 @@ impl Simulation {
             StepRecord { offset_y: offset_y(contact.position.across), ..record }
         };
         let mut steps: Vec<StepRecord> = outcome.contacts.iter().enumerate().map(step).collect();
+        let drags = steps.iter_mut().zip(outcome.drag.iter().flat_map(|drag| &drag.positions));
+        drags.for_each(|(step, drag)| step.drag = Some(DragRecord { drag: *drag }));
         if let Some(plastic_pass) = &outcome.plastic_pass {
             steps
                 .iter_mut()
@@ -485,7 +500,10 @@ impl Simulation {
             load: 0.0,
             together: None,
         };
+        let goes_on = self.pair.creep().is_some() && self.motion.apart().is_none();
+        let last = goes_on.then(|| self.warm.last(&self.pair, &self.positions[..self.distinct])).flatten();
         Solver {
+            last,
             operators: &self.operators,
             positions: &self.positions[..self.distinct],
             motion: &self.motion,
@@ -524,6 +542,27 @@ impl Course for Simulation {
         }
         self.passes_done = pass.record.pass;
     }
+}
+
+/// Checks what viscoelastic bodies need to pass over each other.
+fn check_creep(pair: &Pair, boundary: Boundary, motion: &Motion, params: &Params) -> Result<()> {
+    if pair.creep().is_none() {
+        return Ok(());
+    }
+    pair.check_creep()?;
+    params.device.only_processor("a device does not solve contacts of viscoelastic bodies")?;
+    let sliding = motion.sliding(Stroke::Forth);
+    let refused = if !motion.step_time(pair.pitch()[0]).is_finite() {
+        "viscoelastic bodies need the speed of their motion"
+    } else if motion.strategy != Strategy::Overlap && !boundary.repeats(0) {
+        "a viscoelastic body in a shift needs a boundary that is periodic along x"
+    } else if sliding.is_some_and(|sliding| sliding.shear_displaces_normally(pair.couples())) {
+        "viscoelastic bodies are not solved together with shear that displaces them normally"
+    } else {
+        let is_time = motion.pause >= 0.0 && motion.pause.is_finite();
+        return check_in(Dimension::Time, "pause", motion.pause, is_time, "a finite time of at least 0");
+    };
+    Err(Error::Unsupported(refused))
 }
 
 fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Position>> {

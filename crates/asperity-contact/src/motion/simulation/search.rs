@@ -7,7 +7,7 @@ use crate::motion::LoadControl;
 use crate::motion::approach::{Limit, MAX_RESIDUAL, Search};
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
-use crate::motion::pass::Pass;
+use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Position;
 use crate::motion::warm_start::Guess;
 use crate::motion::watch::Watch;
@@ -31,16 +31,19 @@ impl Simulation {
                 return Ok((pass, guess, 1));
             }
         }
-        let load = match (self.motion.control, self.motion.load_control, &self.volumes) {
-            (Control::Load(load), LoadControl::Pass, _) => load,
-            (control, _, Some(volumes)) => {
-                return Ok((solver.solve_elasto_plastic(volumes, pair, control)?, None, 1));
+        let load = match (self.motion.control, self.motion.load_control) {
+            (Control::Load(load), LoadControl::Pass) => load,
+            (control, _) => {
+                let pass = match self.solve_in_sequence(&solver, pair, control, &earlier)? {
+                    Some(pass) => pass,
+                    None => solver.solve(pair, control, &self.params, &earlier)?,
+                };
+                return Ok((pass, None, 1));
             }
-            (control, ..) => return Ok((solver.solve(pair, control, &self.params, &earlier)?, None, 1)),
         };
         // Plastic flow takes most of the time of a trial, so rough contacts would save nothing.
-        // Rough contacts of bodies with adhesion may be in another state.
-        let exact = self.volumes.is_some() || pair.adhesion().is_some();
+        // Rough contacts of bodies with adhesion may be in another state, and those of viscoelastic bodies would be remembered.
+        let exact = self.volumes.is_some() || pair.adhesion().is_some() || pair.creep().is_some();
         let roughest = if exact { self.params.tolerance } else { MAX_RESIDUAL };
         let mut residual = roughest;
         let mut guess = self.warm.guess;
@@ -75,8 +78,8 @@ impl Simulation {
         let mut closed = false;
         let found = search.run(guess, residual, |approach, residual| {
             let control = Control::Approach(approach);
-            let outcome = match &self.volumes {
-                Some(volumes) => solver.solve_elasto_plastic(volumes, pair, control)?,
+            let outcome = match self.solve_in_sequence(&solver, pair, control, &earlier)? {
+                Some(pass) => pass,
                 None => solver.solve_roughly(pair, control, (residual, &self.params), &earlier)?,
             };
             solver.progress.trial += 1;
@@ -93,6 +96,23 @@ impl Simulation {
             other => other,
         })?;
         Ok((found.outcome, Some(found.guess), found.trials))
+    }
+
+    /// Solves the positions of a pass one after another, if the bodies remember the ones before.
+    fn solve_in_sequence(
+        &self,
+        solver: &Solver<'_>,
+        pair: &Pair,
+        control: Control,
+        earlier: &[Vec<Contact>],
+    ) -> Result<Option<Pass>> {
+        match &self.volumes {
+            Some(volumes) => solver.solve_elasto_plastic(volumes, pair, control).map(Some),
+            None if pair.creep().is_some() => {
+                solver.solve_creeping(pair, control, &self.params, earlier).map(Some)
+            }
+            None => Ok(None),
+        }
     }
 
     /// Whether the pressure of a contact determines no approach, because all cells touch elastically and their mean

@@ -8,7 +8,9 @@ use crate::motion::law;
 use crate::motion::pair::Pair;
 use crate::motion::pass::Pass;
 use crate::motion::plastic_volume::PlasticVolume;
-use crate::motion::record::{AdhesionPassRecord, LostVolume, PassRecord, RunningRecord, StepRecord};
+use crate::motion::record::{
+    AdhesionPassRecord, LostVolume, PassDragRecord, PassRecord, RunningRecord, StepRecord,
+};
 use crate::motion::report::PassReport;
 use crate::motion::rim::Interior;
 use crate::motion::warm_start::{Guess, WarmStart};
@@ -68,6 +70,10 @@ impl SolvedPass {
                 self.history_difference,
             ),
             plastic: self.outcome.plastic_pass.as_ref().map(|pass| pass.record),
+            drag: self.outcome.drag.as_ref().map(|drag| {
+                let loads = self.steps.iter().map(|step| step.load);
+                PassDragRecord::of(drag.positions.iter().copied().zip(loads), drag.leaving)
+            }),
             ..record
         }
     }
@@ -138,6 +144,7 @@ fn summarise(outcome: &Pass, interiors: &[Interior; 2], steps: &[StepRecord]) ->
         running: None,
         adhesion: None,
         plastic: None,
+        drag: None,
         sq_lower: pair.lower.heights.std(0.0),
         sq_upper: pair.upper.heights.std(0.0),
         sq_lower_interior: interiors[0].of(&pair.lower.heights).std(0.0),

@@ -4,7 +4,7 @@
 
 mod views;
 
-pub use views::{answers, doubts, in_time};
+pub use views::{answers, doubts, in_passes, in_time};
 
 use std::path::{Path, PathBuf};
 

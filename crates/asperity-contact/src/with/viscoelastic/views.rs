@@ -1,6 +1,6 @@
 //! Steady sliding in words, and reasons not to trust it.
 
-use crate::motion::{IncrementRecord, SweepRecord};
+use crate::motion::{IncrementRecord, PassRecord, SweepRecord};
 use crate::operator::Boundary;
 use crate::units::{Dimension, Kelvin, Metre, format, format_number};
 use crate::viscoelastic::Creep;
@@ -47,6 +47,20 @@ pub fn answers(points: &[SweepRecord]) -> Vec<Answer> {
         sentence,
         value,
     }]
+}
+
+/// Returns what passes of viscoelastic bodies show: the drag of the last one; `None` for other bodies.
+pub fn in_passes(passes: &[PassRecord]) -> Option<Answer> {
+    let drag = passes.last()?.drag.filter(|drag| drag.drag_coefficient.is_finite())?;
+    let value = format_number(drag.drag_coefficient);
+    let force = format(drag.mean_drag, Dimension::Force);
+    let last = if passes.len() > 1 { " in the last pass" } else { "" };
+    Some(Answer {
+        name: "mean drag over load".into(),
+        about: "Coefficient of friction of the dissipation, in the last pass.".into(),
+        sentence: format!("The bodies resist the motion with {value} of the load, {force}{last}."),
+        value,
+    })
 }
 
 /// Returns how a contact of viscoelastic bodies has changed in time; `None` for other bodies.
@@ -96,9 +110,9 @@ const RESOLVED: f64 = 0.4;
 const DENSITY: f64 = 1000.0;
 const SLOW: f64 = 0.3;
 
-/// Returns reasons not to trust the steady sliding of bodies with this `creep` compliance of the body that the contact moves over, at the
-/// `speeds`, on a grid with this pitch and extent along x.
-pub fn doubts(creep: &Creep, boundary: Boundary, pitch: Metre, extent: Metre, speeds: &[f64]) -> Vec<String> {
+/// Returns reasons not to trust the sliding of bodies with this `creep` compliance of the body that the contact moves over, at the `speeds`,
+/// on a grid with this extent along x. The contact is resolved in steps of this length: cells, or the distance between two positions.
+pub fn doubts(creep: &Creep, boundary: Boundary, step: Metre, extent: Metre, speeds: &[f64]) -> Vec<String> {
     if creep.terms.is_empty() {
         return vec![
             "the viscoelastic body is the rough one, which stands still in the contact: it has its relaxed modulus, and nothing drags"
@@ -114,12 +128,13 @@ pub fn doubts(creep: &Creep, boundary: Boundary, pitch: Metre, extent: Metre, sp
     let speed = |speed: f64| format(speed, Dimension::Speed);
     let least = speeds.iter().copied().fold(f64::INFINITY, f64::min);
     let largest = speeds.iter().copied().fold(0.0, f64::max);
-    if least * slowest < 0.5 * pitch {
+    if least * slowest < 0.5 * step {
         doubts.push(format!(
-            "at {} the body has crept within {}, less than half a cell: the grid does not resolve its drag; take a finer pitch or a \
-             larger speed",
+            "at {} the body has crept within {}, less than half of the {} that are resolved: its drag is lost; take a finer grid, smaller \
+             steps or a larger speed",
             speed(least),
-            text(least * slowest)
+            text(least * slowest),
+            text(step)
         ));
     }
     if boundary.repeats(0) && largest * fastest > extent {
@@ -147,7 +162,7 @@ pub fn doubts(creep: &Creep, boundary: Boundary, pitch: Metre, extent: Metre, sp
         let ratio = (softer + term.compliance) / softer;
         let relaxation = term.time / ratio;
         if ratio > STIFF
-            && speeds.iter().any(|speed| speed * relaxation < RESOLVED * pitch && speed * term.time > pitch)
+            && speeds.iter().any(|speed| speed * relaxation < RESOLVED * step && speed * term.time > step)
         {
             doubts.push(format!(
                 "a retardation time of {} softens the body {} times at once: where it relaxes in less than {} of a cell, the leading edge is \
@@ -178,7 +193,7 @@ mod tests {
         let told =
             |creep: &Creep, boundary, speed: f64| doubts(creep, boundary, 1e-6, 1e-3, &[speed]).join("; ");
         assert_eq!(told(&rubber, Boundary::PERIODIC, 0.01), "");
-        assert!(told(&rubber, Boundary::FREE, 1e-5).contains("less than half a cell"));
+        assert!(told(&rubber, Boundary::FREE, 1e-5).contains("less than half of the 1 µm that are resolved"));
         assert!(told(&rubber, Boundary::PERIODIC, 10.0).contains("beyond the period of 1 mm"));
         assert_eq!(told(&rubber, Boundary::FREE, 10.0), "");
         // Shear waves pass glass of 100 MPa at √(100 MPa/(3 · 1 g/cm³)), 183 m/s.

@@ -1,6 +1,7 @@
 //! Helpers shared by several tests.
 
 pub(crate) mod cell_by_cell;
+pub(crate) mod dense;
 
 use asperity_contact::motion::LoadControl;
 use asperity_contact::solver::Control;

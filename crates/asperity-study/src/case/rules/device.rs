@@ -2,7 +2,7 @@
 
 use asperity_contact::solver::{Device, Method};
 
-use super::examples::{AT_ANY_SPEED, FLOWS, ON_DEVICE, RUBS, SLIDES, VOLUME, WEARS};
+use super::examples::{AT_ANY_SPEED, FLOWS, MOVES, ON_DEVICE, RELAXES, RUBS, SLIDES, VOLUME, WEARS};
 use super::{Case, Entry, Rule, Tables};
 
 /// The hint of what only the processor solves.
@@ -63,6 +63,15 @@ pub(super) const RULES: &[Rule] = &[
         at: "plasticity",
         example: &[ON_DEVICE, VOLUME, FLOWS],
         broken: |tables| tables.on_device("plasticity", |_| true),
+    },
+    Rule {
+        this: "[motion] of viscoelastic bodies",
+        with: "`device` in [contact]",
+        message: "a device does not solve passes of viscoelastic bodies",
+        hint: ON_PROCESSOR,
+        at: "motion",
+        example: &[ON_DEVICE, RELAXES, MOVES],
+        broken: |tables| tables.on_device("motion", Case::relaxes),
     },
     Rule {
         this: "[sliding]",

@@ -1,8 +1,8 @@
-//! Rules of viscoelastic bodies and their steady sliding.
+//! Rules of viscoelastic bodies, their steady sliding and their passes.
 
 use super::super::StageSpec;
 use super::Rule;
-use super::examples::{AT_ANY_SPEED, RELAXES, RUBS, STEADY};
+use super::examples::{AT_ANY_SPEED, MOVES, RELAXES, RUBS, STEADY};
 
 /// Keys of the time of a stage that only viscoelastic bodies have.
 const TIMES: [&str; 2] = ["duration", "dwell"];
@@ -13,14 +13,14 @@ const OTHERS: [&str; 8] =
 pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[lower.viscoelastic], [upper.viscoelastic]",
-        with: "no [steady], and no `duration`, `dwell` or `period` in a [[history]]",
-        message: "a viscoelastic body needs [steady], or a time: a static contact has the relaxed modulus `young`",
-        hint: "give the `speed` or the `speeds` in [steady], or a [[history]] with a `dwell`",
+        with: "no [steady], no [motion], and no `duration`, `dwell` or `period` in a [[history]]",
+        message: "a viscoelastic body needs [steady], [motion] or a time: a static contact has the relaxed modulus `young`",
+        hint: "give the `speed` or the `speeds` in [steady], passes in [motion], or a [[history]] with a `dwell`",
         at: "lower.viscoelastic",
         example: &[RELAXES],
         broken: |tables| {
             let timed = tables.of_stage(&TIMES).or(tables.of_stage(&["period"]));
-            let timeless = tables.case.steady.is_none() && timed.is_none();
+            let timeless = tables.case.steady.is_none() && tables.motion().is_none() && timed.is_none();
             tables.viscoelastic().filter(|_| timeless)
         },
     },
@@ -99,14 +99,15 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "[lower.viscoelastic], [upper.viscoelastic]",
-        with: "a hardness, a coating or `plasticity` of either body, `wear`, `film`",
+        with: "a hardness, a coating, `plasticity` or a `film` of either body; `wear` without [motion]",
         message: "viscoelastic bodies do not support '{key}'",
         hint: "the contact is that of elastic and viscoelastic bodies; beside a `material` with a hardness give `hardness = inf`",
         at: "lower.hardness",
         example: &[RELAXES, STEADY, r#"lower.hardness = "3 GPa""#],
         broken: |tables| {
             tables.viscoelastic()?;
-            let keys = ["coating", "plasticity", "wear", "film"];
+            let wear = if tables.motion().is_none() { "wear" } else { "film" };
+            let keys = ["coating", "plasticity", "film", wear];
             ["lower", "upper"].iter().find_map(|body| {
                 let of = if *body == "lower" { &tables.case.lower } else { &tables.case.upper };
                 let hardness =
@@ -169,5 +170,57 @@ pub(super) const RULES: &[Rule] = &[
             r#"lower.viscoelastic = { moduli = ["1 GPa"], times = ["1 s"], wlf_c1 = 8.9, wlf_c2 = "102 K", wlf_at = "20 °C" }"#,
         ],
         broken: |tables| tables.shifted().filter(|_| tables.case.temperature.is_none()),
+    },
+    Rule {
+        this: "[motion] of viscoelastic bodies",
+        with: "no `speed`; in a shift no `speed_lower` and no `speed_upper`",
+        message: "passes of viscoelastic bodies need a speed",
+        hint: "for example `speed = \"10 mm/s\"` in an overlap, `speed_upper = \"10 mm/s\"` in a shift",
+        at: "motion",
+        example: &[RELAXES, AT_ANY_SPEED],
+        broken: |tables| {
+            let given = tables.first("motion", &["speed", "speed_lower", "speed_upper"]);
+            tables.viscoelastic().and(tables.at("motion")).filter(|_| given.is_none())
+        },
+    },
+    Rule {
+        this: "`strategy = \"shift\"` of viscoelastic bodies",
+        with: "a boundary free along x",
+        message: "viscoelastic bodies in a shift need a boundary that is periodic along x",
+        hint: "set `boundary = \"periodic\"` in [contact], or `strategy = \"overlap\"`",
+        at: "motion.strategy",
+        example: &[RELAXES, r#"motion = { strategy = "shift", speed_upper = 1 }"#],
+        broken: |tables| {
+            tables.viscoelastic().and(tables.shift())?;
+            tables.at("motion.strategy").filter(|_| !tables.case.contact.boundary.repeats(0))
+        },
+    },
+    Rule {
+        this: "[motion] of viscoelastic bodies",
+        with: "[adhesion], [plasticity], thermal constants, a friction that displaces the bodies normally",
+        message: "passes of viscoelastic bodies do not support '{key}'",
+        hint: "a friction may have `coupling = \"none\"`",
+        at: "adhesion",
+        example: &[
+            RELAXES,
+            r#"contact = { load = "2 N", boundary = "periodic" }"#,
+            MOVES,
+            r#"adhesion = { work = "0.05 J/m2", range = "1 nm" }"#,
+        ],
+        broken: |tables| {
+            tables.viscoelastic().and(tables.motion())?;
+            let pushes = tables.case.shear_displaces_normally();
+            let first = ["adhesion", "plasticity"].iter().find_map(|table| tables.at(table));
+            first.or_else(|| tables.flash()).or_else(|| tables.at("friction").filter(|_| pushes))
+        },
+    },
+    Rule {
+        this: "`pause` in [motion]",
+        with: "elastic bodies",
+        message: "'pause' needs a viscoelastic body: elastic bodies do not change while they are apart",
+        hint: "give `moduli` and `times` in [lower.viscoelastic]",
+        at: "motion.pause",
+        example: &[r#"motion = { speed = "0.5 m/s", pause = "1 s" }"#],
+        broken: |tables| tables.at("motion.pause").filter(|_| tables.viscoelastic().is_none()),
     },
 ];

@@ -1,10 +1,12 @@
 //! Keys of moving bodies.
 
-use super::Bounds::{AboveZero, Any};
+use super::Bounds::{AboveZero, Any, FromZero};
+use super::Exists;
 use super::typed::{
     FRACTION, Optional, SEED, Typed, Value, choice, count, defaulted, optional, other, quantity, section,
 };
 use asperity_base::exists;
+
 use asperity_base::units::Dimension;
 
 const SPEED: Value<f64> = quantity(Dimension::Speed, AboveZero).exists(exists::SPEED);
@@ -66,7 +68,14 @@ pub(crate) mod motion {
             super::SPEED,
             "unknown",
             "\"0.5 m/s\"",
-            "`\"overlap\"` only: speed of the upper body; required for growing films and temperature",
+            "`\"overlap\"` only: speed of the upper body; required for growing films, temperature and viscoelastic bodies",
+        );
+        PAUSE: Typed<f64> = defaulted(
+            "pause",
+            quantity(Dimension::Time, FromZero).exists(Exists::Any("a pause of any time")),
+            "0",
+            "\"10 s\"",
+            "viscoelastic bodies only: time for which they are apart between two passes; without it the passes of a shift follow each other in contact",
         );
         PATH: Typed<Path> = defaulted(
             "path",

@@ -1,0 +1,267 @@
+//! Passes of viscoelastic bodies, whose memory moves with them.
+
+use crate::error::{Error, Result};
+use crate::grid::{Field, Placement};
+use crate::motion::Strategy;
+use crate::motion::body::{Body, State};
+use crate::motion::contact::Contact;
+use crate::motion::pair::Pair;
+use crate::motion::pass::{Drag, Pass, Solver, first_guess};
+use crate::motion::record::LostVolume;
+use crate::motion::watch::{OneOfMany, Progress};
+use crate::operator::{Operator, Operators};
+use crate::solver::{Control, Params};
+use crate::units::{Joule, Newton, Pascal, PerPascal, Second, SquareMetre};
+use crate::viscoelastic::memory::solve_step;
+use crate::viscoelastic::{Creep, CreepMemory};
+
+/// Name of the field of a body with what it would be displaced by if it were an elastic half-space of a unit modulus.
+pub(super) const ELASTIC: &str = "crept_elastic";
+
+/// Name of the field of a body with its memory of a retardation time, from 0.
+pub(super) fn crept(term: usize) -> String {
+    format!("crept_{}", term + 1)
+}
+
+/// A viscoelastic body in a pass, on its own cells.
+struct Remembering {
+    memory: CreepMemory,
+    /// The elastic half-space with the composite modulus of the pair.
+    operator: Box<dyn Operator>,
+    /// Displacement at the end of the present step by the loads before it.
+    history: Field,
+    /// Displacement of the body at the last position.
+    displacement: Field,
+    /// Pressure at the last position.
+    pressure: Field,
+}
+
+impl Remembering {
+    /// Returns the body as a pass finds it, with the memory in its state.
+    fn of(creep: &Creep, body: &Body, operators: &Operators) -> Self {
+        let shape = [body.columns(), body.width()];
+        let kept = |name: &str| body.state.get(name).map(|state| state.values.clone());
+        let delayed = (0..creep.terms.len()).map(|term| kept(&crept(term))).collect::<Option<Vec<_>>>();
+        let memory = match (delayed, kept(ELASTIC)) {
+            (Some(delayed), Some(elastic)) => CreepMemory::restored(creep.clone(), delayed, elastic),
+            _ => CreepMemory::new(creep.clone(), shape),
+        };
+        let nothing = Field::zeros(shape);
+        let [history, displacement] = [nothing.clone(), nothing.clone()];
+        Self { memory, operator: operators.on(shape), history, displacement, pressure: nothing }
+    }
+
+    /// Keeps the memory in the state of the `body`.
+    fn keep(self, body: &mut Body) {
+        let mut keep = |name: String, values: Field| {
+            body.state.insert(name, State { unit: "Pa m".to_owned(), values });
+        };
+        let (delayed, elastic) = self.memory.into_fields();
+        keep(ELASTIC.to_owned(), elastic);
+        delayed.into_iter().enumerate().for_each(|(term, values)| keep(crept(term), values));
+    }
+
+    /// Advances to the end of a step, with its pressure and the displacement Lp of the contact. Returns the work on the body per area of a
+    /// cell, by the trapezoidal rule.
+    fn advance(
+        &mut self,
+        placement: &Placement,
+        pressure: &Field,
+        elastic: &Field,
+        duration: Second,
+        modulus: Pascal,
+    ) -> f64 {
+        let pressure = placement.onto(pressure);
+        let elastic = if elastic.dim() == pressure.dim() {
+            placement.onto(elastic)
+        } else {
+            let mut displaced = Field::zeros(pressure.raw_dim());
+            self.operator.apply(&pressure, &mut displaced);
+            displaced * modulus
+        };
+        let displacement = &self.history + &(self.memory.compliance(duration) * &elastic);
+        self.memory.advance(elastic, duration);
+        let pressures = pressure.iter().zip(&self.pressure).map(|(now, before)| 0.5 * (now + before));
+        let moved = displacement.iter().zip(&self.displacement).map(|(now, before)| now - before);
+        let work = pressures.zip(moved).map(|(pressure, moved)| pressure * moved).sum();
+        (self.displacement, self.pressure) = (displacement, pressure);
+        work
+    }
+}
+
+/// The two bodies of a pass.
+struct Creeping {
+    /// The viscoelastic ones, lower one first.
+    bodies: [Option<Remembering>; 2],
+    /// Compliance of the other one; 0 if there is none.
+    elastic: PerPascal,
+    area: SquareMetre,
+    modulus: Pascal,
+    /// Energy stored in the elastic body at the last position.
+    stored: Joule,
+}
+
+impl Creeping {
+    fn new(pair: &Pair, operators: &Operators) -> Self {
+        let creeps = pair.creep().expect("a viscoelastic body");
+        let of = |creep: &Creep, body: &Body| {
+            (!creep.terms.is_empty()).then(|| Remembering::of(creep, body, operators))
+        };
+        let elastic = creeps.iter().filter(|creep| creep.terms.is_empty()).map(|creep| creep.glassy).sum();
+        let bodies = [of(&creeps[0], &pair.lower), of(&creeps[1], &pair.upper)];
+        Self { bodies, elastic, area: pair.cell_area(), modulus: pair.modulus(), stored: 0.0 }
+    }
+
+    fn remembering(&mut self) -> impl Iterator<Item = &mut Remembering> {
+        self.bodies.iter_mut().flatten()
+    }
+
+    /// Begins a pass: from the `last` contact of the pass before, or after the bodies have been apart for a time.
+    fn begin(&mut self, pair: &Pair, last: Option<&Contact>, apart: Option<Second>) {
+        if let Some(apart) = apart {
+            self.remembering().for_each(|body| body.memory.recover(apart));
+        }
+        let placements = last.map(|last| pair.placements(&last.position));
+        let pressure = last.map(|last| last.pressure_field(pair.lower.width()));
+        for (index, body) in self.bodies.iter_mut().enumerate() {
+            let Some(body) = body else { continue };
+            body.displacement = body.memory.displacement();
+            if let (Some(placements), Some(pressure)) = (&placements, &pressure) {
+                body.pressure = placements[index].onto(pressure);
+            }
+        }
+        self.stored = self.stored_now();
+    }
+
+    /// Energy of the elastic body.
+    fn stored_now(&self) -> Joule {
+        // It is the same on the cells of either body.
+        let body = self.bodies.iter().flatten().next().expect("a viscoelastic body");
+        let energy = body.pressure.iter().zip(body.memory.elastic()).map(|(p, elastic)| p * elastic);
+        0.5 * self.elastic * self.area * energy.sum::<f64>()
+    }
+
+    /// Compliance of both bodies together in a step of this time.
+    fn compliance(&self, duration: Second) -> PerPascal {
+        let bodies = self.bodies.iter().flatten();
+        self.elastic + bodies.map(|body| body.memory.compliance(duration)).sum::<f64>()
+    }
+
+    /// Displacement of the cells of the contact by earlier loads at the end of a step of this time.
+    fn history(&mut self, placements: &[Placement; 2], columns: usize, duration: Second) -> Field {
+        let of = |(body, placement): (&mut Option<Remembering>, &Placement)| {
+            let body = body.as_mut()?;
+            body.history = body.memory.history(duration);
+            Some(placement.under(&body.history, columns))
+        };
+        let histories = self.bodies.iter_mut().zip(placements).filter_map(of);
+        histories.reduce(|sum, history| sum + history).expect("a viscoelastic body")
+    }
+
+    /// Advances both bodies to the end of a step. Returns the work on them.
+    fn advance(
+        &mut self,
+        placements: &[Placement; 2],
+        pressure: &Field,
+        elastic: &Field,
+        duration: Second,
+    ) -> Joule {
+        let mut work = 0.0;
+        for (body, placement) in self.bodies.iter_mut().zip(placements) {
+            let Some(body) = body else { continue };
+            work += self.area * body.advance(placement, pressure, elastic, duration, self.modulus);
+        }
+        let before = std::mem::take(&mut self.stored);
+        self.stored = self.stored_now();
+        work + self.stored - before
+    }
+}
+
+impl Solver<'_> {
+    /// Solves all positions of a pass of viscoelastic bodies, one after another, each a step of the same time. The starts are those of
+    /// [`Solver::solve`], or the contact at the position before.
+    pub(super) fn solve_creeping(
+        &self,
+        pair: &Pair,
+        control: Control,
+        params: &Params,
+        earlier: &[Vec<Contact>],
+    ) -> Result<Pass> {
+        let pitch = pair.pitch()[0];
+        let (duration, distance) = (self.motion.step_time(pitch), self.motion.sliding_distance(pitch));
+        let width = pair.lower.width();
+        let rougher = usize::from(pair.lower.heights.std(0.0) < pair.upper.heights.std(0.0));
+        let mut bodies = Creeping::new(pair, self.operators);
+        bodies.begin(pair, self.last.as_ref(), self.motion.apart());
+        let mut contacts: Vec<Contact> = Vec::with_capacity(self.positions.len());
+        let mut drags: Vec<Newton> = Vec::with_capacity(self.positions.len());
+        for (index, position) in self.positions.iter().enumerate() {
+            if self.watch.stop() {
+                return Err(Error::Interrupted);
+            }
+            let placements = pair.placements(position);
+            let last = contacts.last().or(self.last.as_ref());
+            let start = first_guess(earlier, index, control, width).or_else(|| {
+                let last = last?;
+                let pressure = pair.placements(&last.position)[rougher].onto(&last.pressure_field(width));
+                Some(placements[rougher].under(&pressure, position.columns))
+            });
+            let history = bodies.history(&placements, position.columns, duration);
+            let mut operator = self.operators.on([position.columns, width]);
+            let (solution, elastic) = solve_step(
+                operator.as_mut(),
+                pair.modulus(),
+                (bodies.compliance(duration), &history),
+                &pair.initial_gap(position),
+                control,
+                start.as_ref(),
+                params,
+                &OneOfMany(self.watch),
+            )
+            .map_err(|error| self.at_position(index, error))?;
+            let sliding = self.motion.sliding(position.stroke);
+            let mut contact =
+                Contact::new(*position, sliding.as_ref(), &solution).with_gap(&solution, self.gaps[index]);
+            if let Some(latest) = earlier.first() {
+                contact.stats.convolutions += latest[index].stats.convolutions;
+            }
+            let work = bodies.advance(&placements, &solution.pressure, &elastic, duration);
+            let enters = self.motion.strategy == Strategy::Overlap && matches!(control, Control::Approach(_));
+            let pressing = match last {
+                Some(last) => 0.5 * (last.load + contact.load) * (contact.approach - last.approach),
+                None if enters => 0.0,
+                None => f64::NAN,
+            };
+            drags.push(if distance > 0.0 { (work - pressing) / distance } else { 0.0 });
+            let load = contact.load;
+            contacts.push(contact);
+            self.watch.at(&Progress { solved: index + 1, load, ..self.progress });
+        }
+        // Bodies that have passed come apart in the step after the last position.
+        let mut leaving = 0.0;
+        if let (Strategy::Overlap, Some(last)) = (self.motion.strategy, contacts.last()) {
+            let placements = pair.placements(&last.position);
+            let nothing = Field::zeros([last.position.columns, width]);
+            bodies.history(&placements, last.position.columns, duration);
+            let work = bodies.advance(&placements, &nothing, &nothing, duration);
+            if matches!(control, Control::Approach(_)) {
+                leaving = work / distance;
+            }
+        }
+        let mut after = pair.clone();
+        for (remembering, body) in bodies.bodies.into_iter().zip([&mut after.lower, &mut after.upper]) {
+            if let Some(remembering) = remembering {
+                remembering.keep(body);
+            }
+        }
+        let lost = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
+        Ok(Pass {
+            contacts,
+            pair: after,
+            lost,
+            has_changed: false,
+            plastic_pass: None,
+            drag: Some(Drag { positions: drags, leaving }),
+        })
+    }
+}
