@@ -270,9 +270,9 @@ fn strides(case: &Case, passes: &[PassRecord]) -> Option<String> {
     (stride as f64 > SMALL * widest as f64).then(|| {
         format!(
             "the bodies move by {} from one position to the next, and their widest spot of contact has {widest}: in steps of a seventh of a \
-             spot the drag is about 3 % too small, in steps of a quarter 10 %, and most spots are narrower than the widest; give a smaller \
-             `stride` or a finer grid",
-            if stride == 1 { "a cell".to_owned() } else { format!("{stride} cells") }
+             spot the drag is about 3 % too small, in steps of a quarter 10 %, and most spots are narrower than the widest; give {}a finer grid",
+            if stride == 1 { "a cell".to_owned() } else { format!("{stride} cells") },
+            if stride == 1 { "" } else { "a smaller `stride` or " }
         )
     })
 }
