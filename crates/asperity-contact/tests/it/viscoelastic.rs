@@ -1,6 +1,8 @@
 //! Viscoelastic bodies in steady sliding and in time against dense programs, and their symmetries.
 
 use crate::support::dense::{dense, mean_compliance, relaxation as body};
+use std::f64::consts::TAU;
+
 use asperity_contact::adhesion::Adhesion;
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
@@ -142,6 +144,43 @@ fn a_hundred_random_histories_are_those_of_boltzmanns_superposition() {
             steps.push((begin, end, displaced.iter().zip(&before).map(|(now, then)| now - then).collect()));
             before = displaced;
         }
+    }
+}
+
+#[test]
+fn the_power_of_the_drag_is_what_the_dashpots_dissipate() {
+    let mut random = ChaCha8Rng::seed_from_u64(9);
+    for shape in [[16, 6], [15, 8], [24, 1]] {
+        let grid = Grid::new(shape, [1.0, 0.7]).unwrap();
+        let (creep, gap) = (body(&mut random).creep(), gap(&mut random, shape));
+        let speed = 0.8;
+        let found = slide(grid, Boundary::PERIODIC, &creep, speed, &gap, Control::Load(0.3 * grid.area()));
+        // Each spring of a retardation time has a dashpot beside it, on which the pressure p − q acts, with ρ q̇ = p − q.
+        let mut power = 0.0;
+        let [nx, ny] = shape.map(|n| n as isize);
+        for (kx, ky) in (0..nx).flat_map(|kx| (0..ny).map(move |ky| (kx, ky))) {
+            let half = |k: isize, n: isize| if 2 * k > n { k - n } else { k };
+            let waves = [half(kx, nx), half(ky, ny)];
+            let q = [0, 1].map(|axis| TAU * waves[axis] as f64 / grid.extent()[axis]);
+            let size = q[0].hypot(q[1]);
+            // Waves of two cells have no slope on the grid.
+            if size == 0.0 || 2 * kx == nx {
+                continue;
+            }
+            let mut sum = [0.0; 2];
+            for ((i, j), p) in found.solution.pressure.indexed_iter() {
+                let phase = TAU * (kx as f64 * i as f64 / nx as f64 + ky as f64 * j as f64 / ny as f64);
+                sum = [sum[0] + p * phase.cos(), sum[1] + p * phase.sin()];
+            }
+            let squared = (sum[0] * sum[0] + sum[1] * sum[1]) / grid.cells() as f64;
+            for term in &creep.terms {
+                let x = (q[0] * speed * term.time).powi(2);
+                power +=
+                    grid.cell_area() * term.compliance / term.time * 2.0 / size * squared * x / (1.0 + x);
+            }
+        }
+        let drag = found.drag * speed;
+        assert!((drag / power - 1.0).abs() < 1e-10, "{shape:?}: {drag}, dissipated {power}");
     }
 }
 
