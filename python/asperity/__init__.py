@@ -17,6 +17,7 @@ from . import errors, form, generate, keys, reference
 from ._core import __version__
 from ._conductance import Conductance, conductance
 from ._contact import Contact, contact, slide
+from ._fatigue import Fatigue, fatigue
 from ._gap_flow import GapFlow, flow
 from ._plastic_state import PlasticState
 from ._progress import Progress
@@ -59,6 +60,7 @@ __all__ = [
     "Correlation",
     "Distribution",
     "Extreme",
+    "Fatigue",
     "Field",
     "Fields",
     "GapFlow",
@@ -91,6 +93,7 @@ __all__ = [
     "contact",
     "dundurs",
     "errors",
+    "fatigue",
     "flow",
     "form",
     "generate",

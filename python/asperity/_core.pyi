@@ -191,9 +191,19 @@ def conductance(touching: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat 
     distance of the gas, gap, tolerance, number of threads.
     """
 
+def damage(over_limit: Incomplete, depths: SupportsGetItem[int, SupportsFloat | SupportsIndex], law: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, bool]) -> tuple[Incomplete, Incomplete]:
+    """
+    The damage of a pass at each depth `[iz, ix, iy]`, and the wear in a pass below which a column pits, from f over its limit.
+    """
+
 def distribution(heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], slope: str | None = None, classes: SupportsIndex | None = None) -> tuple[float, float, Incomplete]:
     """
     The distribution of the heights, or of a slope, over so many classes.
+    """
+
+def fatigue(pass_: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex], SupportsGetItem[int, SupportsFloat | SupportsIndex], SupportsLenAndGetItem[str], SupportsFloat | SupportsIndex], limits: SupportsLenAndGetItem[SupportsFloat | SupportsIndex], depths: SupportsGetItem[int, SupportsFloat | SupportsIndex], threads: SupportsIndex) -> tuple[list[Incomplete], list[float]]:
+    """
+    Dang Van's f, the radius of the smallest ball and the amplitude of the shear, each `[iz, ix, iy]`, and a and b of the criterion.
     """
 
 def feature_parameters(heights: tuple[Incomplete, SupportsLenAndGetItem[SupportsFloat | SupportsIndex]], pruning: SupportsFloat | SupportsIndex) -> list[tuple[str, float, str, str, str, str]]:

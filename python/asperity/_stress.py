@@ -304,12 +304,16 @@ def _of_tractions(pressure: Any, shear: Any, pitch: Any, boundary: Any, poisson:
     if len(parts) != 2:
         raise bad_input("shear", f"'shear' has {len(parts)} entries, expected the traction along x and that along y")
     along = [None if part is None else _traction("shear", part, normal.shape) for part in parts]
+    return (normal, lengths("pitch", pitch)), along, _edges(boundary), poisson, body == "upper"
+
+
+def _edges(boundary: Any) -> list[str]:
     one = "free" if boundary is None else boundary
     edges = [one, one] if isinstance(one, str) else list(one)
     if len(edges) != 2 or any(edge not in ("free", "periodic") for edge in edges):
         expected = 'expected "free" or "periodic", or one of them for each axis'
         raise bad_input("boundary", f"'boundary' is {boundary!r}, {expected}")
-    return (normal, lengths("pitch", pitch)), along, edges, poisson, body == "upper"
+    return edges
 
 
 def _traction(key: str, values: Any, shape: tuple[int, ...] | None) -> NDArray[np.float64]:

@@ -31,6 +31,7 @@
 //! | cells in contact and conductivities | [`conductance::solve`] | [`conductance::Conductance`]: thermal or electrical |
 //! | the deformed gap of a contact | [`flow::solve()`] | its permeability, leakage and critical constriction |
 //! | tractions | [`subsurface::Subsurface`] | [`stress::Stress`] plane by plane, and its maximum |
+//! | the pressures of a pass that repeats | [`fatigue::StressHistory`] | Dang Van's criterion below the surface |
 //! | plastic strain below a surface | [`plasticity::Volume`], [`plasticity::J2`] | its residual stress and displacement, and its growth |
 //! | a result to check | [`reference`](mod@reference), [`verification`] | closed forms, and the order of convergence to each |
 //!
@@ -87,6 +88,7 @@ pub mod kernel;
 pub mod operator;
 pub mod solver;
 pub mod subsurface;
+pub mod fatigue;
 pub mod temperature;
 pub mod plasticity;
 pub mod viscoelastic;

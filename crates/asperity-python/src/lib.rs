@@ -10,6 +10,7 @@ mod contact; // a static contact
 mod describe; // description of surfaces
 mod errors; // exceptions
 mod maps; // what is computed from a map of a contact or of a gap
+mod fatigue;
 mod passes; // a motion, pass after pass
 mod reference; // closed forms
 mod results; // reading of a results directory
@@ -38,6 +39,8 @@ mod _core {
         height_differences, line_heights, line_parameters, moments_by_differences, parameters, profile,
         profile_parameters, segments, self_affinity_of_differences, summits,
     };
+    #[pymodule_export]
+    use super::fatigue::{damage, fatigue};
     #[pymodule_export]
     use super::passes::{CorePasses, run};
     #[pymodule_export]

@@ -32,6 +32,7 @@
 //! | cells in contact and conductivities | [`conductance::solve`] | [`conductance::Conductance`]: thermal or electrical |
 //! | the deformed gap of a contact | [`flow::solve()`] | its permeability, leakage and critical constriction |
 //! | tractions | [`subsurface::Subsurface`] | [`stress::Stress`] plane by plane, and its maximum |
+//! | the pressures of a pass that repeats | [`fatigue::StressHistory`] | Dang Van's criterion below the surface |
 //! | plastic strain below a surface | [`plasticity::Volume`], [`plasticity::J2`] | its residual stress and displacement, and its growth |
 //! | a case file | [`study::Case`], [`study::estimate()`], [`study::run()`] | [`study::Results`], [`study::Summary`] |
 //! | a result to check | [`reference`](mod@reference), [`verification`] | closed forms, and the order of convergence to each |
@@ -97,8 +98,8 @@
 
 pub use asperity_base::{choice, error, grid, ndarray, ranks, units};
 pub use asperity_contact::{
-    adhesion, conductance, film, flow, kernel, material, motion, operator, plasticity, reference, solver,
-    stress, subsurface, temperature, verification, wear, with,
+    adhesion, conductance, fatigue, film, flow, kernel, material, motion, operator, plasticity, reference,
+    solver, stress, subsurface, temperature, verification, viscoelastic, wear, with,
 };
 pub use asperity_contact::{each_capability, each_law};
 #[cfg(feature = "study")]

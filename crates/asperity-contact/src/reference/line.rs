@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use crate::stress::Stress;
 use crate::units::{Metre, Pascal};
 
 /// Frictionless contact of two parallel elastic cylinders in plane strain, approximated by parabolas.
@@ -44,6 +45,26 @@ impl HertzLine {
     pub fn approach(&self, datum: Metre) -> Metre {
         let line = 2.0 * self.load_per_length / (PI * self.modulus);
         line * ((2.0 * datum / self.half_width()).ln() + 0.5)
+    }
+
+    /// Stress at distance `x` from the centre line and at `depth` ≥ 0, in plane strain, with the shear traction `friction` times the pressure
+    /// along +x on the body. McEwen (1949); Johnson (1985), eqs. 4.49, 7.8; y lies along the line.
+    pub fn stress(&self, x: Metre, depth: Metre, poisson: f64, friction: f64) -> Stress {
+        let a = self.half_width();
+        let (x, z) = (x / a, depth.max(f64::MIN_POSITIVE) / a);
+        let sum = 1.0 - x * x + z * z;
+        let root = sum.hypot(2.0 * x * z);
+        let m = (0.5 * (root + sum)).max(0.0).sqrt();
+        let n = (0.5 * (root - sum)).max(0.0).sqrt().copysign(x);
+        let squares = (m * m + n * n).max(f64::MIN_POSITIVE);
+        let inside = -(m * (1.0 + (z * z + n * n) / squares) - 2.0 * z);
+        let shear = -n * (m * m - z * z) / squares;
+        let along = n * (2.0 - (z * z - m * m) / squares) - 2.0 * x;
+        let normal = -m * (1.0 - (z * z + n * n) / squares);
+        let p = self.peak_pressure();
+        let (xx, zz) = (p * (inside + friction * along), p * (normal + friction * shear));
+        let xz = p * (shear + friction * inside);
+        Stress { xx, yy: poisson * (xx + zz), zz, yz: 0.0, xz, xy: 0.0 }
     }
 
     /// Deformed gap at distance `x` from the centre line; 0 in the contact.

@@ -25,9 +25,11 @@
 
 mod layered;
 mod maximum;
+mod response;
 
 pub use layered::LayeredStress;
 pub use maximum::{Extreme, Maximum};
+pub use response::SlidingStress;
 
 use asperity_transforms::num_complex::Complex64;
 use ndarray::{Array1, Axis, s};

@@ -22,6 +22,7 @@ mod adhesion;
 mod coated;
 mod conductance;
 mod dissimilar;
+mod fatigue;
 mod flow;
 mod fretting;
 mod heat;
@@ -169,6 +170,7 @@ pub const CASES: &[Case] = &[
     subsurface::LOADED_RECTANGLE,
     subsurface::SPHERE,
     subsurface::SLIDING_SPHERE,
+    fatigue::LINE,
     heat::SQUARE,
     heat::WAVE,
     heat::DISC,

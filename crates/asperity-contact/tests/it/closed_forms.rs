@@ -65,6 +65,7 @@ cases! {
     stresses_under_a_rectangle_are_those_of_its_parts: "Love: stress under a loaded rectangle",
     a_sphere_yields_below_its_contact: "Hertz: stress under a sphere",
     a_sliding_sphere_yields_nearer_to_the_surface: "Hamilton: stress under a sliding sphere, friction 0.25",
+    a_point_remembers_all_that_a_line_did_to_it: "Dang Van: line contact that passes",
     a_moving_square_is_hottest_behind_its_middle: "moving square: Pe 0, 1, 5, 10, 100",
     a_wave_of_heat_lags_behind_its_source: "periodic heat: oblique sinusoid",
     a_disc_warms_up_as_the_root_of_time_at_first: "heated disc: in time",

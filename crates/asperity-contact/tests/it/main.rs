@@ -7,6 +7,7 @@ mod conductance;
 mod convergence;
 mod device;
 mod error_places;
+mod fatigue;
 mod flow;
 mod friction;
 mod in_place;

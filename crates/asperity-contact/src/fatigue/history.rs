@@ -1,0 +1,211 @@
+//! Stress of all positions of a pass, depth by depth.
+
+use rayon::prelude::*;
+
+use super::ball::{Point, RIM, smallest_ball, squared};
+use super::criterion::{DangVan, max_shear, split};
+use crate::error::{Error, Result, check, check_in};
+use crate::grid::{Field, Grid};
+use crate::operator::Boundary;
+use crate::stress::Stress;
+use crate::subsurface::SlidingStress;
+use crate::units::{Dimension, Metre, Pascal};
+
+/// Bytes of the stress at one depth that is kept instead of computed anew for each sweep.
+const KEPT: f64 = 256e6;
+/// Sweeps over the positions without an end, which do not happen.
+const MOST_SWEEPS: usize = 64;
+/// Distance from a ball, over its radius, by which a point may lie outside.
+const OUTSIDE: f64 = 1e-10;
+/// Rounding of the stress over the largest pressure.
+const ROUNDING: f64 = 1e-14;
+
+/// A body that contacts pass over, which repeats: its pressures at all positions, on its own cells.
+///
+/// `tractions` returns the pressure at a position, from 0, Pa, and the ratio of the shear traction along +x on this body to it. It is called
+/// several times for each position, from several threads.
+pub struct StressHistory<F> {
+    grid: Grid,
+    boundary: Boundary,
+    poisson: f64,
+    positions: usize,
+    tractions: F,
+    stop: Option<Box<dyn Fn() -> bool + Sync>>,
+}
+
+/// What the points at one depth have seen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AtDepth {
+    /// The depth.
+    pub depth: Metre,
+    /// Dang Van's f of each cell, Pa.
+    pub f: Field,
+    /// Radius of the smallest ball around the deviators, Pa.
+    pub radius: Field,
+    /// Half the range of σxz, Pa.
+    pub shear_amplitude: Field,
+    /// Sweeps over the positions, the last of which found all deviators inside of the balls.
+    pub sweeps: usize,
+}
+
+/// The ball around the deviators of a cell so far.
+struct Grown {
+    centre: Point,
+    square: f64,
+    rim: Vec<Point>,
+    /// Whether no position of the present sweep was outside.
+    holds: bool,
+    done: bool,
+    f: Pascal,
+    shear: [Pascal; 2],
+}
+
+impl Grown {
+    fn new(deviator: Point, shear: Pascal) -> Self {
+        let rim = vec![deviator];
+        let (holds, done) = (true, false);
+        Self { centre: deviator, square: 0.0, rim, holds, done, f: f64::NEG_INFINITY, shear: [shear; 2] }
+    }
+
+    /// Takes in a deviator that is outside.
+    fn take_in(&mut self, deviator: &Point) {
+        self.rim.push(*deviator);
+        let (centre, square) = smallest_ball(&mut self.rim);
+        // The ball holds its points up to their rounding.
+        self.square = square.max(self.square);
+        self.centre = centre;
+        let far = (1.0 - 1e-9) * square;
+        self.rim.retain(|point| squared(point, &centre) >= far);
+        self.rim.truncate(RIM);
+        self.holds = false;
+    }
+
+    /// Looks at a position.
+    fn see(&mut self, stress: [Pascal; 6], weight: f64, rounding: Pascal) {
+        let (deviator, mean) = split(stress);
+        let shear = stress[4];
+        self.shear = [self.shear[0].min(shear), self.shear[1].max(shear)];
+        let allowed = self.square * (1.0 + OUTSIDE).powi(2) + rounding * rounding;
+        if squared(&deviator, &self.centre) > allowed {
+            self.take_in(&deviator);
+        }
+        if self.holds {
+            let centred = std::array::from_fn(|i| deviator[i] - self.centre[i]);
+            self.f = self.f.max(max_shear(&centred) + weight * mean);
+        }
+    }
+
+    /// Ends a sweep: the ball is the smallest if it held all of it.
+    fn end_sweep(&mut self) {
+        self.done = self.holds;
+        if !self.done {
+            (self.holds, self.f) = (true, f64::NEG_INFINITY);
+        }
+    }
+}
+
+impl DangVan {
+    /// Returns f of a point that sees this `history` of stresses again and again, and the radius of the smallest ball around its deviators.
+    /// Without stresses f is −∞.
+    pub fn of(&self, history: &[Stress]) -> [Pascal; 2] {
+        let components = history.iter().map(Stress::components);
+        let largest = components.clone().flatten().fold(0.0f64, |most, s| most.max(s.abs()));
+        let Some(first) = history.first() else { return [f64::NEG_INFINITY, 0.0] };
+        let mut cell = Grown::new(first.split().0, first.xz);
+        for _ in 0..MOST_SWEEPS {
+            components.clone().for_each(|stress| cell.see(stress, self.weight(), ROUNDING * largest));
+            cell.end_sweep();
+            if cell.done {
+                break;
+            }
+        }
+        [cell.f, cell.square.sqrt()]
+    }
+}
+
+impl<F: Fn(usize) -> (Field, f64) + Sync> StressHistory<F> {
+    /// Creates the history of a body with Poisson's ratio `poisson`.
+    pub fn new(grid: Grid, boundary: Boundary, poisson: f64, positions: usize, tractions: F) -> Self {
+        Self { grid, boundary, poisson, positions, tractions, stop: None }
+    }
+
+    /// Ends with [`Error::Interrupted`] as soon as `stop` is true.
+    #[must_use]
+    pub fn until(self, stop: impl Fn() -> bool + Sync + 'static) -> Self {
+        Self { stop: Some(Box::new(stop)), ..self }
+    }
+
+    /// Computes Dang Van's f at the `depths` ≥ 0.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a depth below 0 or without a position; [`Error::Interrupted`].
+    ///
+    /// # Panics
+    /// If a pressure has another shape than the grid.
+    pub fn dang_van(&self, criterion: &DangVan, depths: &[Metre]) -> Result<Vec<AtDepth>> {
+        let positions = self.positions as f64;
+        check("positions", positions, self.positions > 0, "at least one position")?;
+        for depth in depths {
+            let is_depth = *depth >= 0.0 && depth.is_finite();
+            check_in(Dimension::Length, "depth", *depth, is_depth, "a finite depth of at least 0")?;
+        }
+        depths.par_iter().map(|depth| self.at(criterion.weight(), *depth)).collect()
+    }
+
+    /// Returns the stress at a position, component by component, and the largest pressure there.
+    fn stress(&self, at_depth: &SlidingStress, position: usize) -> Result<([Field; 6], Pascal)> {
+        if self.stop.as_ref().is_some_and(|stop| stop()) {
+            return Err(Error::Interrupted);
+        }
+        let (pressure, friction) = (self.tractions)(position);
+        assert_eq!(pressure.shape(), self.grid.shape, "shape of the pressure");
+        let largest = pressure.iter().fold(0.0f64, |most, p| most.max(p.abs()));
+        Ok((at_depth.under(&pressure, friction), largest))
+    }
+
+    fn at(&self, weight: f64, depth: Metre) -> Result<AtDepth> {
+        let at_depth = SlidingStress::new(self.grid, self.boundary, self.poisson, depth);
+        let bytes = 48.0 * (self.positions * self.grid.cells()) as f64;
+        let mut kept: Vec<[Field; 6]> = Vec::new();
+        let mut cells: Vec<Grown> = Vec::new();
+        let (mut sweeps, mut largest) = (0, 0.0f64);
+        while sweeps < MOST_SWEEPS && !cells.iter().all(|cell| cell.done) || sweeps == 0 {
+            for position in 0..self.positions {
+                let computed;
+                let stress = match kept.get(position) {
+                    Some(stress) => stress,
+                    None => {
+                        let pressure;
+                        (computed, pressure) = self.stress(&at_depth, position)?;
+                        largest = largest.max(pressure);
+                        &computed
+                    }
+                };
+                let components = stress.each_ref().map(|field| field.as_slice().expect("standard layout"));
+                let of_cell = |cell: usize| components.map(|component| component[cell]);
+                if cells.is_empty() {
+                    let first = (0..self.grid.cells()).map(of_cell);
+                    cells.extend(first.map(|stress| Grown::new(split(stress).0, stress[4])));
+                }
+                let left = cells.par_iter_mut().enumerate().filter(|(_, cell)| !cell.done);
+                left.for_each(|(index, cell)| cell.see(of_cell(index), weight, ROUNDING * largest));
+                if sweeps == 0 && bytes <= KEPT {
+                    kept.push(stress.clone());
+                }
+            }
+            cells.par_iter_mut().filter(|cell| !cell.done).for_each(Grown::end_sweep);
+            sweeps += 1;
+        }
+        let field = |value: &dyn Fn(&Grown) -> f64| {
+            let values = cells.iter().map(value).collect();
+            Field::from_shape_vec(self.grid.shape, values).expect("a value for each cell")
+        };
+        Ok(AtDepth {
+            depth,
+            f: field(&|cell| cell.f),
+            radius: field(&|cell| cell.square.sqrt()),
+            shear_amplitude: field(&|cell| 0.5 * (cell.shear[1] - cell.shear[0])),
+            sweeps,
+        })
+    }
+}

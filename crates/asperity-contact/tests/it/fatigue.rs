@@ -1,0 +1,167 @@
+//! Dang Van's criterion: closed forms, invariances, and histories of random contacts by brute force.
+
+use asperity_contact::fatigue::{DangVan, StressHistory, risk};
+use asperity_contact::operator::{Boundary, Edge};
+use asperity_contact::reference::HertzLine;
+use asperity_contact::stress::Stress;
+use asperity_contact::subsurface::{Subsurface, Tractions};
+use asperity_contact::{Field, Grid};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// A line contact with p₀ = a = 1.
+const LINE: HertzLine = HertzLine { radius: 1.0, modulus: 2.0, load_per_length: std::f64::consts::FRAC_PI_2 };
+
+/// Limits with a = 0.3 and b = 1.
+fn criterion() -> DangVan {
+    DangVan::new(1.0, 3.0 / 1.8).unwrap()
+}
+
+/// The stress at a depth as the line passes over it.
+fn history(depth: f64, friction: f64) -> Vec<Stress> {
+    (-6000..=6000).map(|k| LINE.stress(0.002 * f64::from(k), depth, 0.3, friction)).collect()
+}
+
+#[test]
+fn a_line_contact_has_its_numbers() {
+    assert!((LINE.half_width() - 1.0).abs() < 1e-15 && (LINE.peak_pressure() - 1.0).abs() < 1e-15);
+    let shear = history(0.5, 0.0).iter().fold(0.0f64, |most, stress| most.max(stress.xz));
+    assert!((shear - 0.25).abs() < 1e-6, "{shear}");
+    let of = |depth: f64, friction: f64| criterion().of(&history(depth, friction))[0];
+    let depths = [1e-9, 0.1, 0.25, 0.5, 0.75, 1.0, 1.5];
+    for (friction, expected) in [
+        (0.0, [0.1, 0.09785, 0.143584, 0.169172, 0.167828, 0.156657, 0.129594]),
+        (0.1, [0.174995, 0.115245, 0.152192, 0.174041, 0.170920, 0.158748, 0.130743]),
+    ] {
+        for (depth, expected) in depths.into_iter().zip(expected) {
+            let found = of(depth, friction);
+            // The history is sampled: the ball depends on the points that it meets.
+            assert!((found - expected).abs() < 2e-4, "{depth}, {friction}: {found}, expected {expected}");
+        }
+    }
+    // Below the surface, the largest is at 0.615 a.
+    assert!((of(0.615, 0.0) - 0.170748).abs() < 1e-4);
+}
+
+#[test]
+fn simple_loads_and_invariances() {
+    let of = |history: &[Stress]| criterion().of(history)[0];
+    let cycle = |stress: fn(f64) -> Stress| -> Vec<Stress> {
+        (0..400).map(|k| stress((std::f64::consts::TAU * f64::from(k) / 400.0).sin())).collect()
+    };
+    let torsion = cycle(|s| Stress { xz: s, ..Stress::default() });
+    let tension = cycle(|s| Stress { xx: s, ..Stress::default() });
+    assert!((of(&torsion) - 1.0).abs() < 1e-5 && (of(&tension) - (0.5 + 0.1)).abs() < 1e-5);
+    // At the limits of the material both reach b.
+    let scaled: Vec<Stress> = tension.iter().map(|stress| 3.0 / 1.8 * *stress).collect();
+    assert!((of(&scaled) - 1.0).abs() < 1e-5);
+    let path = history(0.6, 0.05);
+    let f = of(&path);
+    let with = |more: Stress| path.iter().map(|stress| *stress + more).collect::<Vec<_>>();
+    let deviator = Stress { xx: 0.3, yy: -0.1, zz: -0.2, yz: 0.4, xz: -0.5, xy: 0.2 };
+    let hydrostatic = Stress { xx: 0.2, yy: 0.2, zz: 0.2, ..Stress::default() };
+    let reversed: Vec<Stress> = path.iter().rev().copied().collect();
+    let tripled: Vec<Stress> = path.iter().map(|stress| 3.0 * *stress).collect();
+    let turned: Vec<Stress> =
+        path.iter().map(|s| Stress { xx: s.zz, yy: s.xx, zz: s.yy, yz: s.xy, xz: s.yz, xy: s.xz }).collect();
+    for (what, found, expected) in [
+        ("deviator", of(&with(deviator)), f),
+        ("hydrostatic", of(&with(hydrostatic)), f + 0.3 * 0.2),
+        ("reversed", of(&reversed), f),
+        ("tripled", of(&tripled), 3.0 * f),
+        ("turned", of(&turned), f),
+    ] {
+        assert!((found - expected).abs() < 1e-8, "{what}: {found}, expected {expected}");
+    }
+    assert_eq!(of(&[]), f64::NEG_INFINITY);
+}
+
+/// Dang Van's f by a ball that is found by going towards the farthest point, until nothing is gained.
+fn by_brute_force(history: &[Stress]) -> f64 {
+    let points: Vec<([f64; 5], f64)> = history.iter().map(Stress::split).collect();
+    let squared = |a: &[f64; 5], b: &[f64; 5]| (0..5).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>();
+    // The ball through each choice of up to six points is the smallest if it holds all: by pairs and a descent on the farthest.
+    let mut centre = points[0].0;
+    for step in 0..400_000 {
+        let far = points.iter().max_by(|a, b| squared(&a.0, &centre).total_cmp(&squared(&b.0, &centre)));
+        let far = far.unwrap().0;
+        centre = std::array::from_fn(|i| centre[i] + (far[i] - centre[i]) / (f64::from(step) + 2.0));
+    }
+    let shear = |point: &[f64; 5]| {
+        let d: [f64; 5] = std::array::from_fn(|i| point[i] - centre[i]);
+        let root = 2f64.sqrt();
+        let zz = d[1] / 1.5f64.sqrt();
+        let (xx, yy) = (d[0] / root - 0.5 * zz, -d[0] / root - 0.5 * zz);
+        Stress { xx, yy, zz, yz: d[3] / root, xz: d[4] / root, xy: d[2] / root }.max_shear()
+    };
+    points.iter().map(|(point, mean)| shear(point) + 0.3 * mean).fold(f64::NEG_INFINITY, f64::max)
+}
+
+#[test]
+fn random_passes_are_those_of_their_stresses_one_by_one() {
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    for case in 0..12 {
+        let shape = [random.random_range(3..7), random.random_range(2..5)];
+        let grid = Grid::new(shape, [1.0, random.random_range(0.5..2.0)]).unwrap();
+        let boundary = [Boundary::FREE, Boundary::PERIODIC, Boundary([Edge::Free, Edge::Periodic])][case % 3];
+        let positions = random.random_range(1..12);
+        let friction = random.random_range(-0.3..0.3);
+        let pressures: Vec<Field> = (0..positions)
+            .map(|_| Field::from_shape_simple_fn(shape, || random.random_range(-1.0f64..1.0).max(0.0)))
+            .collect();
+        let depths = [0.0, 0.4, 1.5];
+        let pass = StressHistory::new(grid, boundary, 0.3, positions, |at| (pressures[at].clone(), friction));
+        let found = pass.dang_van(&criterion(), &depths).unwrap();
+        for (depth, found) in depths.into_iter().zip(&found) {
+            let planes: Vec<_> = pressures
+                .iter()
+                .map(|p| {
+                    let shear = [Some(friction * p), None];
+                    let tractions = Tractions { shear, pressure: p.clone() };
+                    Subsurface::new(grid, boundary, 0.3, &tractions).plane(depth)
+                })
+                .collect();
+            for cell in ndarray::indices(shape).into_iter().map(|(i, j)| [i, j]) {
+                let history: Vec<Stress> = planes.iter().map(|plane| plane.at(cell)).collect();
+                let [f, radius] = criterion().of(&history);
+                assert!((found.f[cell] - f).abs() < 1e-8, "case {case}: {} {f}", found.f[cell]);
+                assert!((found.radius[cell] - radius).abs() < 1e-9);
+                if cell == [1, 1] {
+                    let brute = by_brute_force(&history);
+                    assert!((f - brute).abs() < 2e-5, "case {case}: {f} {brute}");
+                }
+                let shears = || history.iter().map(|stress| stress.xz);
+                let range =
+                    shears().fold(f64::NEG_INFINITY, f64::max) - shears().fold(f64::INFINITY, f64::min);
+                assert!((found.shear_amplitude[cell] - 0.5 * range).abs() < 1e-12);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_life_of_a_line_falls_with_the_fourth_power_of_its_load() {
+    // Twice the load: √2 times the pressure and the width.
+    let of = |scale: f64| {
+        let depths: Vec<f64> = (1..=400).map(|k| 0.01 * f64::from(k) * scale).collect();
+        let amplitude = |z: &f64| {
+            let shears = history(z / scale, 0.0).into_iter().map(|stress| stress.xz.abs());
+            scale * shears.fold(0.0, f64::max)
+        };
+        risk(&depths, &depths.iter().map(amplitude).collect::<Vec<_>>(), 0.0)
+    };
+    let exponent = (of(2f64.sqrt()) / of(1.0)).log2() / (9.0 / 8.0);
+    assert!((exponent - 4.0).abs() < 1e-9, "{exponent}");
+}
+
+#[test]
+fn what_is_no_history_is_refused() {
+    let grid = Grid::new([4, 4], [1.0; 2]).unwrap();
+    let none =
+        |positions: usize| StressHistory::new(grid, Boundary::FREE, 0.3, positions, |_| (grid.zeros(), 0.0));
+    assert!(none(0).dang_van(&criterion(), &[1.0]).unwrap_err().to_string().contains("positions"));
+    assert!(none(1).dang_van(&criterion(), &[-1.0]).unwrap_err().to_string().contains("depth"));
+    let stopped = none(1).until(|| true).dang_van(&criterion(), &[1.0]).unwrap_err();
+    assert!(matches!(stopped, asperity_base::Error::Interrupted));
+    assert!(none(3).dang_van(&criterion(), &[1.0]).unwrap()[0].f.iter().all(|f| *f == 0.0));
+}

@@ -1,0 +1,76 @@
+//! Fatigue of a body that contacts pass over.
+
+use asperity::fatigue::{AtDepth, Basquin, DangVan, StressHistory, critical_wear};
+use asperity::motion::Watch;
+use asperity::ndarray::{Array3, Axis, Ix3};
+use asperity::operator::{Boundary, Edge};
+use asperity::{Choice, Error, Field, Grid};
+use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray3};
+use pyo3::prelude::*;
+
+use crate::arrays::ok;
+use crate::work;
+
+/// A pass: the pressure at each position `[it, ix, iy]`, the pitch, the ratio of the shear along x to the pressure at each position, the
+/// boundary along both axes, and Poisson's ratio.
+type Pass<'py> = (PyReadonlyArray3<'py, f64>, [f64; 2], Vec<f64>, [String; 2], f64);
+
+/// Arrays `[iz, ix, iy]`.
+type Planes<'py> = Vec<Bound<'py, PyArray3<f64>>>;
+
+/// Computes Dang Van's f, the radius of the smallest ball and the amplitude of the shear, each `[iz, ix, iy]`, and a and b of the criterion.
+#[pyfunction]
+pub(crate) fn fatigue<'py>(
+    py: Python<'py>,
+    pass_: Pass<'py>,
+    limits: [f64; 2],
+    depths: Vec<f64>,
+    threads: usize,
+) -> PyResult<(Planes<'py>, [f64; 2])> {
+    let (pressures, pitch, friction, edges, poisson) = pass_;
+    let pressures = pressures.as_array().as_standard_layout().into_owned();
+    let (positions, nx, ny) = pressures.dim();
+    let grid = ok(Grid::new([nx, ny], pitch), py)?;
+    let edge = |word: &String| Edge::of_word(word).expect("a boundary is one of the words");
+    let boundary = Boundary([edge(&edges[0]), edge(&edges[1])]);
+    let criterion = ok(DangVan::new(limits[0], limits[1]), py)?;
+    let found = work::run(py, threads, None, |watch| {
+        let at = |position: usize| -> (Field, f64) {
+            (pressures.index_axis(Axis(0), position).to_owned(), friction[position])
+        };
+        let history = StressHistory::new(grid, boundary, poisson, positions, at);
+        let mut found = Vec::new();
+        for depths in depths.chunks(rayon::current_num_threads().max(1)) {
+            if watch.stop() {
+                return Err(Error::Interrupted);
+            }
+            found.extend(history.dang_van(&criterion, depths)?);
+        }
+        Ok(found)
+    })?;
+    let together = |field: fn(&AtDepth) -> &Field| {
+        let values: Vec<f64> = found.iter().flat_map(|at| field(at).iter().copied()).collect();
+        let shape = Ix3(depths.len(), nx, ny);
+        Array3::from_shape_vec(shape, values).expect("planes of one grid").into_pyarray(py)
+    };
+    let fields = vec![together(|at| &at.f), together(|at| &at.radius), together(|at| &at.shear_amplitude)];
+    Ok((fields, [criterion.weight(), criterion.limit()]))
+}
+
+/// The damage of a pass at each depth, and the wear of each column.
+type Damage<'py> = (Bound<'py, PyArray3<f64>>, Bound<'py, PyArray2<f64>>);
+
+/// Computes the damage of a pass at each depth `[iz, ix, iy]`, and the wear in a pass below which a column pits, from f over its limit.
+#[pyfunction]
+pub(crate) fn damage<'py>(
+    py: Python<'py>,
+    over_limit: PyReadonlyArray3<'py, f64>,
+    depths: Vec<f64>,
+    law: (f64, f64, bool),
+) -> PyResult<Damage<'py>> {
+    let (exponent, cycles, endurance) = law;
+    let law = ok(Basquin::new(exponent, cycles, endurance), py)?;
+    let damage = over_limit.as_array().mapv(|over| law.damage(over));
+    let wear = damage.map_axis(Axis(0), |column| critical_wear(&depths, &column.to_vec()));
+    Ok((damage.into_pyarray(py), wear.into_pyarray(py)))
+}
