@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -138,6 +138,29 @@ class Pass(_Moving):
     def steps(self) -> Table:
         """A record for each position, with the columns of `steps.csv`."""
         return records(self._core.steps(self.number), _core.STEP_COLUMNS)
+
+    def pressures(self, body: Literal["lower", "upper"] = "lower") -> NDArray[np.float64]:
+        """Return the pressure at each position on each cell of a body, ``[position, ix, iy]``, Pa.
+
+        :func:`asperity.fatigue` takes them. They need the memory of a body for each position.
+
+        Parameters
+        ----------
+        body : str
+            ``"lower"`` or ``"upper"``.
+        """
+        if body not in ("lower", "upper"):
+            raise bad_input("body", f"'body' is {body!r}, expected \"lower\" or \"upper\"")
+        index = 0 if body == "lower" else 1
+        nx, ny = self.shapes[index]
+        contacts, cells = self.contacts, nx * ny
+        cell = (contacts.lower_cell, contacts.upper_cell)[index]
+        beyond = (contacts.lower_beyond, contacts.upper_beyond)[index]
+        count = len(self.steps["step"])
+        flat = np.zeros(count * cells)
+        np.add.at(flat, contacts.position * cells + cell, contacts.pressure * (1.0 - beyond))
+        np.add.at(flat, contacts.position * cells + (cell + ny) % cells, contacts.pressure * beyond)
+        return flat.reshape(count, nx, ny)
 
     def on_bodies(self, values: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Sum values of the contacts on the cells of the lower and of the upper body over the pass.

@@ -91,3 +91,22 @@ def test_pressures_are_matrices_position_by_position():
     for wrong, words in ((np.ones((3, 3)), "expected matrices"), (np.full((2, 3, 3), np.nan), "not finite"), ("abc", "no numbers")):
         with pytest.raises(errors.BadInput, match=words):
             asp.fatigue(wrong, 1e-6, pitch=1e-6, **LIMITS)
+
+
+def test_the_pressures_of_a_pass_lie_on_the_cells_of_each_body() -> None:
+    def rough(seed: int) -> asp.Body:
+        surface = asp.generate.low_pass((24, 12), "1 um", sq="35 nm", cutoff="8 um", seed=seed)
+        return asp.Body(surface, asp.Material("210 GPa", 0.3))
+
+    run = asp.Simulation(rough(1), rough(2), load="5 mN", stride=3, progress=False)
+    for each in run:
+        load = each.steps["load"]
+        for index, body in enumerate(("lower", "upper")):
+            on_body = each.pressures(body)  # type: ignore[arg-type]
+            assert on_body.shape == (len(load), 24, 12)
+            assert on_body.sum(axis=(1, 2)) * each.cell_area == pytest.approx(load, rel=1e-6, abs=1e-12)
+            assert on_body.sum(axis=0) == pytest.approx(each.on_bodies(each.contacts.pressure)[index])
+        with pytest.raises(errors.BadInput, match="body"):
+            each.pressures("both")  # type: ignore[arg-type]
+        found = asp.fatigue(each.pressures("lower"), [1e-6], pitch="1 um", boundary="free", **LIMITS)
+        assert found.f.max() > 0

@@ -137,9 +137,8 @@ mod tests {
             }
             for i in k + 1..n {
                 let factor = a[i][k] / a[k][k];
-                for j in k..n {
-                    a[i][j] -= factor * a[k][j];
-                }
+                let (above, below) = a.split_at_mut(i);
+                below[0][k..].iter_mut().zip(&above[k][k..]).for_each(|(x, y)| *x -= factor * y);
                 b[i] -= factor * b[k];
             }
         }

@@ -141,7 +141,7 @@ mod tests {
         for (found, expected) in damage.iter().zip([0.8, 0.23, 0.003]) {
             assert!((found - expected).abs() < 1e-14_f64, "{found} {expected}");
         }
-        // What is worn by a layer in a pass uncovers the one below.
+        // Wear by a layer in a pass uncovers the one below.
         let mut damage = [0.5, 0.2, 0.0];
         advance_damage(&[1.0, 2.0, 3.0], &mut damage, &[0.0; 3], 1.0, 1.0);
         assert_eq!(damage, [0.2, 0.0, 0.0]);

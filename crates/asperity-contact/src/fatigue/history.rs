@@ -33,7 +33,7 @@ pub struct StressHistory<F> {
     stop: Option<Box<dyn Fn() -> bool + Sync>>,
 }
 
-/// What the points at one depth have seen.
+/// The points at one depth, and all that they have seen.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AtDepth {
     /// The depth.
