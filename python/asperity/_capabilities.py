@@ -32,6 +32,12 @@ class Observed:
         return by_direction(self._found("flow"))
 
 
+    @property
+    def fatigue(self) -> Table:
+        """A record for each pass and body whose fatigue was asked for, with the columns of `fatigue.csv`, else empty."""
+        return records(self._found("fatigue"), [])
+
+
 class OfContact(Observed, Solved):
     """What the capabilities compute from a contact."""
 

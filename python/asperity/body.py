@@ -37,7 +37,9 @@ class Body(Comparable):
         Tribofilm on the body.
     viscoelastic : keys.Viscoelastic, optional
         Relaxation of the body, whose `young` is the relaxed modulus: `moduli` and `times`, or the `file` of a master curve. For ``steady``
-        of :func:`contact`.
+        of :func:`contact`, for stages with a time and for passes.
+    fatigue : keys.FatigueLimits, optional
+        Limits of the body under alternating loads, `torsion` and `tension`, for ``fatigue`` of :func:`simulate`.
     thermal : keys.Thermal, optional
         Thermal constants for a flash temperature: `conductivity`, W/(m K), `heat_capacity`, J/(kg K), and `density`, kg/m³. For heat
         that passes a contact `conductivity` alone, for a current `resistivity`, Ω m.
@@ -52,6 +54,7 @@ class Body(Comparable):
         wear: keys.Wear | None = None,
         film: keys.Film | None = None,
         viscoelastic: keys.Viscoelastic | None = None,
+        fatigue: keys.FatigueLimits | None = None,
         thermal: keys.Thermal | None = None,
     ) -> None:
         if not isinstance(surface, Surface):
@@ -67,6 +70,7 @@ class Body(Comparable):
         self.wear = _copied(wear)
         self.film = _copied(film)
         self.viscoelastic = _copied(viscoelastic)
+        self.fatigue = _copied(fatigue)
         self.thermal = _copied(thermal)
 
     def __repr__(self) -> str:
@@ -103,7 +107,8 @@ class Handed:
                 raise bad_input(f"{name}.hardness", message)
             self.hardness[name] = hardness
             table["hardness"] = {"given": name}
-        table |= {"wear": body.wear, "film": body.film, "viscoelastic": body.viscoelastic, **(body.thermal or {})}
+        table |= {"wear": body.wear, "film": body.film, "viscoelastic": body.viscoelastic, "fatigue": body.fatigue}
+        table |= body.thermal or {}
         if name == "upper" and body.mount is not None:
             table["mount"] = body.mount
         self.tables[name] = table

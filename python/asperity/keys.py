@@ -20,6 +20,8 @@ __all__ = [
     "Acceleration",
     "Adhesion",
     "Conductance",
+    "Fatigue",
+    "FatigueLimits",
     "Film",
     "Flow",
     "Friction",
@@ -407,6 +409,33 @@ class Viscoelastic(TypedDict, total=False):
     wlf_at: Quantity
 
 
+class _RequiredFatigueLimits(TypedDict):
+    torsion: Quantity
+    tension: Quantity
+
+
+class FatigueLimits(_RequiredFatigueLimits, total=False):
+    """Keys of ``fatigue`` of a body: its limits under alternating loads.
+
+    Attributes
+    ----------
+    torsion : float or str
+        Limit τ₋₁ in alternating torsion: an amplitude; pressure > 0. Required.
+    tension : float or str
+        Limit σ₋₁ in alternating tension: an amplitude, at most twice that in torsion; pressure > 0. Required.
+    exponent : float
+        Exponent m of Basquin's law: a pass does the damage (f/b)^m/N₀; number > 0. By default `10.0`.
+    cycles : float
+        Cycles N₀ that a material endures at the limit; number > 0. By default `2e6`.
+    endurance : bool
+        Whether there is no damage below the limit. By default `false`.
+    """
+
+    exponent: float
+    cycles: float
+    endurance: bool
+
+
 class Steady(TypedDict, total=False):
     """Keys of ``steady``: steady sliding of viscoelastic bodies. `speed` or `speeds` is given.
 
@@ -519,6 +548,31 @@ class Conductance(TypedDict, total=False):
     every: int
 
 
+class _RequiredFatigue(TypedDict):
+    to: Quantity
+
+
+class Fatigue(_RequiredFatigue, total=False):
+    """Keys of ``fatigue``: fatigue below the surfaces of bodies that pass over each other.
+
+    Attributes
+    ----------
+    to : float or str
+        Largest depth, below which nothing is looked at; length > 0. Required.
+    layers : int
+        Number of depths, geometric from half a cell to the largest; whole number ≥ 1. By default `8`.
+    every : int
+        Interval of the positions of a pass whose stress is computed; whole number ≥ 1. By default `1`.
+    passes : sequence
+        Passes that are looked at, counted as they are computed; list of whole numbers ≥ 1. Without it: all computed
+        ones.
+    """
+
+    layers: int
+    every: int
+    passes: Sequence[int]
+
+
 class Capabilities(TypedDict, total=False):
     """Keywords of the capabilities."""
 
@@ -526,6 +580,8 @@ class Capabilities(TypedDict, total=False):
         "Flow of a fluid through the gap: `viscosity`, `pressure`, `along`, `ends`, `gas`, `outlet`, `density`, `every`."]
     conductance: Annotated[Conductance | None, "",
         "Thermal or electrical conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`."]
+    fatigue: Annotated[Fatigue | None, "",
+        "Fatigue below the surfaces of bodies that pass over each other: `to`, `layers`, `every`, `passes`."]
 
 
 class Common(Capabilities, total=False):

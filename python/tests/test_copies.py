@@ -27,6 +27,11 @@ def _data_array(array: Any) -> Any:
     return xarray.DataArray(array, dims=("x", "y"), coords={"x": np.arange(16.0), "y": np.arange(12.0)})
 
 
+def _fatigue(pressures: Any = None, depths: Any = 1e-6, friction: Any = 0.0) -> asp.Fatigue:
+    given = np.array([PRESSURE, 0.5 * PRESSURE]) if pressures is None else pressures
+    return asp.fatigue(given, depths, pitch=1e-6, poisson=0.3, torsion="350 MPa", tension="600 MPa", friction=friction)
+
+
 def _steel(**keys: Any) -> asp.Material:
     return asp.Material(210e9, 0.3, **keys)
 
@@ -63,6 +68,10 @@ MAKERS: dict[str, tuple[Any, Any]] = {
         PRESSURE,
         lambda a: asp.stress(PRESSURE, pitch=1e-6, poisson=0.3, depths=[1e-6], shear=(a, a)),
     ),
+    "fatigue": (np.array([PRESSURE, 0.5 * PRESSURE]), lambda a: _fatigue(a)),
+    "fatigue, depths": (np.array([0.5e-6, 1e-6]), lambda a: _fatigue(depths=a)),
+    "fatigue, friction": (np.array([0.1, 0.2]), lambda a: _fatigue(friction=a)),
+    "fatigue of a body": ({"torsion": np.array(3e8), "tension": 5e8}, lambda t: asp.Body(asp.Surface(HEIGHTS, 1e-6), _steel(), fatigue=t)),
     "conductance": (1.0 * (PRESSURE > 0.0), lambda a: asp.conductance(a > 0.0, pitch=1e-6, conductivity=46.0)),
     "flow": (np.ones(PRESSURE.shape), lambda a: asp.flow(a, pitch=1e-6)),
     "conductance, gap": (
@@ -147,6 +156,7 @@ def test_a_law_that_uses_one_array_again_takes_off_what_it_gave(steel: asp.Mater
 def test_every_public_name_that_takes_arrays_is_among_these() -> None:
     """A new constructor that takes an array is to be added above."""
     known = {"Surface", "Material", "Plasticity", "Stress", "BearingCurve", "Profile", "stress", "conductance", "flow"}
+    known |= {"fatigue"}
     # Answers, which only the package makes, and a container that says that it does not copy.
     made_here = {"Field", "Fields", "PlasticState", "Contact", "Contacts", "Pass", "SubsurfaceStress", "Segmentation", "Summits"}
     for name in asp.__all__:

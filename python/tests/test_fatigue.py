@@ -110,3 +110,23 @@ def test_the_pressures_of_a_pass_lie_on_the_cells_of_each_body() -> None:
             each.pressures("both")  # type: ignore[arg-type]
         found = asp.fatigue(each.pressures("lower"), [1e-6], pitch="1 um", boundary="free", **LIMITS)
         assert found.f.max() > 0
+
+
+def test_a_run_tells_where_its_bodies_tire() -> None:
+    def rough(seed: int, **limits: object) -> asp.Body:
+        surface = asp.generate.low_pass((24, 12), "1 um", sq="35 nm", cutoff="8 um", seed=seed)
+        return asp.Body(surface, asp.Material("210 GPa", 0.3), fatigue=limits or None)  # type: ignore[arg-type]
+
+    limits = {"torsion": "350 MPa", "tension": "600 MPa"}
+    keywords = {"mean_pressure": "50 MPa", "boundary": "periodic", "strategy": "shift", "speed_lower": 0, "progress": False}
+    run = asp.simulate(rough(1, **limits), rough(2), passes=2, stride=2, fatigue={"to": "4 um", "layers": 3}, **keywords)
+    found = run.fatigue
+    assert list(found["pass"]) == [1, 2] and set(found["body"]) == {"lower"}
+    # The same from the pressures of a pass.
+    for each in asp.Simulation(rough(1), rough(2), passes=1, stride=2, **keywords):
+        depths = np.geomspace(0.5e-6, 4e-6, 3)
+        again = asp.fatigue(each.pressures("lower"), depths, pitch="1 um", **LIMITS)
+    assert found["over_limit"][0] == pytest.approx(again.over_limit.max(), rel=1e-6)
+    assert found["critical_wear"][0] == pytest.approx(again.critical_wear(10, 2e6).max(), rel=1e-5)
+    with pytest.raises(errors.CaseError, match="needs the limits of a body"):
+        asp.simulate(rough(1), rough(2), fatigue={"to": "4 um"}, **keywords)

@@ -21,7 +21,7 @@ struct ExampleFiles {
 const STUDY: &str = "load.toml";
 
 /// The examples that the command writes.
-const KITS: [ExampleFiles; 13] = [
+const KITS: [ExampleFiles; 14] = [
     ExampleFiles {
         name: "quickstart",
         about: "two rough steel surfaces run in: 64 × 64 cells, 5 passes",
@@ -52,6 +52,11 @@ const KITS: [ExampleFiles; 13] = [
             ("case.toml", include_bytes!("../examples/viscoelastic/case.toml")),
             ("master.csv", include_bytes!("../examples/viscoelastic/master.csv")),
         ],
+    },
+    ExampleFiles {
+        name: "micropitting",
+        about: "two ground surfaces tire: f over its limit by Dang Van, and the wear that would be faster",
+        files: &[("case.toml", include_bytes!("../examples/micropitting/case.toml"))],
     },
     ExampleFiles {
         name: "measured",

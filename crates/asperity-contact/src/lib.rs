@@ -88,7 +88,6 @@ pub mod kernel;
 pub mod operator;
 pub mod solver;
 pub mod subsurface;
-pub mod fatigue;
 pub mod temperature;
 pub mod plasticity;
 pub mod viscoelastic;
@@ -98,7 +97,7 @@ pub mod verification;
 
 pub use asperity_base::{choice, error, grid, ndarray, ranks, units};
 pub use asperity_surface as surface;
-pub use with::{conductance, film, flow, wear};
+pub use with::{conductance, fatigue, film, flow, wear};
 
 pub use choice::Choice;
 pub use error::{Error, Result};

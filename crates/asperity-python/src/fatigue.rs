@@ -35,8 +35,10 @@ pub(crate) fn fatigue<'py>(
     let boundary = Boundary([edge(&edges[0]), edge(&edges[1])]);
     let criterion = ok(DangVan::new(limits[0], limits[1]), py)?;
     let found = work::run(py, threads, None, |watch| {
-        let at = |position: usize| -> (Field, f64) {
-            (pressures.index_axis(Axis(0), position).to_owned(), friction[position])
+        let at = |position: usize| {
+            let pressure = pressures.index_axis(Axis(0), position).to_owned();
+            let shear = (friction[position] != 0.0).then(|| friction[position] * &pressure);
+            (pressure, shear)
         };
         let history = StressHistory::new(grid, boundary, poisson, positions, at);
         let mut found = Vec::new();

@@ -16,9 +16,11 @@ use crate::tables::{self, GrowingTable};
 use asperity_base::error::{Error, Result};
 use asperity_base::math::parallel;
 use asperity_contact::each_capability;
-use asperity_contact::motion::{ObservedContact, Output, Pair, Position, Step, StepRow, SweepRecord};
+use asperity_contact::motion::{
+    ObservedContact, Output, Pair, PassReport, Position, Step, StepRow, SweepRecord,
+};
 use asperity_contact::solver::Solution;
-use asperity_contact::with::{Capability, Given, Listed, Observations, Observer, Place, Reported};
+use asperity_contact::with::{BodyField, Capability, Given, Listed, Observations, Observer, Place, Reported};
 
 /// An observer with what it has seen.
 struct Observed<C: Capability> {
@@ -124,6 +126,12 @@ trait Look {
     /// The errors of the observer.
     fn look(&mut self, step: Option<&Step<'_>>, contacts: &[Seen<'_>]) -> Result<()>;
 
+    /// Looks at a whole pass.
+    ///
+    /// # Errors
+    /// The errors of the observer.
+    fn look_at_pass(&mut self, report: &PassReport<'_>) -> Result<()>;
+
     /// Writes what it has found in a step.
     ///
     /// # Errors
@@ -139,6 +147,9 @@ trait Look {
 
 impl<C: Reported> Look for Observed<C> {
     fn wants(&self, place: Place, is_main: bool) -> bool {
+        if C::OF_PASSES {
+            return false;
+        }
         is_nth(place.step, self.every) || is_main && (self.every == 0 || place.pass.is_none())
     }
 
@@ -156,6 +167,21 @@ impl<C: Reported> Look for Observed<C> {
                 self.fields = fields;
             }
         }
+        Ok(())
+    }
+
+    fn look_at_pass(&mut self, report: &PassReport<'_>) -> Result<()> {
+        let (rows, fields) = self.observer.after_pass(report)?;
+        self.rows.extend(rows);
+        let Some(files) = self.files.as_mut().filter(|_| !fields.is_empty()) else { return Ok(()) };
+        let pass = report.record.pass;
+        let mut file = FieldFile::of_run(&files.identity, &files.results.observer_fields(C::NAME, pass));
+        file.set("pass", pass);
+        for BodyField { body, name, unit, values } in &fields {
+            let grid = [report.pair.lower_grid(), report.pair.upper_grid()][*body];
+            file.add_field(name, unit, &grid, [0.0; 2], values);
+        }
+        files.of_step = Some(file);
         Ok(())
     }
 
@@ -275,6 +301,9 @@ impl Output for Observers {
                 break;
             }
             self.each.iter_mut().try_for_each(|each| each.look(Some(step), &some))?;
+        }
+        if let Some(report) = step.pass() {
+            self.each.iter_mut().try_for_each(|each| each.look_at_pass(report))?;
         }
         self.each.iter_mut().try_for_each(|each| each.end_step())
     }

@@ -42,7 +42,9 @@ const EXAMPLE: &str =
 /// # Errors
 /// [`Error::Case`] at its key if the file cannot be read or is no master curve; [`Error::SurfaceChanged`].
 pub(super) fn of(case: &Case, name: &str, body: &Body, given: &SurfaceInput) -> Result<Option<MasterCurve>> {
-    let Some(file) = body.viscoelastic.as_ref().and_then(|body| body.file.as_ref()) else { return Ok(None) };
+    let Some(file) = body.properties.viscoelastic.as_ref().and_then(|body| body.file.as_ref()) else {
+        return Ok(None);
+    };
     let key = format!("{name}.viscoelastic.file");
     let text = regular::read(file, "a master curve", MAX_BYTES)
         .map_err(|source| case.error_at(&key, format!("{}: {source}", file.display()), None))?;
@@ -126,7 +128,7 @@ pub(super) fn relaxations(
     curves: &[Option<MasterCurve>; 2],
 ) -> Result<[Option<BodyRelaxation>; 2]> {
     let of = |index: usize, name: &str, body: &Body| {
-        let Some(viscoelastic) = &body.viscoelastic else { return Ok(None) };
+        let Some(viscoelastic) = &body.properties.viscoelastic else { return Ok(None) };
         let temperature = temperature(case, index);
         let curve = curves[index].as_ref().map(|curve| &curve.points[..]);
         let found = viscoelastic.relaxation(body.material.young, temperature, curve);
@@ -192,7 +194,8 @@ pub(super) fn estimate(
     let mut estimate = ViscoelasticEstimate::default();
     for (index, (name, body)) in [("lower", &case.lower), ("upper", &case.upper)].into_iter().enumerate() {
         estimate.bodies.extend(relaxations[index].as_ref().map(|found| described(name, found)));
-        let doubt = body.viscoelastic.as_ref().and_then(|body| body.doubt(name, temperature(case, index)));
+        let doubt =
+            body.properties.viscoelastic.as_ref().and_then(|body| body.doubt(name, temperature(case, index)));
         let fit = relaxations[index].as_ref().and_then(|(_, fit)| fit.as_ref());
         estimate.warnings.extend(doubt.into_iter().chain(fit.and_then(|fit| poor(name, fit))));
     }
@@ -275,7 +278,7 @@ fn doubts(
     let Passed { boundary, step, speeds } = *passed;
     let mut doubts =
         with::viscoelastic::doubts(&creep, boundary, step, bodies[index].grid().extent()[0], speeds);
-    if let (Some(curve), Some(viscoelastic)) = (&curves[index], &body.viscoelastic) {
+    if let (Some(curve), Some(viscoelastic)) = (&curves[index], &body.properties.viscoelastic) {
         let factor = viscoelastic.shift_factor(temperature(case, index))?;
         doubts.extend(beyond(name, curve, factor, body.material.young, bodies[1 - index], speeds));
     }

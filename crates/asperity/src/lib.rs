@@ -101,7 +101,7 @@ pub use asperity_contact::{
     adhesion, conductance, fatigue, film, flow, kernel, material, motion, operator, plasticity, reference,
     solver, stress, subsurface, temperature, verification, viscoelastic, wear, with,
 };
-pub use asperity_contact::{each_capability, each_law};
+pub use asperity_contact::{each_capability, each_law, each_property};
 #[cfg(feature = "study")]
 pub use asperity_study as study;
 #[cfg(feature = "study")]

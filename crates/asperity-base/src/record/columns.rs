@@ -152,6 +152,7 @@ macro_rules! columns {
     (@unit [Regime]) => { "" };
     (@unit [Theory]) => { "" };
     (@unit [Axis]) => { "" };
+    (@unit [OnBody]) => { "" };
     (@unit [usize]) => { "1" };
     (@unit [f64]) => { "1" };
     (@unit [Metre]) => { "m" };

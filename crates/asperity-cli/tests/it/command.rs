@@ -444,6 +444,7 @@ fn every_example_is_accepted_by_check_with_no_warning_but_that_of_a_long_stride(
             "friction",
             "fretting",
             "viscoelastic",
+            "micropitting",
             "measured",
             "running-in",
             "rolling",

@@ -9,7 +9,7 @@ use crate::operator::Boundary;
 use crate::stress::Component;
 use crate::units::Metre;
 
-/// The stress at one depth of a body that slides: under a pressure p, and a shear traction of a multiple of p along x.
+/// The stress at one depth of a body under one pressure after another, and under shear tractions along x.
 ///
 /// It keeps the transforms of the influence, which take most of the time of [`Subsurface::plane`]. The results are the same.
 pub struct SlidingStress {
@@ -44,17 +44,15 @@ impl SlidingStress {
         self.body.grid()
     }
 
-    /// Computes the components of the stress, Pa, in the order of [`Component::ALL`], under this `pressure` and the shear traction
-    /// `friction` times it along +x.
-    pub fn under(&self, pressure: &Field, friction: f64) -> [Field; 6] {
-        let transform = self.body.fft.forward(pressure);
+    /// Computes the components of the stress, Pa, in the order of [`Component::ALL`], under this `pressure` and this `shear` traction along
+    /// +x, if there is one.
+    pub fn under(&self, pressure: &Field, shear: Option<&Field>) -> [Field; 6] {
+        let (pressure, shear) =
+            (self.body.fft.forward(pressure), shear.map(|shear| self.body.fft.forward(shear)));
         self.influence.each_ref().map(|[of_pressure, of_shear]| {
-            let mut sum = of_pressure * &transform;
-            if friction != 0.0 {
-                ndarray::Zip::from(&mut sum)
-                    .and(of_shear)
-                    .and(&transform)
-                    .for_each(|sum, g, p| *sum += friction * g * p);
+            let mut sum = of_pressure * &pressure;
+            if let Some(shear) = &shear {
+                ndarray::Zip::from(&mut sum).and(of_shear).and(shear).for_each(|sum, g, q| *sum += g * q);
             }
             self.body.fft.inverse_leading(&sum, self.body.grid.shape)
         })
@@ -72,7 +70,8 @@ mod tests {
             let grid = Grid::new([9, 8], [1.0, 0.8]).unwrap();
             let pressure = Field::from_shape_fn(grid.shape, |(i, j)| ((5 * i + 3 * j * j) % 7) as f64);
             for (depth, friction) in [(0.0, 0.0), (0.4, -0.3), (2.0, 0.2)] {
-                let stress = SlidingStress::new(grid, boundary, 0.3, depth).under(&pressure, friction);
+                let stress = SlidingStress::new(grid, boundary, 0.3, depth)
+                    .under(&pressure, Some(&(friction * &pressure)));
                 let tractions =
                     Tractions { shear: [Some(friction * &pressure), None], pressure: pressure.clone() };
                 let plane = Subsurface::new(grid, boundary, 0.3, &tractions).plane(depth);

@@ -50,7 +50,11 @@ fn line() -> Result<Vec<Check>> {
         let middle = [columns / 2, 0];
         let with = |friction: f64| {
             let line = Boundary([Edge::Free, Edge::Periodic]);
-            let pass = StressHistory::new(grid, line, POISSON, columns, |at| (pressure(at), friction));
+            let pass = StressHistory::new(grid, line, POISSON, columns, |at| {
+                let pressure = pressure(at);
+                let shear = friction * &pressure;
+                (pressure, Some(shear))
+            });
             pass.dang_van(&criterion, &depths)
         };
         let (rolls, slides) = (with(0.0)?, with(0.1)?);

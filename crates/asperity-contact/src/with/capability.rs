@@ -6,11 +6,11 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::views::{Answer, Curve, Line, Map};
-use super::{Capabilities, Listed, Observations};
+use super::{BodyProperties, Capabilities, Listed, Observations};
 use crate::error::Result;
 use crate::grid::Field;
 use crate::material::Material;
-use crate::motion::{ObservedContact, Pair, SweepRecord};
+use crate::motion::{ObservedContact, Pair, PassReport, SweepRecord};
 use crate::operator::Boundary;
 use crate::solver::Params;
 use crate::units::{MetrePerSecond, Pascal};
@@ -27,6 +27,8 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
     const MEANING: &'static str;
     /// Name of what it computes in the rows of `asperity check`: "conducts".
     const VERB: &'static str;
+    /// Whether it looks at whole passes of a motion instead of single contacts.
+    const OF_PASSES: bool = false;
 
     /// A row of its table: what it has computed from a contact, or from a contact along one axis.
     type Row: Row;
@@ -126,6 +128,15 @@ pub trait Observer: Send + Sync {
         place: Place,
         contact: &ObservedContact<'_>,
     ) -> Result<(Vec<Self::Row>, Vec<NamedField>)>;
+
+    /// Computes the rows and the fields of a pass, of a capability [of passes](Capability::OF_PASSES).
+    ///
+    /// # Errors
+    /// The reason why they cannot be computed.
+    fn after_pass(&self, report: &PassReport<'_>) -> Result<(Vec<Self::Row>, Vec<BodyField>)> {
+        let _ = report;
+        Ok((Vec::new(), Vec::new()))
+    }
 }
 
 /// Place of a contact in its course.
@@ -148,8 +159,21 @@ pub struct NamedField {
     pub values: Field,
 }
 
+/// A field on the cells of a body, with its name in files.
+#[derive(Debug, Clone)]
+pub struct BodyField {
+    /// The body: 0 the lower, 1 the upper one.
+    pub body: usize,
+    /// The name.
+    pub name: String,
+    /// Unit of the values, SI.
+    pub unit: &'static str,
+    /// The values, `[ix, iy]`.
+    pub values: Field,
+}
+
 /// Constants of a body.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct BodyConstants {
     /// Elastic constants and the coating.
     pub material: Material,
@@ -157,10 +181,12 @@ pub struct BodyConstants {
     pub conductivity: Option<f64>,
     /// Electrical resistivity, Ω m; `None` if it is unknown.
     pub resistivity: Option<f64>,
+    /// Its other properties.
+    pub properties: BodyProperties,
 }
 
 /// Surroundings of a contact: the constants of both bodies, and how they move.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Surroundings {
     /// The lower and the upper body.
     pub bodies: [BodyConstants; 2],
@@ -168,6 +194,10 @@ pub struct Surroundings {
     pub boundary: Boundary,
     /// Whether the bodies move over each other in passes.
     pub moves: bool,
+    /// Whether they do so by a circular shift.
+    pub is_shift: bool,
+    /// Whether all passes have the same bodies at the same positions.
+    pub repeats: bool,
     /// Sum of the speeds at which both bodies move past the contact; `None` if it is unknown or they are at rest.
     pub dragging_speed: Option<MetrePerSecond>,
     /// Whether there is friction.

@@ -9,6 +9,7 @@
 //! |---|---|---|
 //! | [`flow`] | `[flow]` | the leakage of a fluid through the gap |
 //! | [`conductance`] | `[conductance]` | heat or current through a contact |
+//! | [`fatigue`] | `[fatigue]` | fatigue below the bodies of a motion |
 //!
 //! A [`BodyLaw`] is a folder, too: what contacts do to a body. [`each_law!`](crate::each_law) walks their list.
 //!
@@ -16,12 +17,21 @@
 //! |---|---|---|
 //! | [`wear`] | `[lower.wear]`, `[upper.wear]` | the heights |
 //! | [`film`] | `[lower.film]`, `[upper.film]` | the thickness of a tribofilm, and with it heights and hardness |
+//!
+//! A [`BodyProperty`] is a table of a body that contacts do not change. [`each_property!`](crate::each_property) walks their list.
+//!
+//! | module | tables of the case | says |
+//! |---|---|---|
+//! | [`viscoelastic`] | `[lower.viscoelastic]`, `[upper.viscoelastic]` | how the body relaxes |
+//! | [`fatigue`] | `[lower.fatigue]`, `[upper.fatigue]` | which alternating loads it endures |
 
 mod capability;
 mod law;
+mod property;
 pub mod adhesion;
 pub mod views;
 pub mod conductance;
+pub mod fatigue;
 pub mod film;
 pub mod flow;
 pub mod plasticity;
@@ -29,10 +39,11 @@ pub mod viscoelastic;
 pub mod wear;
 
 pub use capability::{
-    BodyConstants, Capability, Given, NamedField, Observer, Place, Reported, Row, Rule, Surroundings,
-    answering,
+    BodyConstants, BodyField, Capability, Given, NamedField, Observer, Place, Reported, Row, Rule,
+    Surroundings, answering,
 };
 pub use law::{BodyLaw, Circumstances, LawRule, Slip, Timeless};
+pub use property::BodyProperty;
 
 use serde::{Deserialize, Serialize};
 
@@ -100,7 +111,7 @@ macro_rules! capabilities {
             ///
             /// let mut names = Vec::new();
             /// each_capability!(C => names.push(C::NAME));
-            /// assert_eq!(names, ["flow", "conductance"]);
+            /// assert_eq!(names, ["flow", "conductance", "fatigue"]);
             /// ```
             each_capability
             $($(#[doc = $text])+ $name::$table;)+
@@ -134,6 +145,8 @@ capabilities! { $;
     flow::Leakage;
     /// Heat or current through each contact.
     conductance::Joint;
+    /// Fatigue below the bodies of a motion.
+    fatigue::Fatigue;
 }
 
 list! { $;
@@ -154,6 +167,26 @@ list! { $;
     wear::WearCoefficient;
     /// Tribofilm on the body.
     film::Film;
+}
+
+list! { $;
+    /// The properties of a body that contacts do not change, each by its table.
+    BodyProperties
+    /// Repeats statements for each property of the list, whose table has the given name in them.
+    ///
+    /// ```
+    /// use asperity_contact::each_property;
+    /// use asperity_contact::with::BodyProperty;
+    ///
+    /// let mut names = Vec::new();
+    /// each_property!(P => names.push(P::NAME));
+    /// assert_eq!(names, ["viscoelastic", "fatigue"]);
+    /// ```
+    each_property
+    /// Relaxation of the body.
+    viscoelastic::Viscoelasticity;
+    /// Limits of the body under alternating loads.
+    fatigue::FatigueLimits;
 }
 
 /// A table in the list of those that a case or a body may have.

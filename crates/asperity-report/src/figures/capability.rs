@@ -33,6 +33,9 @@ pub(super) fn draw(results: &Results, done: &[usize], of: &str, of_all: &str, sh
         if rows.iter().all(|row| row.pass().is_none()) {
             maps::<C>(&results.static_fields()?, &C::summary(&rows), of, sheet)?;
         }
+        if let Some(pass) = rows.last().and_then(Row::pass).filter(|_| C::OF_PASSES) {
+            maps::<C>(&results.observed_fields(C::NAME, pass)?, &C::summary(&rows), of, sheet)?;
+        }
     });
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use asperity_contact::each_capability;
 use asperity_contact::with::{Capability, Listed, Row};
+use asperity_study::io::fields::Fields;
 use serde_json::Value;
 
 use super::Section;
@@ -43,8 +44,14 @@ fn section<C: Capability>(
     let numbers = last.iter().flat_map(|row| asked.numbers(row));
     let numbers: Vec<_> = numbers.map(|line| (line.name.into_owned(), escaped(&line.value))).collect();
     let html = curves::first(figures::curves_of_capability::<C>(&rows, &done), charts);
-    if !found.moves() && found.is_finished() {
-        let planes = planes::<C>(found, &last);
+    let of_pass = last.last().and_then(Row::pass).filter(|_| C::OF_PASSES);
+    let fields = match of_pass {
+        Some(pass) => Some(found.results.observed_fields(C::NAME, pass)),
+        None if !found.moves() && found.is_finished() => Some(found.results.static_fields()),
+        None => None,
+    };
+    if let Some(fields) = fields.and_then(|fields| found.fields(fields)) {
+        let planes = planes::<C>(&fields, &last);
         if !planes.is_empty() {
             return html + &plane::beside(planes, &facts(numbers), data);
         }
@@ -52,9 +59,8 @@ fn section<C: Capability>(
     html + &facts(numbers)
 }
 
-/// The maps of the last contact.
-fn planes<C: Capability>(found: &mut PageData, rows: &[C::Row]) -> Vec<Plane> {
-    let Some(fields) = found.fields(found.results.static_fields()) else { return Vec::new() };
+/// The maps of the last contact, or of the last pass.
+fn planes<C: Capability>(fields: &Fields, rows: &[C::Row]) -> Vec<Plane> {
     let plane = |map: &asperity_contact::with::views::Map<C::Row>| -> Option<Plane> {
         let (stored, row) = (fields.read(map.field).ok()?, rows.last()?);
         let pitch = [stored.pitch[0], stored.pitch[1]];

@@ -9,9 +9,11 @@ use super::schema::tables::{self, known_in};
 use super::topography::topography;
 use super::{Body, Hardness, HardnessMap, Mount, Source};
 use asperity_base::error::Result;
+use asperity_base::table::Table as _;
+use asperity_contact::each_property;
 use asperity_contact::material::{Material, NamedMaterial};
 use asperity_contact::with::plasticity::Yielding;
-use asperity_contact::with::viscoelastic::Viscoelasticity;
+use asperity_contact::with::{BodyProperties, BodyProperty as _, Listed as _};
 use asperity_surface::UNDERSIDE;
 
 /// Reads a body of a case, whose tables use some constants of a named material; files are relative to the `folder` of the case.
@@ -25,8 +27,11 @@ pub(super) fn body(table: &Table<'_>, folder: &Path, used: Used) -> Result<Body>
     let hardness = hardness(table, folder, named.filter(|_| both::PLASTICITY.entry(table).is_none()))?;
     let coating = tables::read(&both::COATING, table)?;
     let plasticity = tables::read(&both::PLASTICITY, table)?.map(Yielding::resolved);
-    let viscoelastic = tables::read(&both::VISCOELASTIC, table)?;
-    let viscoelastic = viscoelastic.map(|body: Viscoelasticity| body.in_folder(folder));
+    let mut properties = BodyProperties::default();
+    each_property!(P => if let Some(table) = table.table(P::NAME)? {
+        known_in(&table)?;
+        P::read(&table)?.in_folder(folder).give(&mut properties);
+    });
     let laws = running::laws(table, &hardness)?;
     let topography = topography(&both::TOPOGRAPHY.demand(table)?, folder)?;
     let mount = match upper::MOUNT.of(table)? {
@@ -48,7 +53,7 @@ pub(super) fn body(table: &Table<'_>, folder: &Path, used: Used) -> Result<Body>
         material,
         hardness,
         plasticity,
-        viscoelastic,
+        properties,
         thermal,
         conductivity,
         resistivity,

@@ -53,8 +53,8 @@ pub use asperity_contact::solver::{Device, Method};
 use asperity_contact::temperature::{Temperature, Thermal};
 use asperity_contact::with::adhesion::Attraction;
 use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
-use asperity_contact::with::viscoelastic::{Steady, Viscoelasticity};
-use asperity_contact::with::{BodyConstants, BodyLaws, Capabilities, Surroundings};
+use asperity_contact::with::viscoelastic::Steady;
+use asperity_contact::with::{BodyConstants, BodyLaws, BodyProperties, Capabilities, Surroundings};
 
 /// A case, resolved to SI.
 #[derive(Debug, Clone, Serialize)]
@@ -120,9 +120,9 @@ pub struct Body {
     /// Plastic flow below the surface; elastic if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plasticity: Option<Yielding>,
-    /// Relaxation of the body; elastic if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub viscoelastic: Option<Viscoelasticity>,
+    /// Properties of the body that contacts do not change, each with its table.
+    #[serde(flatten)]
+    pub properties: BodyProperties,
     /// Thermal constants of the body; unknown if absent.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub thermal: Option<Thermal>,
@@ -151,6 +151,7 @@ impl Body {
             material: self.material,
             conductivity: self.thermal.map(|thermal| thermal.conductivity).or(self.conductivity),
             resistivity: self.resistivity,
+            properties: self.properties.clone(),
         }
     }
 }
@@ -355,7 +356,7 @@ impl Case {
 
     /// Whether a body is viscoelastic.
     pub(crate) fn relaxes(&self) -> bool {
-        [&self.lower, &self.upper].into_iter().any(|body| body.viscoelastic.is_some())
+        [&self.lower, &self.upper].into_iter().any(|body| body.properties.viscoelastic.is_some())
     }
 
     /// Whether a body yields at a hardness.
@@ -378,6 +379,8 @@ impl Case {
             bodies: [&self.lower, &self.upper].map(Body::constants),
             boundary: self.contact.boundary,
             moves: self.motion.is_some(),
+            is_shift: self.motion.is_some_and(|motion| motion.strategy != Strategy::Overlap),
+            repeats: self.motion.is_some_and(|motion| motion.repeats()),
             dragging_speed: self.dragging_speed(),
             has_friction: self.friction.is_some(),
         }
@@ -460,7 +463,7 @@ impl Case {
                 Hardness::Map(map) => Some(&map.path),
                 Hardness::Uniform(_) | Hardness::Given(_) => None,
             };
-            let curve = body.viscoelastic.as_ref().and_then(|body| body.file.as_ref());
+            let curve = body.properties.viscoelastic.as_ref().and_then(|body| body.file.as_ref());
             surface.into_iter().chain(map).chain(curve)
         })
     }

@@ -266,7 +266,7 @@ impl Sizes<'_> {
     /// Numbers that viscoelastic bodies remember in a motion: before a pass, in it and after it.
     fn remembered(&self) -> f64 {
         let of = |(body, grid): (&Body, &Grid)| {
-            let given = body.viscoelastic.as_ref()?.moduli.len();
+            let given = body.properties.viscoelastic.as_ref()?.moduli.len();
             let terms = if given > 0 { given } else { FITTED };
             Some(REMEMBERED * (terms + 1) as f64 * grid.cells() as f64)
         };

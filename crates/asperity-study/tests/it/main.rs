@@ -6,6 +6,7 @@ mod common_grid;
 mod documents;
 mod elasto_plastic;
 mod extremes;
+mod fatigue;
 mod fretting;
 mod good_inputs;
 mod hardness;

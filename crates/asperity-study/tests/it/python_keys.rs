@@ -71,6 +71,12 @@ const CLASSES: &[Class] = &[
         "Keys of ``viscoelastic`` of a body: its relaxation. Either `moduli` and `times`, or `file` is given.",
     ),
     (
+        "FatigueLimits",
+        &["lower.fatigue"],
+        &[],
+        "Keys of ``fatigue`` of a body: its limits under alternating loads.",
+    ),
+    (
         "Steady",
         &["steady"],
         &[],
@@ -323,6 +329,7 @@ fn python_type(class: &str, key: &Key) -> String {
             return "Sequence[Quantity]".to_owned();
         }
         ("Viscoelastic", "file") => return "str".to_owned(),
+        ("Fatigue", "passes") => return "Sequence[int]".to_owned(),
         ("Temperature", "bulk") => return "Pair".to_owned(),
         ("Rest", "loads" | "mean_pressures" | "approaches") => return "Sequence[Quantity]".to_owned(),
         ("Common", "boundary") => return "Boundary | Sequence[Boundary]".to_owned(),

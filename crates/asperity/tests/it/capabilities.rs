@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::support::crates;
 
 /// A word, the folder of its capability, and the files outside it in which the word stands.
-const CAPABILITIES: [(&str, &str, &[&str]); 2] = [
+const CAPABILITIES: [(&str, &str, &[&str]); 3] = [
     (
         "conductance",
         "with/conductance",
@@ -44,6 +44,26 @@ const CAPABILITIES: [(&str, &str, &[&str]); 2] = [
             "asperity/__init__.py",
             "asperity/_capabilities.py",
             "asperity/_gap_flow.py",
+            "asperity/keys.py",
+        ],
+    ),
+    (
+        "fatigue",
+        "with/fatigue",
+        &[
+            "asperity-contact/src/with/mod.rs",
+            "asperity-contact/src/lib.rs",
+            "asperity/src/lib.rs",
+            // Limits without the table, and elasto-plastic bodies.
+            "asperity-study/src/case/rules/bodies.rs",
+            // Its function in Python, the limits of a body, the rows of a run.
+            "asperity-python/src/fatigue.rs",
+            "asperity-python/src/lib.rs",
+            "asperity/__init__.py",
+            "asperity/_capabilities.py",
+            "asperity/_fatigue.py",
+            "asperity/body.py",
+            "asperity/simulation.py",
             "asperity/keys.py",
         ],
     ),

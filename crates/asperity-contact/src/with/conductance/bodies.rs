@@ -76,7 +76,7 @@ pub(super) fn conductor(body: &BodyConstants, kind: Kind) -> Option<Result<Condu
 
 /// Composite conductivity of bodies without their coatings, W/(m K) or S/m; `None` if one is unknown.
 pub(super) fn composite(bodies: &[BodyConstants; 2], kind: Kind) -> Option<Result<f64>> {
-    let [lower, upper] = bodies.map(|body| conductivity(&body, kind));
+    let [lower, upper] = bodies.each_ref().map(|body| conductivity(body, kind));
     Some(composite_conductivity(lower?, upper?))
 }
 

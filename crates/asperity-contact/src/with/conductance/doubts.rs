@@ -36,7 +36,7 @@ fn outside_bracket(
     points: &[SweepRecord],
 ) -> Option<String> {
     let is_elastic = points.iter().all(|point| point.plastic_area == 0.0);
-    let [lower, upper] = surroundings.bodies.map(|body| body.material);
+    let [lower, upper] = surroundings.bodies.each_ref().map(|body| body.material);
     let is_coated = [lower, upper].iter().any(|material| material.coating.is_some());
     let is_clean = joint.film.is_none() && joint.gas.is_none();
     // With friction a point may repeat a load with another creepage.

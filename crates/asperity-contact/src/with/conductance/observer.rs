@@ -31,7 +31,7 @@ impl ConductanceObserver {
     pub(super) fn new(joint: &Joint, given: &Given<'_>) -> Result<Self> {
         let Given { pair, surroundings, params } = given;
         let unknown = || Error::Unsupported("a conductance needs the conductivities of both bodies");
-        let [lower, upper] = surroundings.bodies.map(|body| conductor(&body, joint.kind));
+        let [lower, upper] = surroundings.bodies.each_ref().map(|body| conductor(body, joint.kind));
         let response = response(&lower.ok_or_else(unknown)??, &upper.ok_or_else(unknown)??)?;
         let boundary = surroundings.boundary;
         let largest = pair.grid(pair.lower_grid().shape[0].min(pair.upper_grid().shape[0]));

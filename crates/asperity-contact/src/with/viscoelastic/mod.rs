@@ -13,6 +13,7 @@ use serde::Serialize;
 use crate::error::{Error, Result};
 use crate::units::{Kelvin, MetrePerSecond, Pascal, Second, format};
 use crate::viscoelastic::{MasterFit, MasterPoint, Relaxation, RelaxationTerm, fit_master_curve};
+use crate::with::BodyProperty;
 use asperity_base::exists;
 use asperity_base::table::{Bounds, Exists, Key, Kind, Source, Value, list, require};
 use asperity_base::units::Dimension;
@@ -132,13 +133,17 @@ fn together(read: &Viscoelasticity, source: &dyn Source) -> Result<()> {
     })
 }
 
-impl Viscoelasticity {
-    /// Takes the file of the master curve to be relative to a `folder`.
-    #[must_use]
-    pub fn in_folder(self, folder: &Path) -> Self {
+impl BodyProperty for Viscoelasticity {
+    const NAME: &'static str = "viscoelastic";
+    const MEANING: &'static str = "relaxation of the body, see [below](#viscoelastic-bodies)";
+    const WITHOUT: &'static str = "elastic";
+
+    fn in_folder(self, folder: &Path) -> Self {
         Self { file: self.file.map(|file| folder.join(file)), ..self }
     }
+}
 
+impl Viscoelasticity {
     /// Whether its times depend on the temperature of the body.
     pub fn needs_temperature(&self) -> bool {
         self.wlf_c1.is_some()

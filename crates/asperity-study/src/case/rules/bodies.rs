@@ -2,17 +2,48 @@
 
 use super::super::Case;
 use super::Rule;
+use super::examples::{FLOWS, MOVES, VOLUME};
 
-pub(super) const RULES: &[Rule] = &[Rule {
-    this: "`young = inf`",
-    with: "`young = inf` of the other body",
-    message: "both bodies are rigid",
-    hint: "give one of them a finite 'young' or a coating",
-    at: "upper.young",
-    example: &["lower.young = inf", "upper.young = inf"],
-    broken: |tables| {
-        let Case { lower, upper, .. } = tables.case;
-        let rigid = asperity_contact::material::composite_modulus(&lower.material, &upper.material).is_err();
-        tables.at("upper.young").filter(|_| rigid)
+pub(super) const RULES: &[Rule] = &[
+    Rule {
+        this: "[lower.fatigue], [upper.fatigue]",
+        with: "no [fatigue]",
+        message: "the limits of a body need [fatigue]",
+        hint: "for example `[fatigue]` with `to = \"8 um\"`",
+        at: "lower.fatigue",
+        example: &[r#"lower.fatigue = { torsion = "350 MPa", tension = "600 MPa" }"#],
+        broken: |tables| {
+            let limited = tables.of_body("fatigue", |body| body.properties.fatigue.is_some());
+            limited.filter(|_| tables.case.with.fatigue.is_none())
+        },
     },
-}];
+    Rule {
+        this: "[fatigue]",
+        with: "[plasticity]",
+        message: "fatigue does not know the residual stress of elasto-plastic bodies",
+        hint: "leave [plasticity] out, or use a `hardness`",
+        at: "fatigue",
+        example: &[
+            r#"lower.fatigue = { torsion = "350 MPa", tension = "600 MPa" }"#,
+            FLOWS,
+            VOLUME,
+            MOVES,
+            r#"fatigue = { to = "8 um" }"#,
+        ],
+        broken: |tables| tables.at("plasticity").and(tables.at("fatigue")),
+    },
+    Rule {
+        this: "`young = inf`",
+        with: "`young = inf` of the other body",
+        message: "both bodies are rigid",
+        hint: "give one of them a finite 'young' or a coating",
+        at: "upper.young",
+        example: &["lower.young = inf", "upper.young = inf"],
+        broken: |tables| {
+            let Case { lower, upper, .. } = tables.case;
+            let rigid =
+                asperity_contact::material::composite_modulus(&lower.material, &upper.material).is_err();
+            tables.at("upper.young").filter(|_| rigid)
+        },
+    },
+];

@@ -237,13 +237,13 @@ impl<'a> Tables<'a> {
 
     /// Returns the table of a viscoelastic body.
     fn viscoelastic(&self) -> Option<Entry<'a>> {
-        self.of_body("viscoelastic", |body| body.viscoelastic.is_some())
+        self.of_body("viscoelastic", |body| body.properties.viscoelastic.is_some())
     }
 
     /// Returns the entry by which the relaxation of a body depends on its temperature.
     fn shifted(&self) -> Option<Entry<'a>> {
         self.of_body("viscoelastic.wlf_c1", |body| {
-            body.viscoelastic.as_ref().is_some_and(|body| body.needs_temperature())
+            body.properties.viscoelastic.as_ref().is_some_and(|body| body.needs_temperature())
         })
     }
 

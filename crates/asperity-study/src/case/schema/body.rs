@@ -61,8 +61,6 @@ pub(crate) mod both {
         TOPOGRAPHY: Nested = table("topography", Required, "its surface");
         PLASTICITY: Nested =
             table("plasticity", Absent("elastic"), "plastic deformation below the surface, see [below](#plasticity)");
-        VISCOELASTIC: Nested =
-            table("viscoelastic", Absent("elastic"), "relaxation of the body, see [below](#viscoelastic-bodies)");
         CONDUCTIVITY: Optional<f64> = optional(
             "conductivity",
             quantity(Dimension::Conductivity, AboveZeroOrInfinite("no resistance, only where heat passes a contact"))

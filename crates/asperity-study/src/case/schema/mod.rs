@@ -24,9 +24,9 @@ use asperity_contact::material::Coating;
 use asperity_contact::temperature::Temperature;
 use asperity_contact::with::adhesion::Attraction;
 use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
-use asperity_contact::with::viscoelastic::{Steady, Viscoelasticity};
-use asperity_contact::with::{BodyLaw, Capability};
-use asperity_contact::{each_capability, each_law};
+use asperity_contact::with::viscoelastic::Steady;
+use asperity_contact::with::{BodyLaw, BodyProperty, Capability};
+use asperity_contact::{each_capability, each_law, each_property};
 
 /// Returns all keys of a case file, section by section, in the order in which a misplaced key is searched.
 ///
@@ -54,6 +54,11 @@ pub fn keys() -> &'static [Section] {
 fn of_every_case() -> Vec<Section> {
     let declared = |section: Section| vec![section];
     let (mut both, mut of_laws) = (body::both::SECTION.keys.to_vec(), Vec::new());
+    let mut of_properties = Vec::new();
+    each_property!(P => {
+        both.push(typed::table(P::NAME, Fallback::Absent(P::WITHOUT), P::MEANING).key);
+        of_properties.extend(P::sections());
+    });
     each_law!(L => {
         both.push(typed::table(L::NAME, Fallback::Absent("none"), L::MEANING).key);
         of_laws.extend(L::sections());
@@ -72,7 +77,7 @@ fn of_every_case() -> Vec<Section> {
         crate::case::SlidingSpec::sections(),
         Temperature::sections(),
         of_laws,
-        Viscoelasticity::sections(),
+        of_properties,
         Steady::sections(),
         Yielding::sections(),
         PlasticRegion::sections(),

@@ -11,8 +11,8 @@ use crate::stress::Stress;
 use crate::subsurface::SlidingStress;
 use crate::units::{Dimension, Metre, Pascal};
 
-/// Bytes of the stress at one depth that is kept instead of computed anew for each sweep.
-const KEPT: f64 = 256e6;
+/// Bytes of the stress that is kept instead of computed anew for each sweep, at all depths that are computed at the same time.
+const KEPT: f64 = 512e6;
 /// Sweeps over the positions without an end, which do not happen.
 const MOST_SWEEPS: usize = 64;
 /// Distance from a ball, over its radius, by which a point may lie outside.
@@ -22,8 +22,8 @@ const ROUNDING: f64 = 1e-14;
 
 /// A body that contacts pass over, which repeats: its pressures at all positions, on its own cells.
 ///
-/// `tractions` returns the pressure at a position, from 0, Pa, and the ratio of the shear traction along +x on this body to it. It is called
-/// several times for each position, from several threads.
+/// `tractions` returns the pressure at a position, from 0, and the shear traction along +x on this body, `None` without friction, Pa. It is
+/// called several times for each position, from several threads.
 pub struct StressHistory<F> {
     grid: Grid,
     boundary: Boundary,
@@ -123,7 +123,7 @@ impl DangVan {
     }
 }
 
-impl<F: Fn(usize) -> (Field, f64) + Sync> StressHistory<F> {
+impl<F: Fn(usize) -> (Field, Option<Field>) + Sync> StressHistory<F> {
     /// Creates the history of a body with Poisson's ratio `poisson`.
     pub fn new(grid: Grid, boundary: Boundary, poisson: f64, positions: usize, tractions: F) -> Self {
         Self { grid, boundary, poisson, positions, tractions, stop: None }
@@ -157,10 +157,10 @@ impl<F: Fn(usize) -> (Field, f64) + Sync> StressHistory<F> {
         if self.stop.as_ref().is_some_and(|stop| stop()) {
             return Err(Error::Interrupted);
         }
-        let (pressure, friction) = (self.tractions)(position);
+        let (pressure, shear) = (self.tractions)(position);
         assert_eq!(pressure.shape(), self.grid.shape, "shape of the pressure");
         let largest = pressure.iter().fold(0.0f64, |most, p| most.max(p.abs()));
-        Ok((at_depth.under(&pressure, friction), largest))
+        Ok((at_depth.under(&pressure, shear.as_ref()), largest))
     }
 
     fn at(&self, weight: f64, depth: Metre) -> Result<AtDepth> {
@@ -189,7 +189,7 @@ impl<F: Fn(usize) -> (Field, f64) + Sync> StressHistory<F> {
                 }
                 let left = cells.par_iter_mut().enumerate().filter(|(_, cell)| !cell.done);
                 left.for_each(|(index, cell)| cell.see(of_cell(index), weight, ROUNDING * largest));
-                if sweeps == 0 && bytes <= KEPT {
+                if sweeps == 0 && bytes <= KEPT / rayon::current_num_threads() as f64 {
                     kept.push(stress.clone());
                 }
             }

@@ -1,0 +1,76 @@
+//! The columns of fatigue.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::units::{Metre, Pascal};
+use crate::with::Row;
+use asperity_base::choice::choice;
+use asperity_base::record::{Column, Record, columns};
+
+/// One of the two bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum OnBody {
+    /// The lower body.
+    Lower,
+    /// The upper body.
+    Upper,
+}
+
+choice!(OnBody: "lower" => Lower, "upper" => Upper);
+
+columns! {
+    /// Fatigue below the surface of a body in a pass, a row of `fatigue.csv`; in `summary.json` of the last pass.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    #[non_exhaustive]
+    pub struct FatigueRecord {
+        /// Pass, from 1.
+        pub pass: usize,
+        /// Position in the pass up to which the stresses count: its last one.
+        pub step: usize,
+        /// The body: `lower` or `upper`.
+        pub body: OnBody,
+        /// Mean pressure over the mean overlap.
+        pub mean_pressure: Pascal,
+        /// Largest f over its limit b: where it is below 1, nothing fails in the end.
+        pub over_limit: f64,
+        /// x of the place of the largest f, from the corner of the body.
+        pub x: Metre,
+        /// y of this place.
+        pub y: Metre,
+        /// Depth of this place.
+        pub depth: Metre,
+        /// Largest half range of σxz.
+        pub shear_amplitude: Pascal,
+        /// Largest damage of a pass, which adds up to 1 at failure; 0 below the limit with an endurance limit.
+        pub damage: f64,
+        /// Largest wear of a pass below which a column pits.
+        pub critical_wear: Metre,
+        /// Share of the columns that pit unless they wear by more than a tenth of this.
+        pub critical_share: f64,
+        /// Largest share of the radius of a contact spot by which the history of a point may be missed: the distance between two positions
+        /// over the width of the largest spot.
+        pub stride: f64,
+    }
+}
+
+impl Record for FatigueRecord {
+    const COLUMNS: &'static [Column] = Self::COLUMNS;
+
+    fn at(&self, error: Error) -> Error {
+        error.if_of_step(|source| Error::AtPass { pass: self.pass, source })
+    }
+}
+
+impl Row for FatigueRecord {
+    const GROUPS: &'static [(&'static str, &'static [Column])] = &[("FatigueRecord", Self::OWN_COLUMNS)];
+
+    fn pass(&self) -> Option<usize> {
+        Some(self.pass)
+    }
+
+    fn mean_pressure(&self) -> Pascal {
+        self.mean_pressure
+    }
+}

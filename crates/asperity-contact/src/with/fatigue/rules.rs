@@ -1,0 +1,58 @@
+//! The rules of fatigue.
+
+use super::Fatigue;
+use crate::with::{Rule, Surroundings};
+
+const FATIGUE: &str = r#"fatigue = { to = "8 um" }"#;
+const LIMITS: &str = r#"lower.fatigue = { torsion = "350 MPa", tension = "600 MPa" }"#;
+const MOVES: &str = r#"motion = { speed = "0.5 m/s" }"#;
+
+fn any(surroundings: &Surroundings, is: fn(&crate::with::BodyConstants) -> bool) -> bool {
+    surroundings.bodies.iter().any(is)
+}
+
+pub(super) const RULES: &[Rule<Fatigue>] = &[
+    Rule {
+        this: "[fatigue]",
+        with: "a contact that does not move",
+        message: "fatigue needs a [motion]: a point of a body tires as contacts pass over it",
+        hint: "add a [motion], or ask for the stress by [subsurface]",
+        at: "fatigue",
+        example: &[LIMITS, FATIGUE],
+        broken: |_, surroundings| !surroundings.moves,
+    },
+    Rule {
+        this: "[fatigue]",
+        with: "no limits of a body",
+        message: "fatigue needs the limits of a body",
+        hint: "for example `fatigue = { torsion = \"350 MPa\", tension = \"600 MPa\" }` in [lower]",
+        at: "fatigue",
+        example: &[MOVES, FATIGUE],
+        broken: |_, surroundings| !any(surroundings, |body| body.properties.fatigue.is_some()),
+    },
+    Rule {
+        this: "[fatigue]",
+        with: "a coated body that has limits",
+        message: "the stress below a coating is not computed",
+        hint: "leave the limits of the coated body out",
+        at: "fatigue",
+        example: &[
+            LIMITS,
+            FATIGUE,
+            MOVES,
+            r#"lower.coating = { thickness = "2 um", young = "300 GPa", poisson = 0.25 }"#,
+        ],
+        broken: |_, surroundings| {
+            any(surroundings, |body| body.properties.fatigue.is_some() && body.material.coating.is_some())
+        },
+    },
+    Rule {
+        this: "[fatigue]",
+        with: "`strategy = \"shift\"` under a boundary that is free along x",
+        message: "fatigue in a shift needs a boundary that is periodic along x",
+        hint: "set `boundary = \"periodic\"` in [contact], or `strategy = \"overlap\"`",
+        at: "fatigue",
+        example: &[LIMITS, FATIGUE, r#"motion = { strategy = "shift" }"#],
+        broken: |_, surroundings| surroundings.is_shift && !surroundings.boundary.repeats(0),
+    },
+];
