@@ -7,7 +7,7 @@ from typing import Any
 
 from . import _conductance, _gap_flow
 from ._solved import Solved
-from ._table import Table, by_direction, records
+from ._table import Table, by_word, records
 from ._units import Quantity
 
 
@@ -29,13 +29,16 @@ class Observed:
 
         They have the columns of `flow.csv`. Empty if it was not asked for.
         """
-        return by_direction(self._found("flow"))
+        return by_word(self._found("flow"), "along")
 
 
     @property
-    def fatigue(self) -> Table:
-        """A record for each pass and body whose fatigue was asked for, with the columns of `fatigue.csv`, else empty."""
-        return records(self._found("fatigue"), [])
+    def fatigue(self) -> dict[str, Table]:
+        """A record for each pass of the ``"lower"`` and of the ``"upper"`` body whose fatigue was asked for: a table each.
+
+        They have the columns of `fatigue.csv`. Empty if it was not asked for.
+        """
+        return by_word(self._found("fatigue"), "body")
 
 
 class OfContact(Observed, Solved):

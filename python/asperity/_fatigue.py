@@ -80,14 +80,19 @@ class Fatigue(Comparable):
         endurance : bool
             Whether there is no damage below the limit.
         """
-        return _core.damage(self.over_limit, self.depths.tolist(), (float(exponent), float(cycles), bool(endurance)))[0]
+        return self._damage(exponent, cycles, endurance)[0]
 
     def critical_wear(self, exponent: float, cycles: float, *, endurance: bool = False) -> NDArray[np.float64]:
         """Wear of a pass below which a column pits, m, ``[ix, iy]``: the integral of the :meth:`damage` over the depth.
 
         A column that loses more than this in each pass wears away before it fails.
         """
-        return _core.damage(self.over_limit, self.depths.tolist(), (float(exponent), float(cycles), bool(endurance)))[1]
+        return self._damage(exponent, cycles, endurance)[1]
+
+    def _damage(self, exponent: float, cycles: float, endurance: bool) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        law = (float(exponent), float(cycles), bool(endurance))
+        damage, wear = _core.damage(self.over_limit, self.depths.tolist(), law)
+        return damage, wear
 
     def to_xarray(self) -> Dataset:
         """Return f, radius and shear amplitude as an xarray Dataset over z, x and y, m."""

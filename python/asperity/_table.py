@@ -112,14 +112,12 @@ def records(rows: Sequence[Mapping[str, Any]], columns: Sequence[str]) -> Table:
     return array.view(Table)
 
 
-def by_direction(rows: Sequence[Mapping[str, Any]]) -> dict[str, Table]:
-    """Makes a table of the flow along each direction."""
-    found = {}
-    for axis in ("x", "y"):
-        of_axis = [{key: value for key, value in row.items() if key != "along"} for row in rows if row["along"] == axis]
-        if of_axis:
-            found[axis] = records(of_axis, [])
-    return found
+def by_word(rows: Sequence[Mapping[str, Any]], name: str) -> dict[str, Table]:
+    """Makes a table of the rows with each word of a column, without this column."""
+    found: dict[str, list[dict[str, Any]]] = {}
+    for row in rows:
+        found.setdefault(row[name], []).append({key: value for key, value in row.items() if key != name})
+    return {word: records(some, []) for word, some in sorted(found.items())}
 
 
 def frame(table: NDArray[np.void], index: list[str], units: Mapping[str, str], shown: Units) -> DataFrame:
