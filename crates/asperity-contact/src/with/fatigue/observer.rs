@@ -10,6 +10,9 @@ use crate::operator::Boundary;
 use crate::units::Metre;
 use crate::with::{BodyField, Given, NamedField, Observer, Place};
 
+/// Width of a free edge, in cells.
+const EDGE: usize = 2;
+
 /// Computes the fatigue of a pass.
 #[derive(Debug)]
 pub struct FatigueObserver {
@@ -66,6 +69,60 @@ impl FatigueObserver {
         StressHistory::new(grid, self.boundary, body.poisson, contacts.len(), tractions)
             .dang_van(&body.criterion, &self.depths)
     }
+
+    /// Returns the row and the fields of a body.
+    fn summarised(
+        &self,
+        index: usize,
+        body: &Limited,
+        grid: Grid,
+        found: &[AtDepth],
+        report: &PassReport<'_>,
+    ) -> (FatigueRecord, Vec<BodyField>) {
+        let (depths, every) = (&self.depths, self.fatigue.every);
+        let [nx, ny] = grid.shape;
+        let limit = body.criterion.limit();
+        let over = Array3::from_shape_fn((found.len(), nx, ny), |(k, i, j)| found[k].f[[i, j]] / limit);
+        let damage = over.mapv(|over| body.damage.damage(over));
+        let wear = damage.map_axis(ndarray::Axis(0), |column| critical_wear(depths, &column.to_vec()));
+        let worst = over.fold_axis(ndarray::Axis(0), f64::NEG_INFINITY, |most, over| most.max(*over));
+        let (place, most) = over.indexed_iter().fold(((0, 0, 0), f64::NEG_INFINITY), |best, (at, over)| {
+            if *over > best.1 { (at, *over) } else { best }
+        });
+        let largest = |field: &Field| field.iter().copied().fold(0.0, f64::max);
+        let most_wear = largest(&wear);
+        let critical = wear.iter().filter(|wear| **wear > 0.1 * most_wear).count();
+        let spot = report.record.largest_spot_cells.max(1) as f64;
+        let row = FatigueRecord {
+            pass: report.record.pass,
+            step: report.contacts.len(),
+            body: if index == 0 { OnBody::Lower } else { OnBody::Upper },
+            mean_pressure: report.record.mean_pressure,
+            over_limit: most,
+            x: grid.centre(0, place.1),
+            y: grid.centre(1, place.2),
+            depth: depths[place.0],
+            at_edge: (0..2).any(|axis| {
+                let cell = [place.1, place.2][axis];
+                !self.boundary.repeats(axis) && (cell < EDGE || cell + EDGE >= grid.shape[axis])
+            }),
+            shear_amplitude: found.iter().map(|at| largest(&at.shear_amplitude)).fold(0.0, f64::max),
+            damage: damage.iter().copied().fold(0.0, f64::max),
+            critical_wear: most_wear,
+            critical_share: if most_wear > 0.0 { critical as f64 / grid.cells() as f64 } else { 0.0 },
+            stride: (report.motion.stride * every) as f64 / spot,
+        };
+        let name = ["lower", "upper"][index];
+        let mut fields = vec![
+            BodyField { body: index, name: format!("over_limit_{name}"), unit: "1", values: worst },
+            BodyField { body: index, name: format!("critical_wear_{name}"), unit: "m", values: wear },
+        ];
+        for (k, plane) in over.outer_iter().enumerate() {
+            let name = format!("over_limit_{name}_{:02}", k + 1);
+            fields.push(BodyField { body: index, name, unit: "1", values: plane.to_owned() });
+        }
+        (row, fields)
+    }
 }
 
 impl Observer for FatigueObserver {
@@ -84,61 +141,10 @@ impl Observer for FatigueObserver {
             let Some(body) = body else { continue };
             let found = self.of_body(index, body, report)?;
             let grid = if index == 0 { report.pair.lower_grid() } else { report.pair.upper_grid() };
-            let (row, of_body) =
-                summarised(index, body, grid, &self.depths, &found, report, self.fatigue.every);
+            let (row, of_body) = self.summarised(index, body, grid, &found, report);
             rows.push(row);
             fields.extend(of_body);
         }
         Ok((rows, fields))
     }
-}
-
-/// Returns the row and the fields of a body.
-fn summarised(
-    index: usize,
-    body: &Limited,
-    grid: Grid,
-    depths: &[Metre],
-    found: &[AtDepth],
-    report: &PassReport<'_>,
-    every: usize,
-) -> (FatigueRecord, Vec<BodyField>) {
-    let [nx, ny] = grid.shape;
-    let limit = body.criterion.limit();
-    let over = Array3::from_shape_fn((found.len(), nx, ny), |(k, i, j)| found[k].f[[i, j]] / limit);
-    let damage = over.mapv(|over| body.damage.damage(over));
-    let wear = damage.map_axis(ndarray::Axis(0), |column| critical_wear(depths, &column.to_vec()));
-    let worst = over.fold_axis(ndarray::Axis(0), f64::NEG_INFINITY, |most, over| most.max(*over));
-    let (place, most) = over.indexed_iter().fold(((0, 0, 0), f64::NEG_INFINITY), |best, (at, over)| {
-        if *over > best.1 { (at, *over) } else { best }
-    });
-    let largest = |field: &Field| field.iter().copied().fold(0.0, f64::max);
-    let most_wear = largest(&wear);
-    let critical = wear.iter().filter(|wear| **wear > 0.1 * most_wear).count();
-    let spot = report.record.largest_spot_cells.max(1) as f64;
-    let row = FatigueRecord {
-        pass: report.record.pass,
-        step: report.contacts.len(),
-        body: if index == 0 { OnBody::Lower } else { OnBody::Upper },
-        mean_pressure: report.record.mean_pressure,
-        over_limit: most,
-        x: grid.centre(0, place.1),
-        y: grid.centre(1, place.2),
-        depth: depths[place.0],
-        shear_amplitude: found.iter().map(|at| largest(&at.shear_amplitude)).fold(0.0, f64::max),
-        damage: damage.iter().copied().fold(0.0, f64::max),
-        critical_wear: most_wear,
-        critical_share: if most_wear > 0.0 { critical as f64 / grid.cells() as f64 } else { 0.0 },
-        stride: (report.motion.stride * every) as f64 / spot,
-    };
-    let name = ["lower", "upper"][index];
-    let mut fields = vec![
-        BodyField { body: index, name: format!("over_limit_{name}"), unit: "1", values: worst },
-        BodyField { body: index, name: format!("critical_wear_{name}"), unit: "m", values: wear },
-    ];
-    for (k, plane) in over.outer_iter().enumerate() {
-        let name = format!("over_limit_{name}_{:02}", k + 1);
-        fields.push(BodyField { body: index, name, unit: "1", values: plane.to_owned() });
-    }
-    (row, fields)
 }

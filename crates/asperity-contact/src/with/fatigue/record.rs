@@ -41,6 +41,8 @@ columns! {
         pub y: Metre,
         /// Depth of this place.
         pub depth: Metre,
+        /// Whether this place is within two cells of a free edge, where surfaces end and edges plough.
+        pub at_edge: bool,
         /// Largest half range of σxz.
         pub shear_amplitude: Pascal,
         /// Largest damage of a pass, which adds up to 1 at failure; 0 below the limit with an endurance limit.
@@ -49,8 +51,7 @@ columns! {
         pub critical_wear: Metre,
         /// Share of the columns that pit unless they wear by more than a tenth of this.
         pub critical_share: f64,
-        /// Largest share of the radius of a contact spot by which the history of a point may be missed: the distance between two positions
-        /// over the width of the largest spot.
+        /// Distance between two positions whose stress is computed, over the width of the widest spot of contact.
         pub stride: f64,
     }
 }

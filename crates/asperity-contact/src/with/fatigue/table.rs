@@ -63,8 +63,9 @@ const STRENGTH: Exists =
     Exists::Within { least: 1e5, most: 5e9, of: "soft polymers to hardened steels", slips: &["MPa"] };
 
 fn passes(value: &dyn Value, key: &Key) -> Result<Vec<usize>> {
-    let one = |item: &dyn Value| {
-        item.real(key, &Kind::Number("a whole number", Bounds::AboveZero)).map(|number| number as usize)
+    let one = |item: &dyn Value| match item.real(key, &Kind::Number("a whole number", Bounds::AboveZero))? {
+        number if number.fract() == 0.0 && number < 1e15 => Ok(number as usize),
+        _ => Err(item.unexpected("a whole number of at least 1", None)),
     };
     list(value, "a list of passes such as [1, 100]", one)
 }

@@ -178,6 +178,16 @@ pub(super) fn doubts(fatigue: &Fatigue, rows: &[FatigueRecord], surroundings: &S
             format(fatigue.to, Dimension::Length)
         ));
     }
+    if rows.is_empty() {
+        doubts.push("no pass that was computed is among those whose fatigue is asked for".to_owned());
+    }
+    if rows.iter().any(|row| row.at_edge) {
+        doubts.push(
+            "the largest f is at a free edge of the grid, where the surfaces end and edges plough: `taper` the ends, add a sphere or a cylinder, or \
+             let surfaces without ends pass under a periodic boundary"
+                .to_owned(),
+        );
+    }
     let stride = most(|row| row.stride);
     if stride > STRIDE {
         doubts.push(format!(
