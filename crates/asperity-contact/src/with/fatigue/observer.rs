@@ -10,9 +10,6 @@ use crate::operator::Boundary;
 use crate::units::Metre;
 use crate::with::{BodyField, Given, NamedField, Observer, Place};
 
-/// Width of a free edge, in cells.
-const EDGE: usize = 2;
-
 /// Computes the fatigue of a pass.
 #[derive(Debug)]
 pub struct FatigueObserver {
@@ -102,10 +99,13 @@ impl FatigueObserver {
             x: grid.centre(0, place.1),
             y: grid.centre(1, place.2),
             depth: depths[place.0],
-            at_edge: (0..2).any(|axis| {
-                let cell = [place.1, place.2][axis];
-                !self.boundary.repeats(axis) && (cell < EDGE || cell + EDGE >= grid.shape[axis])
-            }),
+            edge_cells: (0..2)
+                .filter(|axis| !self.boundary.repeats(*axis))
+                .map(|axis| {
+                    let cell = [place.1, place.2][axis];
+                    cell.min(grid.shape[axis] - 1 - cell)
+                })
+                .min(),
             shear_amplitude: found.iter().map(|at| largest(&at.shear_amplitude)).fold(0.0, f64::max),
             damage: damage.iter().copied().fold(0.0, f64::max),
             critical_wear: most_wear,

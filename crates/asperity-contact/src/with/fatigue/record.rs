@@ -41,8 +41,8 @@ columns! {
         pub y: Metre,
         /// Depth of this place.
         pub depth: Metre,
-        /// Whether this place is within two cells of a free edge, where surfaces end and edges plough.
-        pub at_edge: bool,
+        /// Cells from this place to the nearest free edge of the body; unknown without one.
+        pub edge_cells: Option<usize>,
         /// Largest half range of σxz.
         pub shear_amplitude: Pascal,
         /// Largest damage of a pass, which adds up to 1 at failure; 0 below the limit with an endurance limit.

@@ -149,6 +149,8 @@ pub(super) fn numbers(row: &FatigueRecord) -> Vec<Line> {
     ]
 }
 
+/// Width of a free edge in cells.
+const EDGE: usize = 2;
 /// Largest f/b of many cycles.
 const FEW_CYCLES: f64 = 2.0;
 /// Distance between two positions over the width of a spot that needs no warning.
@@ -181,7 +183,7 @@ pub(super) fn doubts(fatigue: &Fatigue, rows: &[FatigueRecord], surroundings: &S
     if rows.is_empty() {
         doubts.push("no pass that was computed is among those whose fatigue is asked for".to_owned());
     }
-    if rows.iter().any(|row| row.at_edge) {
+    if rows.iter().any(|row| row.edge_cells.is_some_and(|cells| cells < EDGE)) {
         doubts.push(
             "the largest f is at a free edge of the grid, where the surfaces end and edges plough: `taper` the ends, add a sphere or a cylinder, or \
              let surfaces without ends pass under a periodic boundary"
