@@ -39,7 +39,7 @@ const WEAR: &str = "A column pits unless it loses more than this in each pass.";
 pub(super) const MAPS: &[Map<FatigueRecord>] = &[
     Map {
         field: "over_limit_lower",
-        title: "f over its limit in the lower body",
+        title: "Dang Van's f over its limit in the lower body",
         caption: F,
         quantity: "f/b",
         unit: |_| "1",
@@ -49,7 +49,7 @@ pub(super) const MAPS: &[Map<FatigueRecord>] = &[
     },
     Map {
         field: "over_limit_upper",
-        title: "f over its limit in the upper body",
+        title: "Dang Van's f over its limit in the upper body",
         caption: F,
         quantity: "f/b",
         unit: |_| "1",
