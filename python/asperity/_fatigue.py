@@ -10,9 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _core
-from ._optional import need
 from ._same import Comparable
-from ._stress import Extreme, _depths, _edges, _ratio
+from ._stress import Extreme, _dataset, _depths, _edges, _ratio
 from ._units import Pair, Quantity, lengths, quantity
 from .errors import bad_input
 from .keys import Boundary
@@ -96,15 +95,8 @@ class Fatigue(Comparable):
 
     def to_xarray(self) -> Dataset:
         """Return f, radius and shear amplitude as an xarray Dataset over z, x and y, m."""
-        xarray = need("xarray", "to_xarray()")
-        _, nx, ny = self.f.shape
-        x, y = (self.pitch[axis] * (np.arange(n) + 0.5) for axis, n in enumerate((nx, ny)))
-        coordinates = {name: (name, at, {"units": "m"}) for name, at in (("z", self.depths), ("x", x), ("y", y))}
         arrays = {"f": self.f, "radius": self.radius, "shear_amplitude": self.shear_amplitude}
-        dataset: Dataset = xarray.Dataset(
-            {name: (("z", "x", "y"), array, {"units": "Pa"}) for name, array in arrays.items()}, coordinates
-        )
-        return dataset
+        return _dataset(arrays, self.depths, self.pitch)
 
 
 def fatigue(
@@ -158,7 +150,7 @@ def fatigue(
     asperity.errors.BadInput
         If an argument is invalid.
     KeyboardInterrupt
-        At Ctrl-C, between two depths.
+        At Ctrl-C.
 
     Examples
     --------

@@ -199,16 +199,20 @@ class SubsurfaceStress(Stress):
 
     def to_xarray(self) -> Dataset:
         """Return the components, the von Mises stress and the largest shear as an xarray Dataset over z, x and y, m."""
-        xarray = need("xarray", "to_xarray()")
-        _, nx, ny = self.shape
-        x, y = (self.pitch[axis] * (np.arange(n) + 0.5) for axis, n in enumerate((nx, ny)))
-        coordinates = {name: (name, at, {"units": "m"}) for name, at in (("z", self.depths), ("x", x), ("y", y))}
         arrays: Mapping[str, Any] = {**{name: self[name] for name in COMPONENTS}, "von_mises": self.von_mises}
-        arrays = {**arrays, "max_shear": self.max_shear}
-        dataset: Dataset = xarray.Dataset(
-            {name: (("z", "x", "y"), array, {"units": "Pa"}) for name, array in arrays.items()}, coordinates
-        )
-        return dataset
+        return _dataset({**arrays, "max_shear": self.max_shear}, self.depths, self.pitch)
+
+
+def _dataset(arrays: Mapping[str, Any], depths: NDArray[np.float64], pitch: tuple[float, float]) -> Dataset:
+    """Return arrays ``[iz, ix, iy]``, Pa, as an xarray Dataset over z, x and y, m."""
+    xarray = need("xarray", "to_xarray()")
+    _, nx, ny = next(iter(arrays.values())).shape
+    x, y = (pitch[axis] * (np.arange(n) + 0.5) for axis, n in enumerate((nx, ny)))
+    coordinates = {name: (name, at, {"units": "m"}) for name, at in (("z", depths), ("x", x), ("y", y))}
+    dataset: Dataset = xarray.Dataset(
+        {name: (("z", "x", "y"), array, {"units": "Pa"}) for name, array in arrays.items()}, coordinates
+    )
+    return dataset
 
 
 def stress(

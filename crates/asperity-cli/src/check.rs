@@ -142,7 +142,7 @@ fn pair(case: &Case, estimate: &Estimate) -> String {
     if estimate.hardness.is_infinite() {
         return match &estimate.viscoelastic {
             None => format!("{modulus}, elastic"),
-            Some(steady) => format!("{modulus} relaxed; {}", steady.bodies.join("; ")),
+            Some(viscoelastic) => format!("{modulus} relaxed; {}", viscoelastic.bodies.join("; ")),
         };
     }
     let who = match estimate.lower_share {

@@ -4,7 +4,7 @@ use asperity::fatigue::{AtDepth, Basquin, DangVan, StressHistory, critical_wear}
 use asperity::motion::Watch;
 use asperity::ndarray::{Array3, Axis, Ix3};
 use asperity::operator::{Boundary, Edge};
-use asperity::{Choice, Error, Field, Grid};
+use asperity::{Choice, Field, Grid};
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray3};
 use pyo3::prelude::*;
 
@@ -40,15 +40,9 @@ pub(crate) fn fatigue<'py>(
             let shear = (friction[position] != 0.0).then(|| friction[position] * &pressure);
             (pressure, shear)
         };
-        let history = StressHistory::new(grid, boundary, poisson, positions, at);
-        let mut found = Vec::new();
-        for depths in depths.chunks(rayon::current_num_threads().max(1)) {
-            if watch.stop() {
-                return Err(Error::Interrupted);
-            }
-            found.extend(history.dang_van(&criterion, depths)?);
-        }
-        Ok(found)
+        let stop = || watch.stop();
+        let history = StressHistory::new(grid, boundary, poisson, positions, at).until(&stop);
+        history.dang_van(&criterion, &depths)
     })?;
     let together = |field: fn(&AtDepth) -> &Field| {
         let values: Vec<f64> = found.iter().flat_map(|at| field(at).iter().copied()).collect();

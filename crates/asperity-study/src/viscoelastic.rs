@@ -1,4 +1,4 @@
-//! Viscoelastic bodies of a case: their master curves from text files, and what a check says of their steady sliding.
+//! Viscoelastic bodies of a case: their master curves from text files, and what a check says of their sliding and loading.
 
 use crate::case::{Body, Case, StageSpec};
 use crate::given::SurfaceInput;

@@ -15,12 +15,30 @@ use crate::units::{Joule, Newton, Pascal, PerPascal, Second, SquareMetre};
 use crate::viscoelastic::memory::solve_step;
 use crate::viscoelastic::{Creep, CreepMemory};
 
-/// Name of the field of a body with what it would be displaced by if it were an elastic half-space of a unit modulus.
+/// Name of the field of a memory with the displacement of an elastic half-space of a unit modulus.
 pub(super) const ELASTIC: &str = "crept_elastic";
+/// Unit of the fields of a memory.
+pub(super) const UNIT: &str = "Pa m";
 
-/// Name of the field of a body with its memory of a retardation time, from 0.
-pub(super) fn crept(term: usize) -> String {
+/// Name of the field of a memory of a retardation time, from 0.
+fn crept(term: usize) -> String {
     format!("crept_{}", term + 1)
+}
+
+/// The fields of a memory, with their names in files.
+pub(super) fn named(memory: &CreepMemory) -> impl Iterator<Item = (String, &Field)> {
+    let delayed = memory.delayed().iter().enumerate().map(|(term, values)| (crept(term), values));
+    std::iter::once((ELASTIC.to_owned(), memory.elastic())).chain(delayed)
+}
+
+/// Restores a memory from its fields by their names.
+pub(super) fn restored<E>(
+    creep: Creep,
+    field: impl Fn(&str) -> std::result::Result<Field, E>,
+) -> std::result::Result<CreepMemory, E> {
+    let delayed =
+        (0..creep.terms.len()).map(|term| field(&crept(term))).collect::<std::result::Result<_, _>>()?;
+    Ok(CreepMemory::restored(creep, delayed, field(ELASTIC)?))
 }
 
 /// A viscoelastic body in a pass, on its own cells.
@@ -40,25 +58,19 @@ impl Remembering {
     /// Returns the body as a pass finds it, with the memory in its state.
     fn of(creep: &Creep, body: &Body, operators: &Operators) -> Self {
         let shape = [body.columns(), body.width()];
-        let kept = |name: &str| body.state.get(name).map(|state| state.values.clone());
-        let delayed = (0..creep.terms.len()).map(|term| kept(&crept(term))).collect::<Option<Vec<_>>>();
-        let memory = match (delayed, kept(ELASTIC)) {
-            (Some(delayed), Some(elastic)) => CreepMemory::restored(creep.clone(), delayed, elastic),
-            _ => CreepMemory::new(creep.clone(), shape),
-        };
+        let kept = |name: &str| body.state.get(name).map(|state| state.values.clone()).ok_or(());
+        let memory =
+            restored(creep.clone(), kept).unwrap_or_else(|()| CreepMemory::new(creep.clone(), shape));
         let nothing = Field::zeros(shape);
         let [history, displacement] = [nothing.clone(), nothing.clone()];
         Self { memory, operator: operators.on(shape), history, displacement, pressure: nothing }
     }
 
     /// Keeps the memory in the state of the `body`.
-    fn keep(self, body: &mut Body) {
-        let mut keep = |name: String, values: Field| {
-            body.state.insert(name, State { unit: "Pa m".to_owned(), values });
-        };
-        let (delayed, elastic) = self.memory.into_fields();
-        keep(ELASTIC.to_owned(), elastic);
-        delayed.into_iter().enumerate().for_each(|(term, values)| keep(crept(term), values));
+    fn keep(&self, body: &mut Body) {
+        for (name, values) in named(&self.memory) {
+            body.state.insert(name, State { unit: UNIT.to_owned(), values: values.clone() });
+        }
     }
 
     /// Advances to the end of a step, with its pressure and the displacement Lp of the contact. Returns the work on the body per area of a
@@ -171,9 +183,8 @@ impl Creeping {
             let Some(body) = body else { continue };
             work += self.area * body.advance(placement, pressure, elastic, duration, self.modulus);
         }
-        let before = std::mem::take(&mut self.stored);
-        self.stored = self.stored_now();
-        work + self.stored - before
+        let now = self.stored_now();
+        work + now - std::mem::replace(&mut self.stored, now)
     }
 }
 
@@ -193,6 +204,8 @@ impl Solver<'_> {
         let rougher = usize::from(pair.lower.heights.std(0.0) < pair.upper.heights.std(0.0));
         let mut bodies = Creeping::new(pair, self.operators);
         bodies.begin(pair, self.last.as_ref(), self.motion.apart());
+        // Such bodies come from apart and go apart without being pressed together.
+        let passes_by = self.motion.strategy == Strategy::Overlap && matches!(control, Control::Approach(_));
         let mut contacts: Vec<Contact> = Vec::with_capacity(self.positions.len());
         let mut drags: Vec<Newton> = Vec::with_capacity(self.positions.len());
         for (index, position) in self.positions.iter().enumerate() {
@@ -226,10 +239,9 @@ impl Solver<'_> {
                 contact.stats.convolutions += latest[index].stats.convolutions;
             }
             let work = bodies.advance(&placements, &solution.pressure, &elastic, duration);
-            let enters = self.motion.strategy == Strategy::Overlap && matches!(control, Control::Approach(_));
             let pressing = match last {
                 Some(last) => 0.5 * (last.load + contact.load) * (contact.approach - last.approach),
-                None if enters => 0.0,
+                None if passes_by => 0.0,
                 None => f64::NAN,
             };
             drags.push(if distance > 0.0 { (work - pressing) / distance } else { 0.0 });
@@ -244,12 +256,12 @@ impl Solver<'_> {
             let nothing = Field::zeros([last.position.columns, width]);
             bodies.history(&placements, last.position.columns, duration);
             let work = bodies.advance(&placements, &nothing, &nothing, duration);
-            if matches!(control, Control::Approach(_)) {
+            if passes_by {
                 leaving = work / distance;
             }
         }
         let mut after = pair.clone();
-        for (remembering, body) in bodies.bodies.into_iter().zip([&mut after.lower, &mut after.upper]) {
+        for (remembering, body) in bodies.bodies.iter().zip([&mut after.lower, &mut after.upper]) {
             if let Some(remembering) = remembering {
                 remembering.keep(body);
             }

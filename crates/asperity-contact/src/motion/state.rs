@@ -164,10 +164,7 @@ impl CourseState for LoadingState {
             changed.store(to);
         }
         if let Some(memory) = &self.memory {
-            to.field(creeping::ELASTIC, "Pa m", memory.elastic());
-            for (term, z) in memory.delayed().iter().enumerate() {
-                to.field(&creeping::crept(term), "Pa m", z);
-            }
+            creeping::named(memory).for_each(|(name, values)| to.field(&name, creeping::UNIT, values));
         }
         let Progress { stage, cycles, step } = self.next;
         to.count("next_stage", stage);
@@ -222,9 +219,7 @@ impl LoadingState {
         };
         let memory = restore_if(from, creeping::ELASTIC, || {
             let creep = pair.creep_together().unwrap_or(Creep::elastic(0.0));
-            let delayed = (0..creep.terms.len()).map(|term| from.field(&creeping::crept(term)));
-            let delayed = delayed.collect::<Result<Vec<_>>>()?;
-            Ok(CreepMemory::restored(creep, delayed, from.field(creeping::ELASTIC)?))
+            creeping::restored(creep, |name| from.field(name))
         })?;
         let has_friction = from.holds("stick");
         let contact = match has_friction {

@@ -39,8 +39,8 @@ pub struct SweepState {
 ///
 /// Each point is an independent contact of undeformed bodies, solved from zero. It has the bits of [`crate::motion::press`]
 /// or [`crate::motion::roll`], whatever the other points are. Pressures of another load would not be a better start than
-/// those of coarser grids: from 1.5 times the load up they cost more convolutions. Viscoelastic bodies that slide steadily are the
-/// exception: each speed starts from the pressures of the speed before.
+/// those of coarser grids: from 1.5 times the load up they cost more convolutions. The steady sliding of
+/// viscoelastic bodies is the exception: its contact at a speed starts from the pressures at the speed before.
 ///
 /// # Errors
 /// [`Error::AtPoint`] with the error of [`crate::solver::solve_normal`] or [`crate::solver::solve_rolling`],

@@ -52,11 +52,6 @@ impl CreepMemory {
         &self.elastic
     }
 
-    /// Returns the field z of each term, and Lp at the end of the last step, Pa m.
-    pub fn into_fields(self) -> (Vec<Field>, Field) {
-        (self.delayed, self.elastic)
-    }
-
     /// Returns the compliance with which a step of the time `duration` ≥ 0 answers: `J_g + Σ J_k (1 − φ_k)`.
     pub fn compliance(&self, duration: Second) -> PerPascal {
         let terms = self.creep.terms.iter().map(|term| term.compliance * weights(duration, term.time)[2]);

@@ -163,7 +163,7 @@ fn what_is_no_history_is_refused() {
         |positions: usize| StressHistory::new(grid, Boundary::FREE, 0.3, positions, |_| (grid.zeros(), None));
     assert!(none(0).dang_van(&criterion(), &[1.0]).unwrap_err().to_string().contains("positions"));
     assert!(none(1).dang_van(&criterion(), &[-1.0]).unwrap_err().to_string().contains("depth"));
-    let stopped = none(1).until(|| true).dang_van(&criterion(), &[1.0]).unwrap_err();
+    let stopped = none(1).until(&|| true).dang_van(&criterion(), &[1.0]).unwrap_err();
     assert!(matches!(stopped, asperity_base::Error::Interrupted));
     assert!(none(3).dang_van(&criterion(), &[1.0]).unwrap()[0].f.iter().all(|f| *f == 0.0));
 }

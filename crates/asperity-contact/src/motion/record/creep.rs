@@ -18,8 +18,9 @@ columns! {
     /// Drag of viscoelastic bodies at a position of a pass.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     pub struct DragRecord {
-        /// Force against the motion since the position before, without friction: the work on the bodies over the distance. Its mean is that
-        /// of the dissipation; of rough bodies, it also has what they store and give back. Unknown where the bodies are pressed together.
+        /// Force against the motion since the position before, without friction: the work on the bodies over the distance. Its mean over
+        /// the positions is the force of the dissipation; rough bodies also store work at some positions and give it back at others. It is
+        /// unknown at the position where the bodies are first pressed together.
         #[serde(deserialize_with = "number_or_none")]
         pub drag: Newton,
     }

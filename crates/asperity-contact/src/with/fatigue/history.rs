@@ -24,13 +24,13 @@ const ROUNDING: f64 = 1e-14;
 ///
 /// `tractions` returns the pressure at a position, from 0, and the shear traction along +x on this body, `None` without friction, Pa. It is
 /// called several times for each position, from several threads.
-pub struct StressHistory<F> {
+pub struct StressHistory<'a, F> {
     grid: Grid,
     boundary: Boundary,
     poisson: f64,
     positions: usize,
     tractions: F,
-    stop: Option<Box<dyn Fn() -> bool + Sync>>,
+    stop: Option<&'a (dyn Fn() -> bool + Sync)>,
 }
 
 /// The points at one depth, and all that they have seen.
@@ -123,7 +123,7 @@ impl DangVan {
     }
 }
 
-impl<F: Fn(usize) -> (Field, Option<Field>) + Sync> StressHistory<F> {
+impl<'a, F: Fn(usize) -> (Field, Option<Field>) + Sync> StressHistory<'a, F> {
     /// Creates the history of a body with Poisson's ratio `poisson`.
     pub fn new(grid: Grid, boundary: Boundary, poisson: f64, positions: usize, tractions: F) -> Self {
         Self { grid, boundary, poisson, positions, tractions, stop: None }
@@ -131,8 +131,8 @@ impl<F: Fn(usize) -> (Field, Option<Field>) + Sync> StressHistory<F> {
 
     /// Ends with [`Error::Interrupted`] as soon as `stop` is true.
     #[must_use]
-    pub fn until(self, stop: impl Fn() -> bool + Sync + 'static) -> Self {
-        Self { stop: Some(Box::new(stop)), ..self }
+    pub fn until(self, stop: &'a (dyn Fn() -> bool + Sync)) -> Self {
+        Self { stop: Some(stop), ..self }
     }
 
     /// Computes Dang Van's f at the `depths` ≥ 0.
@@ -154,7 +154,7 @@ impl<F: Fn(usize) -> (Field, Option<Field>) + Sync> StressHistory<F> {
 
     /// Returns the stress at a position, component by component, and the largest pressure there.
     fn stress(&self, at_depth: &SlidingStress, position: usize) -> Result<([Field; 6], Pascal)> {
-        if self.stop.as_ref().is_some_and(|stop| stop()) {
+        if self.stop.is_some_and(|stop| stop()) {
             return Err(Error::Interrupted);
         }
         let (pressure, shear) = (self.tractions)(position);

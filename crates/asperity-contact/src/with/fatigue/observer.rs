@@ -49,10 +49,15 @@ impl FatigueObserver {
         })
     }
 
-    /// Computes what a body has seen in a pass.
-    fn of_body(&self, index: usize, body: &Limited, report: &PassReport<'_>) -> Result<Vec<AtDepth>> {
+    /// Computes what a body with this `grid` has seen in a pass.
+    fn of_body(
+        &self,
+        index: usize,
+        body: &Limited,
+        grid: Grid,
+        report: &PassReport<'_>,
+    ) -> Result<Vec<AtDepth>> {
         let pair = report.pair;
-        let grid = if index == 0 { pair.lower_grid() } else { pair.upper_grid() };
         let sign = if index == 0 { 1.0 } else { -1.0 };
         let contacts: Vec<&Contact> = report.contacts.iter().step_by(self.fatigue.every).collect();
         let tractions = |position: usize| {
@@ -137,10 +142,10 @@ impl Observer for FatigueObserver {
         if !self.fatigue.wants(report.record.pass) {
             return Ok((rows, fields));
         }
-        for (index, body) in self.bodies.iter().enumerate() {
+        let grids = [report.pair.lower_grid(), report.pair.upper_grid()];
+        for (index, (body, grid)) in self.bodies.iter().zip(grids).enumerate() {
             let Some(body) = body else { continue };
-            let found = self.of_body(index, body, report)?;
-            let grid = if index == 0 { report.pair.lower_grid() } else { report.pair.upper_grid() };
+            let found = self.of_body(index, body, grid, report)?;
             let (row, of_body) = self.summarised(index, body, grid, &found, report);
             rows.push(row);
             fields.extend(of_body);

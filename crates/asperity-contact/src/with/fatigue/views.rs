@@ -37,47 +37,37 @@ const WEAR: &str = "A column pits unless it loses more than this in each pass.";
 
 /// f and the wear that is faster, of both bodies.
 pub(super) const MAPS: &[Map<FatigueRecord>] = &[
-    Map {
-        field: "over_limit_lower",
-        title: "Dang Van's f over its limit in the lower body",
-        caption: F,
-        quantity: "f/b",
-        unit: |_| "1",
-        scale: Scale::FromZeroOrLogarithmic,
-        mark: most,
-        marked: "largest f",
-    },
-    Map {
-        field: "over_limit_upper",
-        title: "Dang Van's f over its limit in the upper body",
-        caption: F,
-        quantity: "f/b",
-        unit: |_| "1",
-        scale: Scale::FromZeroOrLogarithmic,
-        mark: most,
-        marked: "largest f",
-    },
-    Map {
-        field: "critical_wear_lower",
-        title: "wear of a pass that saves the lower body",
-        caption: WEAR,
-        quantity: "wear of a pass",
-        unit: |_| "m",
-        scale: Scale::Logarithmic(1e-4),
-        mark: |_, _| None,
-        marked: "",
-    },
-    Map {
-        field: "critical_wear_upper",
-        title: "wear of a pass that saves the upper body",
-        caption: WEAR,
-        quantity: "wear of a pass",
-        unit: |_| "m",
-        scale: Scale::Logarithmic(1e-4),
-        mark: |_, _| None,
-        marked: "",
-    },
+    over_limit("over_limit_lower", "Dang Van's f over its limit in the lower body"),
+    over_limit("over_limit_upper", "Dang Van's f over its limit in the upper body"),
+    critical_wear("critical_wear_lower", "wear of a pass that saves the lower body"),
+    critical_wear("critical_wear_upper", "wear of a pass that saves the upper body"),
 ];
+
+const fn over_limit(field: &'static str, title: &'static str) -> Map<FatigueRecord> {
+    Map {
+        field,
+        title,
+        caption: F,
+        quantity: "f/b",
+        unit: |_| "1",
+        scale: Scale::FromZeroOrLogarithmic,
+        mark: most,
+        marked: "largest f",
+    }
+}
+
+const fn critical_wear(field: &'static str, title: &'static str) -> Map<FatigueRecord> {
+    Map {
+        field,
+        title,
+        caption: WEAR,
+        quantity: "wear of a pass",
+        unit: |_| "m",
+        scale: Scale::Logarithmic(1e-4),
+        mark: |_, _| None,
+        marked: "",
+    }
+}
 
 /// The place of the largest f, on the map of its body.
 fn most(row: &FatigueRecord, field: &str) -> Option<[f64; 2]> {
