@@ -81,4 +81,10 @@ fn only_the_passes_asked_for_are_looked_at_and_what_is_beyond_the_model_is_told(
     let told = |words: &str| summary.warnings.iter().any(|warning| warning.contains(words));
     assert!(told("between two positions whose stress is computed"), "{:?}", summary.warnings);
     assert!(!folder.path().join("fields/fatigue-0001.h5").exists());
+    let text = "times the one above it, and the largest f may lie between two";
+    assert!(!told(text));
+    let mut deep = case(1, "");
+    deep.with.fatigue.as_mut().unwrap().to = 4e-3;
+    let (summary, _) = run(&deep, tempfile::tempdir().unwrap().path(), Existing::Keep);
+    assert!(summary.warnings.iter().any(|warning| warning.contains(text)), "{:?}", summary.warnings);
 }

@@ -143,6 +143,8 @@ pub(super) fn numbers(row: &FatigueRecord) -> Vec<Line> {
 const EDGE: usize = 2;
 /// Largest f/b of many cycles.
 const FEW_CYCLES: f64 = 2.0;
+/// Largest ratio of a depth to the one above it that needs no warning.
+const APART: f64 = 2.5;
 /// Distance between two positions over the width of a spot that needs no warning.
 const STRIDE: f64 = 0.25;
 
@@ -168,6 +170,15 @@ pub(super) fn doubts(fatigue: &Fatigue, rows: &[FatigueRecord], surroundings: &S
         doubts.push(format!(
             "the largest f is at the largest depth, {}: look deeper by a larger `to`",
             format(fatigue.to, Dimension::Length)
+        ));
+    }
+    // Depths are geometric, and the first of them is no deeper than any other.
+    let apart = most(|row| row.depth.recip()) * fatigue.to;
+    let apart = apart.powf(1.0 / (fatigue.layers.max(2) - 1) as f64);
+    if apart > APART {
+        doubts.push(format!(
+            "each depth is more than {} times the one above it, and the largest f may lie between two: give a smaller `to` or more `layers`",
+            format_number(apart)
         ));
     }
     if rows.is_empty() {
