@@ -429,11 +429,18 @@ class FatigueLimits(_RequiredFatigueLimits, total=False):
         Cycles N₀ that a material endures at the limit; number > 0. By default `2e6`.
     endurance : bool
         Whether there is no damage below the limit. By default `false`.
+    pit_depth : float or str
+        Largest depth from which material breaks out where the damage reaches 1; 0 only tells it; length ≥ 0. By default
+        `"0 um"`.
+    risk : bool
+        Whether the life is compared to that of the bodies without their roughness. By default `false`.
     """
 
     exponent: float
     cycles: float
     endurance: bool
+    pit_depth: Quantity
+    risk: bool
 
 
 class Steady(TypedDict, total=False):

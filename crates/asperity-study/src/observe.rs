@@ -177,9 +177,8 @@ impl<C: Reported> Look for Observed<C> {
         let pass = report.record.pass;
         let mut file = FieldFile::of_run(&files.identity, &files.results.observer_fields(C::NAME, pass));
         file.set("pass", pass);
-        for BodyField { body, name, unit, values } in &fields {
-            let grid = [report.pair.lower_grid(), report.pair.upper_grid()][*body];
-            file.add_field(name, unit, &grid, [0.0; 2], values);
+        for BodyField { name, unit, grid, values } in &fields {
+            file.add_field(name, unit, grid, [0.0; 2], values);
         }
         files.of_step = Some(file);
         Ok(())

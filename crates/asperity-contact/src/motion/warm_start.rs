@@ -82,7 +82,7 @@ impl WarmStart {
     }
 
     /// Number of passes over which the last computed one was extrapolated.
-    fn extrapolated_passes(&self) -> f64 {
+    pub(super) fn extrapolated_passes(&self) -> f64 {
         self.extrapolation.as_ref().map_or(1.0, |last| last.passes as f64)
     }
 

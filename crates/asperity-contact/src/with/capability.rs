@@ -8,9 +8,9 @@ use serde::de::DeserializeOwned;
 use super::views::{Answer, Curve, Line, Map};
 use super::{BodyProperties, Capabilities, Listed, Observations};
 use crate::error::Result;
-use crate::grid::Field;
+use crate::grid::{Field, Grid};
 use crate::material::Material;
-use crate::motion::{ObservedContact, Pair, PassReport, SweepRecord};
+use crate::motion::{Memory, ObservedContact, Pair, PassReport, SweepRecord};
 use crate::operator::Boundary;
 use crate::solver::Params;
 use crate::units::{MetrePerSecond, Pascal};
@@ -55,6 +55,20 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
     /// # Errors
     /// The reason why it is not possible.
     fn begin(&self, given: &Given<'_>) -> Result<Self::Observer>;
+
+    /// Returns what it has to remember of the passes of a motion, of a capability [of passes](Self::OF_PASSES).
+    ///
+    /// # Errors
+    /// The reason why it is not possible.
+    fn pass_memory(&self, given: &Given<'_>) -> Result<Option<Box<dyn Memory>>> {
+        let _ = given;
+        Ok(None)
+    }
+
+    /// Number of fields that this memory keeps with each body.
+    fn remembered(&self) -> usize {
+        0
+    }
 
     /// Returns the rows of a summary: those of the last contact, or of a motion what tells of its passes.
     fn summary(rows: &[Self::Row]) -> Vec<Self::Row>;
@@ -159,16 +173,16 @@ pub struct NamedField {
     pub values: Field,
 }
 
-/// A field on the cells of a body, with its name in files.
+/// A field of a body, with its name in files.
 #[derive(Debug, Clone)]
 pub struct BodyField {
-    /// The body: 0 the lower, 1 the upper one.
-    pub body: usize,
     /// The name.
     pub name: String,
     /// Unit of the values, SI.
     pub unit: &'static str,
-    /// The values, `[ix, iy]`.
+    /// The cells: those of the body, or those of a section along x into the depth.
+    pub grid: Grid,
+    /// The values, `[ix, iy]`, or `[ix, iz]` of a section.
     pub values: Field,
 }
 

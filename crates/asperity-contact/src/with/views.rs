@@ -120,7 +120,9 @@ pub struct Map<R: 'static> {
     pub unit: fn(&R) -> &'static str,
     /// Its scale.
     pub scale: Scale,
-    /// The place that is marked, if a row has one for this field.
+    /// Whether it is a section along x into the depth.
+    pub is_section: bool,
+    /// The place that is marked, if a row has one for this field: x and y, or x and the depth on a section.
     pub mark: fn(&R, field: &str) -> Option<[Metre; 2]>,
     /// Name of the marked place.
     pub marked: &'static str,

@@ -73,7 +73,11 @@ pub fn field_map<'a, R>(
     quantity: Quantity,
     place: Option<[f64; 2]>,
 ) -> Maps<'a> {
-    let draw = |colours| Map::new("", field, grid, quantity, colours);
+    let extent = grid.extent();
+    let draw = |colours| match map.is_section {
+        true => Map::section("", field, [[0.0, extent[0]], [0.0, extent[1]]], quantity, colours),
+        false => Map::new("", field, grid, quantity, colours),
+    };
     let drawn = match logarithmic(map.scale, field) {
         None => draw(Colours::Pressure),
         Some(None) => draw(Colours::Logarithmic),

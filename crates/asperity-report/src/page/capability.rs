@@ -78,7 +78,7 @@ fn planes<C: Capability>(fields: &Fields, rows: &[C::Row]) -> Vec<Plane> {
                 None => QuantisedField::positive(&field, pitch),
             },
             x: 0.0,
-            down: false,
+            down: map.is_section,
             quantity: map.quantity,
             unit: Unit::Of((map.unit)(row)),
             shades: if scale.is_some() { Shades::Logarithmic } else { Shades::FromZero },

@@ -7,11 +7,12 @@ use super::{Body, Case, Hardness};
 use asperity_base::error::Result;
 use asperity_base::table::Table as _;
 use asperity_base::units::PerPascal;
-use asperity_contact::each_law;
 use asperity_contact::material::NamedMaterial;
 use asperity_contact::motion::{Acceleration, Law, Pair, Simulation, SlidingContact, StagedLoading};
+use asperity_contact::solver::Params;
 use asperity_contact::temperature::Thermal;
-use asperity_contact::with::{self, BodyLaw, BodyLaws, Listed};
+use asperity_contact::with::{self, BodyLaw, BodyLaws, Capability, Given, Listed};
+use asperity_contact::{each_capability, each_law};
 
 /// The constants beside the elastic ones that the tables of a case use.
 #[derive(Clone, Copy)]
@@ -132,6 +133,32 @@ impl Case {
     fn heated(&self) -> Option<[Thermal; 2]> {
         let wanted = self.temperature.is_some_and(|temperature| temperature.every() > 0);
         Some([self.lower.thermal?, self.upper.thermal?]).filter(|_| wanted)
+    }
+
+    /// Adds to a motion what capabilities remember of its passes.
+    ///
+    /// # Errors
+    /// The errors of the capabilities.
+    pub(crate) fn remembering(&self, mut simulation: Simulation, params: Params) -> Result<Simulation> {
+        each_capability!(C => if let Some(asked) = C::of(&self.with) {
+            let given = Given { pair: simulation.pair(), surroundings: self.surroundings(), params };
+            if let Some(memory) = asked.pass_memory(&given)? {
+                simulation = simulation.with_memory(memory);
+            }
+        });
+        Ok(simulation)
+    }
+
+    /// Number of fields that capabilities keep with each body.
+    pub(crate) fn remembered(&self) -> usize {
+        let mut kept = 0;
+        each_capability!(C => kept += C::of(&self.with).map_or(0, Capability::remembered));
+        kept
+    }
+
+    /// Whether passes change the bodies: by a law, or what a capability remembers of them.
+    pub(crate) fn is_changed_by_passes(&self) -> bool {
+        self.runs_in() || self.remembered() > 0
     }
 
     /// Whether contacts change the bodies by a law.

@@ -503,7 +503,8 @@ impl Sizes<'_> {
             looked_at = looked_at.max(positions);
             largest = largest.max(at_once * C::memory([nx as usize, ny as usize]));
         });
-        NUMBER * looked_at as f64 * nx * ny + largest
+        let states = 2.0 * self.case.remembered() as f64 * self.cells();
+        NUMBER * (looked_at as f64 * nx * ny + states) + largest
     }
 
     /// Work of the laws of the bodies and of flash temperatures in a computed pass.
@@ -537,7 +538,7 @@ impl Sizes<'_> {
     fn writing(&self) -> f64 {
         let case = self.case;
         let bodies = [&case.lower, &case.upper];
-        let of_body = |body: &&Body| (2 + body.kept_by_laws()) as f64;
+        let of_body = |body: &&Body| (2 + body.kept_by_laws() + case.remembered()) as f64;
         let [fields, cells] = match case.motion {
             Some(motion) => {
                 let shear = if case.friction.is_some() { 2.0 } else { 1.0 };

@@ -3,7 +3,11 @@
 use std::fs;
 use std::path::Path;
 
-use asperity_contact::fatigue::{FatigueRecord, OnBody};
+use asperity_contact::Field;
+use asperity_contact::fatigue::{Basquin, Fatigue, FatigueRecord, OnBody, advance_damage};
+use asperity_contact::motion::PassRecord;
+use asperity_contact::wear::WearRate;
+use asperity_contact::with::Capability;
 use asperity_study::{Case, Existing, Results, Summary, SurfaceInput};
 
 fn case(passes: usize, tables: &str) -> Case {
@@ -68,8 +72,7 @@ fn bodies_of_a_motion_tire_pass_after_pass_and_go_on_to_the_same_bits() {
     let map = maps.read("over_limit_lower").unwrap().into_field().unwrap();
     let most = map.iter().copied().fold(0.0, f64::max);
     assert!((most / rows[4].over_limit - 1.0).abs() < 1e-12);
-    let depths =
-        (1..=4).map(|k| maps.read(&format!("over_limit_lower_{k:02}")).unwrap().into_field().unwrap());
+    let depths = (1..=4).map(|k| state(&whole, 3, &format!("over_limit_{k:02}")));
     assert!(depths.map(|depth| depth.iter().copied().fold(0.0, f64::max)).any(|depth| depth == most));
 }
 
@@ -87,4 +90,165 @@ fn only_the_passes_asked_for_are_looked_at_and_what_is_beyond_the_model_is_told(
     deep.with.fatigue.as_mut().unwrap().to = 4e-3;
     let (summary, _) = run(&deep, tempfile::tempdir().unwrap().path(), Existing::Keep);
     assert!(summary.warnings.iter().any(|warning| warning.contains(text)), "{:?}", summary.warnings);
+}
+
+/// The state of a body after a pass, at a depth from 1.
+fn state(out: &Path, pass: usize, name: &str) -> Field {
+    let [lower, _] = Results::open(out).unwrap().states_after(pass).unwrap();
+    lower[name].values.clone()
+}
+
+#[test]
+fn damage_adds_up_over_passes_as_miner_has_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = case(3, "");
+    let (_, rows) = run(&case, folder.path(), Existing::Keep);
+    let law = Basquin::new(10.0, 2e6, false).unwrap();
+    let depths = case.with.fatigue.as_ref().unwrap().depths([1e-6; 2]);
+    let shape = [24, 16];
+    let mut suffered = vec![vec![0.0; 4]; shape[0] * shape[1]];
+    let mut worn_before = Field::zeros(shape);
+    for pass in 1..=3 {
+        let worn = state(folder.path(), pass, "wear");
+        let over: Vec<Field> =
+            (1..=4).map(|k| state(folder.path(), pass, &format!("over_limit_{k:02}"))).collect();
+        for (cell, suffered) in suffered.iter_mut().enumerate() {
+            let at = [cell / shape[1], cell % shape[1]];
+            let each: Vec<f64> = over.iter().map(|over| law.damage(over[at])).collect();
+            advance_damage(&depths, suffered, &each, 1.0, worn[at] - worn_before[at]);
+        }
+        worn_before = worn;
+        let most = suffered.iter().flatten().copied().fold(0.0, f64::max);
+        let row = &rows[2 * (pass - 1)];
+        assert!(
+            (row.damage / most - 1.0).abs() < 1e-6 && row.damage > row.damage_of_pass * (pass as f64 - 0.5)
+        );
+        let life = row.life.unwrap();
+        let expected = pass as f64 + (1.0 - row.damage) / row.damage_of_pass;
+        assert!((life / expected - 1.0).abs() < 1e-3, "{life} {expected}");
+        assert!(
+            row.unsaved_share.is_some_and(|share| share <= row.critical_share) && row.pitted_share.is_none()
+        );
+    }
+    // The upper body does not wear.
+    assert!(rows[1].unsaved_share.is_none());
+}
+
+#[test]
+fn damage_between_two_computed_passes_is_between_theirs() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut case = case(40, "[acceleration]\nmax_jump = 8\ntolerance = 10\nmax_wear = \"1 um\"");
+    // The other body wears, so that the pressures change and the depths do not.
+    let mut wear = case.lower.laws.wear.take().unwrap();
+    wear.rate = WearRate::Coefficient(1e-14);
+    case.upper.laws.wear = Some(wear);
+    run(&case, folder.path(), Existing::Keep);
+    let jumps: Vec<usize> =
+        Results::open(folder.path()).unwrap().passes().unwrap().iter().map(PassRecord::represents).collect();
+    assert!(jumps.contains(&8) && jumps.iter().sum::<usize>() == 40, "{jumps:?}");
+    let law = Basquin::new(10.0, 2e6, false).unwrap();
+    for depth in ["01", "03"] {
+        let of = |pass: usize| {
+            state(folder.path(), pass, &format!("over_limit_{depth}")).mapv(|over| law.damage(over))
+        };
+        let mut expected = Field::zeros([24, 16]);
+        for (index, jump) in jumps.iter().enumerate() {
+            let (now, next) = (of(index + 1), of((index + 2).min(jumps.len())));
+            // The passes of a jump, each on the line from one computed pass to the next.
+            for k in 0..*jump {
+                let share = k as f64 / *jump as f64;
+                expected = expected + &now * (1.0 - share) + &next * share;
+            }
+        }
+        let found = state(folder.path(), jumps.len(), &format!("damage_{depth}"));
+        let most = expected.iter().copied().fold(0.0, f64::max);
+        let changes = of(1) - of(jumps.len());
+        assert!(changes.iter().any(|change| change.abs() > 0.01 * most / 40.0));
+        let error = (found - &expected).iter().fold(0.0_f64, |most, error| most.max(error.abs()));
+        assert!(error < 1e-9 * most, "{error} of {most}");
+    }
+}
+
+#[test]
+fn what_has_failed_breaks_out_and_goes_to_the_ledger() {
+    let folder = tempfile::tempdir().unwrap();
+    let tables = "[acceleration]\nmax_jump = 1000";
+    let pitting = |passes: usize| {
+        let mut case = case(passes, tables);
+        let limits = case.lower.properties.fatigue.as_mut().unwrap();
+        (limits.cycles, limits.pit_depth) = (1e5, 1.5e-6);
+        case
+    };
+    let whole = folder.path().join("whole");
+    let (summary, rows) = run(&pitting(3000), &whole, Existing::Keep);
+    let results = Results::open(&whole).unwrap();
+    let passes = results.passes().unwrap();
+    let last = passes.len();
+    assert!(passes.iter().any(|pass| pass.represents() > 10));
+    let pitted = state(&whole, last, "pitted");
+    let share = pitted.iter().filter(|depth| **depth > 0.0).count() as f64 / pitted.len() as f64;
+    let row = rows.iter().rfind(|row| row.body == OnBody::Lower).unwrap();
+    assert!(share > 0.0 && share < 0.5 && row.pitted_share == Some(share), "{share}");
+    let volume: f64 = passes.iter().map(|pass| pass.lost("pits")[0]).sum();
+    assert!((volume / (1e-12 * pitted.sum()) - 1.0).abs() < 1e-9);
+    assert!(passes.iter().all(|pass| pass.lost("pits")[1] == 0.0));
+    // The height of a column falls by what was worn and what broke out.
+    let [before, after] = [0, last].map(|pass| results.surfaces_after(pass).unwrap()[0].heights().clone());
+    let worn = state(&whole, last, "wear");
+    let error = (before - after - worn - &pitted).iter().fold(0.0_f64, |most, error| most.max(error.abs()));
+    assert!(error < 1e-15, "{error}");
+    // Pits are as deep as the material is tired, and no deeper than asked for but by the way to the next depth.
+    assert!(pitted.iter().all(|depth| *depth < 20.0 * 4e-6));
+    // Nothing within the depth of pits is left that has failed.
+    for depth in ["01", "02"] {
+        let left = state(&whole, last, &format!("damage_{depth}"));
+        assert!(left.iter().all(|damage| *damage < 1.0 + 1e-9));
+    }
+    let answers = Fatigue::answers(case(1, "").with.fatigue.as_ref().unwrap(), &summary.found.fatigue);
+    assert!(answers[0].sentence.contains("has pitted"), "{}", answers[0].sentence);
+}
+
+/// A ball with this roughness that rolls over a smooth plate, with the risk asked for.
+fn ball(sq: &str, form: &str) -> Case {
+    let text = format!(
+        r#"
+[lower]
+young = "210 GPa"
+poisson = 0.3
+topography = {{ form = "flat", shape = [48, 32], pitch = "4 um" }}
+fatigue = {{ torsion = "350 MPa", tension = "600 MPa", risk = true }}
+[upper]
+young = "210 GPa"
+poisson = 0.3
+topography = {{ form = "{form}", plus = [{{ generate = "low-pass", sq = "{sq}", cutoff = "32 um", seed = 2 }}] }}
+[contact]
+load = "3 N"
+boundary = "free"
+[motion]
+strategy = "overlap"
+stride = 4
+[fatigue]
+to = "60 um"
+layers = 6
+"#
+    );
+    Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap()
+}
+
+#[test]
+fn roughness_shortens_the_life_of_a_ball() {
+    let folder = tempfile::tempdir().unwrap();
+    let sphere = r#"sphere", radius = "5 mm"#;
+    let ratio = |sq: &str, form: &str| {
+        let (summary, rows) =
+            run(&ball(sq, form), &folder.path().join(format!("{sq}{}", form.len())), Existing::Keep);
+        (rows[0].life_ratio, summary.warnings.iter().any(|warning| warning.contains("these are flat")))
+    };
+    // A polynomial of second order is a ball but for its fourth order.
+    let (smooth, _) = ratio("0.01 nm", sphere);
+    assert!((smooth.unwrap() - 1.0).abs() < 0.02, "{smooth:?}");
+    let (fine, _) = ratio("20 nm", sphere);
+    let (rough, is_told) = ratio("60 nm", sphere);
+    assert!(rough.unwrap() < 0.5 * fine.unwrap() && fine.unwrap() < 0.9 && !is_told, "{fine:?} {rough:?}");
+    assert_eq!(ratio("60 nm", "flat"), (None, true));
 }

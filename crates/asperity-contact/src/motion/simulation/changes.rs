@@ -9,6 +9,7 @@ use crate::motion::extrapolation::{
 };
 use crate::motion::heat::PassHeat;
 use crate::motion::law::{self, FrictionHeat, Heat, Law, Sums};
+use crate::motion::memory::Memory;
 use crate::motion::pass::Pass;
 use crate::motion::record::{FILM, RunningRecord, StepRecord, WEAR};
 use crate::motion::truncation::Truncation;
@@ -20,8 +21,10 @@ use crate::units::CubicMetre;
 pub(super) struct Changes {
     /// The laws, in their order.
     pub(super) laws: Vec<Box<dyn Law>>,
+    /// The memories of whole passes.
+    pub(super) memories: Vec<Box<dyn Memory>>,
     pub(super) acceleration: Acceleration,
-    /// Compliance of single cells; set once a law repeats.
+    /// Compliance of single cells; set once a law repeats, or if there is a memory.
     compliance_of_grid: Option<GridCompliance>,
     /// The flash temperature over a pass, if requested.
     pub(super) heat: Option<PassHeat>,
@@ -31,7 +34,13 @@ impl Changes {
     /// Plastic deformation alone.
     pub(super) fn new() -> Self {
         let laws: Vec<Box<dyn Law>> = vec![Box::new(Truncation)];
-        Self { laws, acceleration: Acceleration::NONE, compliance_of_grid: None, heat: None }
+        Self {
+            laws,
+            memories: Vec::new(),
+            acceleration: Acceleration::NONE,
+            compliance_of_grid: None,
+            heat: None,
+        }
     }
 
     /// Adds a law.
@@ -43,6 +52,16 @@ impl Changes {
             // Laws that act once per computed pass come first, because the extrapolation depends on their results.
             self.laws.insert(self.once(), law);
         }
+    }
+
+    /// Adds a memory.
+    pub(super) fn remember(
+        &mut self,
+        memory: Box<dyn Memory>,
+        compliance_of_grid: impl FnOnce() -> GridCompliance,
+    ) {
+        self.compliance_of_grid.get_or_insert_with(compliance_of_grid);
+        self.memories.push(memory);
     }
 
     /// Number of laws, the first ones, that act once per computed pass. The others also act in the extrapolated passes.
@@ -79,6 +98,9 @@ impl Simulation {
         let position_data = self.motion.position_data(self.pair.pitch()[0]);
         let friction = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
         let laws = &self.changes.laws[self.changes.once()..];
+        if laws.is_empty() {
+            return Ok(Some(PassWear { compliance_of_grid, stable: f64::INFINITY, explicit: None }));
+        }
         let relaxation = extrapolation::relaxation(
             &outcome.pair,
             &outcome.contacts,
@@ -141,8 +163,10 @@ impl Simulation {
         let repeated = sums.split_off(once);
         let mut lost = std::mem::take(&mut pass.lost);
         law::advance(flow, &mut pass.pair, &sums, 1.0, &self.interiors, &mut lost[..once]);
-        if laws.is_empty() && self.changes.heat.is_none() {
+        let jumps = !self.changes.memories.is_empty() && self.changes.acceleration.max_jump > 1;
+        if laws.is_empty() && self.changes.heat.is_none() && !jumps {
             pass.lost = lost;
+            self.remember(pass, 1, None);
             return Ok((None, None));
         }
         let flown = lost.iter().flat_map(|lost| lost.whole).sum();
@@ -159,9 +183,9 @@ impl Simulation {
         let taken =
             law::advance(laws, &mut pass.pair, mean, passes as f64, &self.interiors, &mut lost[once..]);
         pass.lost = lost;
-        let wear =
-            laws.iter().position(|law| law.name() == WEAR).map(|index| law::deepest(&taken[index..=index]));
-        let [max_wear_lower, max_wear_upper] = wear.unwrap_or_default();
+        let wear = laws.iter().position(|law| law.name() == WEAR).map(|index| &taken[index..=index]);
+        self.remember(pass, passes, wear.map(|worn| &worn[0]));
+        let [max_wear_lower, max_wear_upper] = wear.map(law::deepest).unwrap_or_default();
         let film = |body: &Body| body.state.get(FILM).map_or(0.0, |film| film.values.mean().unwrap_or(0.0));
         let positions = self.positions.len() as f64;
         let done = (self.represented() + passes) as f64;
@@ -213,7 +237,8 @@ impl Simulation {
             deepest: law::deepest(&one).into_iter().fold(0.0, f64::max),
             stable: wear.stable,
         };
-        let mut passes = self.changes.acceleration.most(&bounds, before);
+        let mut passes =
+            self.changes.acceleration.most(&bounds, before).min(self.most_remembered(pass)).max(1);
         let pressures = pass.contacts.iter().flat_map(|contact| &contact.pressure);
         let highest = pressures.fold(0.0, |most: f64, (_, p)| most.max(*p));
         let allowed = self.changes.acceleration.tolerance * wear.compliance_of_grid.single * highest;

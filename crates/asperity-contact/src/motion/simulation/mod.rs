@@ -1,6 +1,7 @@
 //! The motion itself: pass after pass.
 
 mod changes; // changes of the bodies by laws
+mod memories; // memories of whole passes
 mod search; // the approach of a pass
 mod solved; // a solved pass
 
@@ -268,6 +269,8 @@ impl Simulation {
             "elasto-plastic bodies do not take a hardness"
         } else if self.changes.laws.len() > 1 {
             "elasto-plastic bodies do not support wear and films yet"
+        } else if self.changes.memories.iter().any(|memory| memory.takes().is_some()) {
+            "nothing breaks out of elasto-plastic bodies"
         } else if self.changes.heat.is_some() {
             "elasto-plastic bodies do not support a flash temperature yet"
         } else if self.changes.acceleration.max_jump > 1 {
@@ -418,8 +421,12 @@ impl Simulation {
                 .zip(&plastic_pass.steps)
                 .for_each(|(step, plastic)| step.plastic = Some(*plastic));
         }
+        self.look(&mut outcome, watch)?;
         let (running, extrapolation) = match outcome.has_changed {
-            true => (None, None),
+            true => {
+                self.remember(&mut outcome, 1, None);
+                (None, None)
+            }
             false => self.advance(&mut outcome, &mut steps, wear.as_ref())?,
         };
         let represented = self.represented() + running.map_or(1, |running: RunningRecord| running.represents);

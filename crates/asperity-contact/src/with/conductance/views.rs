@@ -48,6 +48,7 @@ pub(super) const MAPS: &[Map<ConductanceRecord>] = &[Map {
     quantity: "flux",
     unit: |row| flux_unit(row.quantities.kind),
     scale: Scale::FromZeroOrLogarithmic,
+    is_section: false,
     mark: |_, _| None,
     marked: "",
 }];

@@ -117,6 +117,9 @@ pub(super) fn smallest_ball(points: &mut [Point]) -> (Point, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fatigue::DangVan;
+    use crate::stress::Stress;
+    use crate::with::fatigue::criterion::max_shear;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
@@ -195,5 +198,38 @@ mod tests {
         assert!(smallest_ball(&mut [at(1.0); 4]).1 == 0.0);
         let (centre, square) = smallest_ball(&mut [0.0, 0.3, 1.0, 0.3, 0.7, 1.0].map(at));
         assert!(squared(&centre, &at(0.5)) < 1e-28 && (square - 1.5).abs() < 1e-12, "{square}");
+    }
+
+    #[test]
+    fn three_hundred_random_histories_have_the_f_of_brute_force() {
+        let mut random = ChaCha8Rng::seed_from_u64(3);
+        let criterion = DangVan::new(1.0, 3.0 / 1.8).unwrap();
+        for case in 0..300 {
+            let mean = Stress::from_components(std::array::from_fn(|_| random.random_range(-2.0..2.0)));
+            let count = random.random_range(1..11);
+            // Some stresses lie in a line, as under a load that goes on and off, and some repeat.
+            let load = Stress::from_components(std::array::from_fn(|_| random.random_range(-1.0..1.0)));
+            let history: Vec<Stress> = (0..count)
+                .map(|at| match case % 4 {
+                    0 => mean + random.random_range(-1.0..1.0) * load,
+                    1 if at % 2 == 1 => mean,
+                    _ => {
+                        mean + Stress::from_components(std::array::from_fn(|_| {
+                            random.random_range(-1.0..1.0)
+                        }))
+                    }
+                })
+                .collect();
+            let seen: Vec<(Point, f64)> = history.iter().map(Stress::split).collect();
+            let points: Vec<Point> = seen.iter().map(|(deviator, _)| *deviator).collect();
+            let (centre, square) = by_brute_force(&points);
+            let of = |(deviator, mean): &(Point, f64)| {
+                max_shear(&less(deviator, &centre)) + criterion.weight() * mean
+            };
+            let expected = seen.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+            let [f, radius] = criterion.of(&history);
+            assert!((f - expected).abs() < 1e-8, "case {case}: {f} {expected}");
+            assert!((radius - square.sqrt()).abs() < 1e-8, "case {case}: {radius} {}", square.sqrt());
+        }
     }
 }

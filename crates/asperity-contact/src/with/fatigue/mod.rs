@@ -31,9 +31,12 @@ mod ball;
 mod criterion;
 mod damage;
 mod history;
-mod observer;
+mod below;
+mod memory;
 mod record;
 mod rules;
+mod smooth;
+mod observer;
 mod table;
 mod views;
 
@@ -45,7 +48,7 @@ pub use record::{FatigueRecord, OnBody};
 pub use table::{Fatigue, FatigueLimits};
 
 use crate::error::Result;
-use crate::motion::SweepRecord;
+use crate::motion::{Memory, SweepRecord};
 use crate::with::views::{Answer, Curve, Line, Map};
 use crate::with::{Capability, Given, Rule, Surroundings};
 
@@ -74,6 +77,14 @@ impl Capability for Fatigue {
 
     fn begin(&self, given: &Given<'_>) -> Result<FatigueObserver> {
         FatigueObserver::new(self, given)
+    }
+
+    fn pass_memory(&self, given: &Given<'_>) -> Result<Option<Box<dyn Memory>>> {
+        Ok(Some(Box::new(memory::Damage(below::Below::new(self, given)?))))
+    }
+
+    fn remembered(&self) -> usize {
+        2 * self.layers
     }
 
     fn summary(rows: &[FatigueRecord]) -> Vec<FatigueRecord> {

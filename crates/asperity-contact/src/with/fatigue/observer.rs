@@ -1,132 +1,154 @@
 //! Fatigue below the bodies of a case.
 
-use ndarray::Array3;
+use ndarray::{Array3, Axis};
 
-use super::{AtDepth, Basquin, DangVan, Fatigue, FatigueRecord, OnBody, StressHistory, critical_wear};
+use super::below::{Below, Limited};
+use super::memory::states;
+use super::smooth::Smooth;
+use super::{Fatigue, FatigueRecord, OnBody, critical_wear};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
-use crate::motion::{Contact, ObservedContact, PassReport};
-use crate::operator::Boundary;
-use crate::units::Metre;
+use crate::motion::{Body, ObservedContact, PassReport};
 use crate::with::{BodyField, Given, NamedField, Observer, Place};
 
-/// Computes the fatigue of a pass.
+/// Tells what the memory of a pass has found.
 #[derive(Debug)]
 pub struct FatigueObserver {
-    fatigue: Fatigue,
-    boundary: Boundary,
-    depths: Vec<Metre>,
-    /// The bodies that have limits, lower one first.
-    bodies: [Option<Limited>; 2],
+    below: Below,
+    /// The bodies without roughness, if the risk over theirs is asked for.
+    smooth: Option<Smooth>,
 }
 
-/// A body with its limits.
-#[derive(Debug)]
-struct Limited {
-    poisson: f64,
-    criterion: DangVan,
-    damage: Basquin,
-}
+/// Part of the largest critical wear from which on a column counts as one that needs much.
+const MUCH: f64 = 0.1;
 
 impl FatigueObserver {
     pub(super) fn new(fatigue: &Fatigue, given: &Given<'_>) -> Result<Self> {
-        let surroundings = &given.surroundings;
-        let limited = |index: usize| {
-            let body = &surroundings.bodies[index];
-            let limits = body.properties.fatigue.as_ref();
-            limits
-                .map(|limits| {
-                    let (criterion, damage) = (limits.criterion()?, limits.damage()?);
-                    Ok(Limited { poisson: body.material.poisson, criterion, damage })
-                })
-                .transpose()
-        };
-        Ok(Self {
-            depths: fatigue.depths(given.pair.pitch()),
-            fatigue: fatigue.clone(),
-            boundary: surroundings.boundary,
-            bodies: [limited(0)?, limited(1)?],
-        })
-    }
-
-    /// Computes what a body with this `grid` has seen in a pass.
-    fn of_body(
-        &self,
-        index: usize,
-        body: &Limited,
-        grid: Grid,
-        report: &PassReport<'_>,
-    ) -> Result<Vec<AtDepth>> {
-        let pair = report.pair;
-        let sign = if index == 0 { 1.0 } else { -1.0 };
-        let contacts: Vec<&Contact> = report.contacts.iter().step_by(self.fatigue.every).collect();
-        let tractions = |position: usize| {
-            let contact = contacts[position];
-            let pressure = contact.pressure_field(pair.lower.width());
-            let placement = pair.placements(&contact.position)[index];
-            let sliding = report.motion.sliding(contact.position.stroke);
-            let shear = sliding.map(|sliding| placement.onto(&pressure.mapv(|p| sign * sliding.shear(p)[0])));
-            (placement.onto(&pressure), shear)
-        };
-        StressHistory::new(grid, self.boundary, body.poisson, contacts.len(), tractions)
-            .dang_van(&body.criterion, &self.depths)
+        let below = Below::new(fatigue, given)?;
+        let asks = below.limited().any(|(_, body)| body.risk);
+        let smooth = asks.then(|| Smooth::of(given)).transpose()?;
+        Ok(Self { below, smooth })
     }
 
     /// Returns the row and the fields of a body.
-    fn summarised(
+    fn of_body(
         &self,
-        index: usize,
-        body: &Limited,
-        grid: Grid,
-        found: &[AtDepth],
+        (index, limited): (usize, &Limited),
+        (body, grid): (&Body, Grid),
         report: &PassReport<'_>,
-    ) -> (FatigueRecord, Vec<BodyField>) {
-        let (depths, every) = (&self.depths, self.fatigue.every);
+    ) -> Result<(FatigueRecord, Vec<BodyField>)> {
+        let Below { fatigue, boundary, depths, .. } = &self.below;
+        let states = |name: fn(usize) -> String| -> Vec<&Field> {
+            (0..depths.len()).map(|k| &body.state[&name(k)].values).collect()
+        };
+        let (of_pass, so_far) = (states(states::over_limit), states(states::damage));
         let [nx, ny] = grid.shape;
-        let limit = body.criterion.limit();
-        let over = Array3::from_shape_fn((found.len(), nx, ny), |(k, i, j)| found[k].f[[i, j]] / limit);
-        let damage = over.mapv(|over| body.damage.damage(over));
-        let wear = damage.map_axis(ndarray::Axis(0), |column| critical_wear(depths, &column.to_vec()));
-        let worst = over.fold_axis(ndarray::Axis(0), f64::NEG_INFINITY, |most, over| most.max(*over));
-        let (place, most) = over.indexed_iter().fold(((0, 0, 0), f64::NEG_INFINITY), |best, (at, over)| {
-            if *over > best.1 { (at, *over) } else { best }
+        let all =
+            |fields: &[&Field]| Array3::from_shape_fn((depths.len(), nx, ny), |(k, i, j)| fields[k][[i, j]]);
+        let (over, suffered) = (all(&of_pass), all(&so_far));
+        let each = over.mapv(|over| limited.damage.damage(over));
+        let needed = each.map_axis(Axis(0), |column| critical_wear(depths, &column.to_vec()));
+        let most = |values: &Array3<f64>| {
+            values.fold_axis(Axis(0), f64::NEG_INFINITY, |most, value| most.max(*value))
+        };
+        let (place, largest_over) =
+            over.indexed_iter().fold(((0, 0, 0), f64::NEG_INFINITY), |best, (at, over)| {
+                if *over > best.1 { (at, *over) } else { best }
+            });
+        let largest = |values: &mut dyn Iterator<Item = &f64>| values.copied().fold(0.0, f64::max);
+        let most_wear = largest(&mut needed.iter());
+        let is_much = |wear: f64| wear > MUCH * most_wear;
+        let share = |count: usize| count as f64 / grid.cells() as f64;
+        let unsaved = body.state.get(states::WEAR_OF_PASS).map(|wear| {
+            let columns = needed.iter().zip(&wear.values);
+            share(columns.filter(|(needed, wear)| is_much(**needed) && wear < needed).count())
         });
-        let largest = |field: &Field| field.iter().copied().fold(0.0, f64::max);
-        let most_wear = largest(&wear);
-        let critical = wear.iter().filter(|wear| **wear > 0.1 * most_wear).count();
-        let spot = report.record.largest_spot_cells.max(1) as f64;
+        let left = suffered.iter().zip(&each).map(|(damage, each)| (1.0 - damage).max(0.0) / each);
+        let left = left.filter(|left| left.is_finite()).reduce(f64::min);
+        let flows = report.plastic_volumes.iter().any(|volume| volume.body == index);
+        let life_ratio = match &self.smooth {
+            Some(smooth) if limited.risk => {
+                smooth.life_ratio(&self.below, (index, limited), report.motion, &of_pass)?
+            }
+            _ => None,
+        };
         let row = FatigueRecord {
             pass: report.record.pass,
             step: report.contacts.len(),
             body: if index == 0 { OnBody::Lower } else { OnBody::Upper },
             mean_pressure: report.record.mean_pressure,
-            over_limit: most,
+            over_limit: largest_over,
             x: grid.centre(0, place.1),
             y: grid.centre(1, place.2),
             depth: depths[place.0],
             edge_cells: (0..2)
-                .filter(|axis| !self.boundary.repeats(*axis))
+                .filter(|axis| !boundary.repeats(*axis))
                 .map(|axis| {
                     let cell = [place.1, place.2][axis];
                     cell.min(grid.shape[axis] - 1 - cell)
                 })
                 .min(),
-            shear_amplitude: found.iter().map(|at| largest(&at.shear_amplitude)).fold(0.0, f64::max),
-            damage: damage.iter().copied().fold(0.0, f64::max),
+            damage_of_pass: largest(&mut each.iter()),
+            damage: largest(&mut suffered.iter()),
+            life: left.map(|left| report.warm.represented as f64 + left),
             critical_wear: most_wear,
-            critical_share: if most_wear > 0.0 { critical as f64 / grid.cells() as f64 } else { 0.0 },
-            stride: (report.motion.stride * every) as f64 / spot,
+            critical_share: if most_wear > 0.0 {
+                share(needed.iter().filter(|wear| is_much(**wear)).count())
+            } else {
+                0.0
+            },
+            unsaved_share: unsaved,
+            pitted_share: body
+                .state
+                .get(states::PITTED)
+                .map(|pitted| share(pitted.values.iter().filter(|depth| **depth > 0.0).count())),
+            life_ratio,
+            plastic_work: report
+                .record
+                .plastic
+                .filter(|_| flows)
+                .map(|plastic| [plastic.plastic_work_lower, plastic.plastic_work_upper][index]),
+            stride: (report.motion.stride * fatigue.every) as f64
+                / report.record.largest_spot_cells.max(1) as f64,
         };
         let name = ["lower", "upper"][index];
+        let field =
+            |what: &str, unit, grid, values| BodyField { name: format!("{what}_{name}"), unit, grid, values };
+        let (in_depth, section) = self.section(&of_pass, grid, place.2);
         let mut fields = vec![
-            BodyField { body: index, name: format!("over_limit_{name}"), unit: "1", values: worst },
-            BodyField { body: index, name: format!("critical_wear_{name}"), unit: "m", values: wear },
+            field("over_limit", "1", grid, most(&over)),
+            field("over_limit_section", "1", in_depth, section),
+            field("damage", "1", grid, most(&suffered)),
         ];
-        for (k, plane) in over.outer_iter().enumerate() {
-            let name = format!("over_limit_{name}_{:02}", k + 1);
-            fields.push(BodyField { body: index, name, unit: "1", values: plane.to_owned() });
+        if let Some(wear) = body.state.get(states::WEAR_OF_PASS) {
+            fields.push(field(
+                "lacking_wear",
+                "m",
+                grid,
+                (&needed - &wear.values).mapv(|wear| wear.max(0.0)),
+            ));
         }
-        (row, fields)
+        fields.push(field("critical_wear", "m", grid, needed));
+        Ok((row, fields))
+    }
+
+    /// Returns f over its limit below a row of cells, linear between the depths and evenly spaced.
+    fn section(&self, over_limit: &[&Field], grid: Grid, row: usize) -> (Grid, Field) {
+        /// Rows of cells of a section.
+        const ROWS: usize = 96;
+        let depths = &self.below.depths;
+        let step = depths[depths.len() - 1] / ROWS as f64;
+        let values = Field::from_shape_fn([grid.shape[0], ROWS], |(i, k)| {
+            let depth = (k as f64 + 0.5) * step;
+            let below = depths.partition_point(|z| *z <= depth).min(depths.len() - 1);
+            let above = below.saturating_sub(1);
+            let share = match depths[below] - depths[above] {
+                0.0 => 0.0,
+                apart => ((depth - depths[above]) / apart).clamp(0.0, 1.0),
+            };
+            (1.0 - share) * over_limit[above][[i, row]] + share * over_limit[below][[i, row]]
+        });
+        (Grid { shape: [grid.shape[0], ROWS], pitch: [grid.pitch[0], step] }, values)
     }
 }
 
@@ -139,14 +161,13 @@ impl Observer for FatigueObserver {
 
     fn after_pass(&self, report: &PassReport<'_>) -> Result<(Vec<FatigueRecord>, Vec<BodyField>)> {
         let (mut rows, mut fields) = (Vec::new(), Vec::new());
-        if !self.fatigue.wants(report.record.pass) {
+        if !self.below.fatigue.wants(report.record.pass) {
             return Ok((rows, fields));
         }
-        let grids = [report.pair.lower_grid(), report.pair.upper_grid()];
-        for (index, (body, grid)) in self.bodies.iter().zip(grids).enumerate() {
-            let Some(body) = body else { continue };
-            let found = self.of_body(index, body, grid, report)?;
-            let (row, of_body) = self.summarised(index, body, grid, &found, report);
+        let pair = report.pair;
+        let bodies = [(&pair.lower, pair.lower_grid()), (&pair.upper, pair.upper_grid())];
+        for (index, limited) in self.below.limited() {
+            let (row, of_body) = self.of_body((index, limited), bodies[index], report)?;
             rows.push(row);
             fields.extend(of_body);
         }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::units::{Metre, Pascal};
+use crate::units::{Joule, Metre, Pascal};
 use crate::with::Row;
 use asperity_base::choice::choice;
 use asperity_base::record::{Column, Record, columns};
@@ -43,14 +43,24 @@ columns! {
         pub depth: Metre,
         /// Cells from this place to the nearest free edge of the body; unknown without one.
         pub edge_cells: Option<usize>,
-        /// Largest half range of σxz.
-        pub shear_amplitude: Pascal,
-        /// Largest damage of a pass, which adds up to 1 at failure; 0 below the limit with an endurance limit.
+        /// Largest damage that this pass does, which adds up to 1 at failure; 0 below the limit with an endurance limit.
+        pub damage_of_pass: f64,
+        /// Largest damage after the pass and its extrapolation, less what has worn away or broken out.
         pub damage: f64,
+        /// Pass of the motion in which a point first fails if all go on like this one and nothing wears; unknown without damage.
+        pub life: Option<f64>,
         /// Largest wear of a pass below which a column pits.
         pub critical_wear: Metre,
         /// Share of the columns that pit unless they wear by more than a tenth of this.
         pub critical_share: f64,
+        /// Share of the columns that are among these and wear by less than they need; unknown without wear.
+        pub unsaved_share: Option<f64>,
+        /// Share of the columns that have broken out so far; unknown without `pit_depth`.
+        pub pitted_share: Option<f64>,
+        /// Life over that of the bodies without their roughness, by the risk of Ioannides and Harris; unknown without `risk`, and for flat bodies.
+        pub life_ratio: Option<f64>,
+        /// Plastic work below the surface of the body in the pass: f is that of shakedown, where it is 0; unknown for other than elasto-plastic bodies.
+        pub plastic_work: Option<Joule>,
         /// Distance between two positions whose stress is computed, over the width of the widest spot of contact.
         pub stride: f64,
     }

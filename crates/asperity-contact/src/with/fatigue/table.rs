@@ -56,6 +56,19 @@ pub struct FatigueLimits {
     /// Whether there is no damage below the limit.
     #[key(flag, default = false, example = "true")]
     pub endurance: bool,
+    /// Largest depth from which material breaks out where the damage reaches 1; 0 only tells it.
+    #[key(
+        quantity = Length,
+        range = FromZero,
+        default = 0.0,
+        written = "\"0 um\"",
+        example = "\"5 um\"",
+        exists = Exists::Any("a choice of the user: how deep a crack counts as a micropit")
+    )]
+    pub pit_depth: Metre,
+    /// Whether the life is compared to that of the bodies without their roughness.
+    #[key(flag, default = false, example = "true")]
+    pub risk: bool,
 }
 
 /// Ashby, Materials Selection in Mechanical Design: endurance limits of soft polymers to hardened steels, with a margin.

@@ -6,67 +6,118 @@ use crate::with::Surroundings;
 use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Scale, Series};
 use asperity_base::Choice;
 
-/// f over its limit, of both bodies.
-pub(super) const CURVES: &[Curve<FatigueRecord>] = &[Curve {
-    names: ["over_limit", "over_limit_bodies"],
-    title: "largest f over its limit",
-    caption: "Dang Van's f at the point that tires most. Below 1 nothing fails in the end.",
-    column: |_| "over_limit",
-    series: &[
-        Series {
-            name: "lower body",
-            has: |row| row.body == OnBody::Lower,
-            value: |row| Some(row.over_limit),
-            is_dashed: false,
-            is_beside: false,
-            over_pressure: OverPressure::Nothing,
-        },
-        Series {
-            name: "upper body",
-            has: |row| row.body == OnBody::Upper,
-            value: |row| Some(row.over_limit),
-            is_dashed: true,
-            is_beside: false,
-            over_pressure: OverPressure::Nothing,
-        },
-    ],
-}];
+/// f over its limit, and the damage so far, of both bodies.
+pub(super) const CURVES: &[Curve<FatigueRecord>] = &[
+    Curve {
+        names: ["over_limit", "over_limit_bodies"],
+        title: "largest f over its limit",
+        caption: "Dang Van's f at the point that tires most. Below 1 nothing fails in the end.",
+        column: |_| "over_limit",
+        series: &[
+            of_body("lower body", OnBody::Lower, |row| Some(row.over_limit)),
+            of_body("upper body", OnBody::Upper, |row| Some(row.over_limit)),
+        ],
+    },
+    Curve {
+        names: ["damage", "damage_bodies"],
+        title: "largest damage so far",
+        caption: "A point fails at 1. Wear and pits take damaged material away.",
+        column: |_| "damage",
+        series: &[
+            of_body("lower body", OnBody::Lower, |row| Some(row.damage)),
+            of_body("upper body", OnBody::Upper, |row| Some(row.damage)),
+        ],
+    },
+];
+
+const fn of_body(
+    name: &'static str,
+    body: OnBody,
+    value: fn(&FatigueRecord) -> Option<f64>,
+) -> Series<FatigueRecord> {
+    let (has, is_dashed): (fn(&FatigueRecord) -> bool, bool) = match body {
+        OnBody::Lower => (|row| row.body == OnBody::Lower, false),
+        OnBody::Upper => (|row| row.body == OnBody::Upper, true),
+    };
+    Series { name, has, value, is_dashed, is_beside: false, over_pressure: OverPressure::Nothing }
+}
 
 const F: &str = "The largest f over the depths, over its limit: where it is below 1, nothing fails in the end. The cross marks the largest.";
-const WEAR: &str = "A column pits unless it loses more than this in each pass.";
+const SECTION: &str = "f over its limit below the row of cells with the largest f, which the cross marks. z points into the body.";
+const DAMAGE: &str = "The largest damage over the depths after this pass. A point fails at 1.";
+const NEEDED: &str = "A column pits unless it loses more than this in each pass.";
+const LACKING: &str = "Where a column wears by less than it needs in order not to pit, and by how much. Where nothing is lacking, wear is faster than fatigue.";
 
-/// f and the wear that is faster, of both bodies.
+/// f, the damage, and the wear that is faster, of both bodies.
 pub(super) const MAPS: &[Map<FatigueRecord>] = &[
     over_limit("over_limit_lower", "Dang Van's f over its limit in the lower body"),
     over_limit("over_limit_upper", "Dang Van's f over its limit in the upper body"),
-    critical_wear("critical_wear_lower", "wear of a pass that saves the lower body"),
-    critical_wear("critical_wear_upper", "wear of a pass that saves the upper body"),
+    Map {
+        is_section: true,
+        mark: deepest,
+        ..map(
+            "over_limit_section_lower",
+            "f over its limit below the surface of the lower body",
+            SECTION,
+            "f/b",
+        )
+    },
+    Map {
+        is_section: true,
+        mark: deepest,
+        ..map(
+            "over_limit_section_upper",
+            "f over its limit below the surface of the upper body",
+            SECTION,
+            "f/b",
+        )
+    },
+    logarithmic("damage_lower", "largest damage so far in the lower body", DAMAGE, "damage", |_| "1"),
+    logarithmic("damage_upper", "largest damage so far in the upper body", DAMAGE, "damage", |_| "1"),
+    logarithmic("critical_wear_lower", "wear of a pass that saves the lower body", NEEDED, PASS, |_| "m"),
+    logarithmic("critical_wear_upper", "wear of a pass that saves the upper body", NEEDED, PASS, |_| "m"),
+    logarithmic("lacking_wear_lower", "wear of a pass that the lower body lacks", LACKING, PASS, |_| "m"),
+    logarithmic("lacking_wear_upper", "wear of a pass that the upper body lacks", LACKING, PASS, |_| "m"),
 ];
 
-const fn over_limit(field: &'static str, title: &'static str) -> Map<FatigueRecord> {
+const PASS: &str = "wear of a pass";
+
+const fn map(
+    field: &'static str,
+    title: &'static str,
+    caption: &'static str,
+    quantity: &'static str,
+) -> Map<FatigueRecord> {
     Map {
         field,
         title,
-        caption: F,
-        quantity: "f/b",
+        caption,
+        quantity,
         unit: |_| "1",
         scale: Scale::FromZeroOrLogarithmic,
-        mark: most,
+        is_section: false,
+        mark: |_, _| None,
         marked: "largest f",
     }
 }
 
-const fn critical_wear(field: &'static str, title: &'static str) -> Map<FatigueRecord> {
-    Map {
-        field,
-        title,
-        caption: WEAR,
-        quantity: "wear of a pass",
-        unit: |_| "m",
-        scale: Scale::Logarithmic(1e-4),
-        mark: |_, _| None,
-        marked: "",
-    }
+const fn over_limit(field: &'static str, title: &'static str) -> Map<FatigueRecord> {
+    Map { mark: most, ..map(field, title, F, "f/b") }
+}
+
+const fn logarithmic(
+    field: &'static str,
+    title: &'static str,
+    caption: &'static str,
+    quantity: &'static str,
+    unit: fn(&FatigueRecord) -> &'static str,
+) -> Map<FatigueRecord> {
+    Map { unit, scale: Scale::Logarithmic(1e-4), ..map(field, title, caption, quantity) }
+}
+
+/// The place of the largest f on a section of its body.
+fn deepest(row: &FatigueRecord, field: &str) -> Option<[f64; 2]> {
+    field.ends_with(row.body.word()).then_some([row.x, row.depth])
 }
 
 /// The place of the largest f, on the map of its body.
@@ -97,18 +148,22 @@ fn answer(row: &FatigueRecord) -> Answer {
     let body = row.body.word();
     let value = format_number(row.over_limit);
     let depth = format(row.depth, Dimension::Length);
-    let sentence = if row.over_limit < 1.0 && row.damage == 0.0 {
-        format!("In the {body} body the largest f/b is {value}, {depth} deep: no fatigue within the limit.")
-    } else if row.damage > 0.0 {
-        let wear = format(row.critical_wear, Dimension::Length);
-        let passes = format_number((1.0 / row.damage).max(1.0).round());
-        let within = if row.over_limit < 1.0 { ", within the limit" } else { "" };
-        format!(
-            "In the {body} body the largest f/b is {value}, {depth} deep{within}: it pits from pass {passes} on where wear is below {wear} a \
-             pass."
-        )
-    } else {
-        format!("In the {body} body the largest f/b is {value}, {depth} deep.")
+    let within = if row.over_limit < 1.0 && row.life.is_some() { ", within the limit" } else { "" };
+    let found = format!("In the {body} body the largest f/b is {value}, {depth} deep{within}");
+    let percent = |share: f64| format!("{} %", format_number((1000.0 * share).round() / 10.0));
+    let sentence = match (row.pitted_share.filter(|share| *share > 0.0), row.life, row.unsaved_share) {
+        (Some(pitted), _, _) => format!("{found}: {} of its surface has pitted.", percent(pitted)),
+        (None, Some(life), unsaved) => {
+            let wear = format(row.critical_wear, Dimension::Length);
+            let life = format_number(life.max(1.0).round());
+            let saved = match unsaved {
+                Some(0.0) => " Everywhere it wears faster.".to_owned(),
+                Some(share) => format!(" On {} of the surface it is.", percent(share)),
+                None => String::new(),
+            };
+            format!("{found}: it pits from pass {life} on where wear is below {wear} a pass.{saved}")
+        }
+        (None, None, _) => format!("{found}: no fatigue within the limit."),
     };
     Answer {
         name: format!("f/b of the {body} body").into(),
@@ -124,19 +179,37 @@ pub(super) fn numbers(row: &FatigueRecord) -> Vec<Line> {
     let body = row.body.word();
     let length = |value| format(value, Dimension::Length);
     let place = format!("{} deep at x = {}, y = {}", length(row.depth), length(row.x), length(row.y));
-    vec![
+    let percent = |share: f64| format!("{} %", format_number((1000.0 * share).round() / 10.0));
+    let mut lines = vec![
         Line::new(format!("f/b of the {body} body"), format!("{}, {place}", format_number(row.over_limit))),
-        Line::new(format!("damage of a pass, {body}"), format_number(row.damage)),
+        Line::new(
+            format!("damage, {body}"),
+            format!(
+                "{} so far, {} of this pass",
+                format_number(row.damage),
+                format_number(row.damage_of_pass)
+            ),
+        ),
         Line::new(
             format!("wear that saves it, {body}"),
             format!(
-                "{} a pass; {} % of the area needs a tenth of it or more",
+                "{} a pass; {} of the area needs a tenth of it or more{}",
                 length(row.critical_wear),
-                format_number((1000.0 * row.critical_share).round() / 10.0)
+                percent(row.critical_share),
+                row.unsaved_share
+                    .map_or(String::new(), |share| format!(", {} has less than it needs", percent(share)))
             ),
         ),
-        Line::detail(format!("amplitude of σxz, {body}"), format(row.shear_amplitude, Dimension::Pressure)),
-    ]
+    ];
+    lines.extend(
+        row.pitted_share
+            .map(|share| Line::new(format!("pits, {body}"), format!("{} of the area", percent(share)))),
+    );
+    lines
+        .extend(row.life_ratio.map(|ratio| {
+            Line::new(format!("life over that of smooth bodies, {body}"), format_number(ratio))
+        }));
+    lines
 }
 
 /// Width of a free edge in cells.
@@ -147,6 +220,9 @@ const FEW_CYCLES: f64 = 2.0;
 const APART: f64 = 2.5;
 /// Distance between two positions over the width of a spot that needs no warning.
 const STRIDE: f64 = 0.25;
+
+/// Plastic work of the last pass, over the largest of a pass, that bodies which have shaken down may have left.
+const STILL: f64 = 1e-3;
 
 /// Returns reasons in the rows not to trust them.
 pub(super) fn doubts(fatigue: &Fatigue, rows: &[FatigueRecord], surroundings: &Surroundings) -> Vec<String> {
@@ -180,6 +256,23 @@ pub(super) fn doubts(fatigue: &Fatigue, rows: &[FatigueRecord], surroundings: &S
             "each depth is more than {} times the one above it, and the largest f may lie between two: give a smaller `to` or more `layers`",
             format_number(apart)
         ));
+    }
+    let last = rows.last().map(|row| row.pass);
+    let work = most(|row| row.plastic_work.unwrap_or(0.0));
+    let yields = |row: &FatigueRecord| row.plastic_work.is_some_and(|left| left > STILL * work);
+    if rows.iter().any(|row| Some(row.pass) == last && yields(row)) {
+        doubts.push(
+            "the bodies still yield in the last pass: f is that of shakedown, with the residual stress as it is; compute more passes"
+                .to_owned(),
+        );
+    }
+    let limits = surroundings.bodies.iter().filter_map(|body| body.properties.fatigue.as_ref());
+    if limits.clone().any(|limits| limits.risk) && !rows.iter().any(|row| row.life_ratio.is_some()) {
+        doubts.push(
+            "`risk` compares lives with those of the bodies without roughness under the same load, but these are flat, nothing is at risk, or \
+             an approach is prescribed: it needs curved bodies under a load"
+                .to_owned(),
+        );
     }
     if rows.is_empty() {
         doubts.push("no pass that was computed is among those whose fatigue is asked for".to_owned());

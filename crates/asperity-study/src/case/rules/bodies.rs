@@ -1,6 +1,6 @@
 //! Rules of one body, and of two.
 
-use super::super::Case;
+use super::super::{Body, Case};
 use super::Rule;
 use super::examples::{FLOWS, MOVES, VOLUME};
 
@@ -18,19 +18,22 @@ pub(super) const RULES: &[Rule] = &[
         },
     },
     Rule {
-        this: "[fatigue]",
+        this: "`pit_depth`",
         with: "[plasticity]",
-        message: "fatigue does not know the residual stress of elasto-plastic bodies",
-        hint: "leave [plasticity] out, or use a `hardness`",
-        at: "fatigue",
+        message: "pits are not broken out of elasto-plastic bodies",
+        hint: "leave 'pit_depth' out: `fatigue.csv` tells the damage",
+        at: "lower.fatigue.pit_depth",
         example: &[
-            r#"lower.fatigue = { torsion = "350 MPa", tension = "600 MPa" }"#,
+            r#"lower.fatigue = { torsion = "350 MPa", tension = "600 MPa", pit_depth = "2 um" }"#,
             FLOWS,
             VOLUME,
             MOVES,
             r#"fatigue = { to = "8 um" }"#,
         ],
-        broken: |tables| tables.at("plasticity").and(tables.at("fatigue")),
+        broken: |tables| {
+            let pits = |body: &Body| body.properties.fatigue.is_some_and(|limits| limits.pit_depth > 0.0);
+            tables.at("plasticity").and(tables.of_body("fatigue.pit_depth", pits))
+        },
     },
     Rule {
         this: "`young = inf`",

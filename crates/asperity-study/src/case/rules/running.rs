@@ -32,12 +32,12 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "[acceleration]",
-        with: "bodies without wear and film",
-        message: "[acceleration] needs a body with wear or a film",
+        with: "bodies that passes do not change",
+        message: "[acceleration] needs a body that passes change",
         hint: "give a body `[lower.wear]` or `[lower.film]`, or leave [acceleration] out",
         at: "acceleration",
         example: &[MOVES, JUMPS],
-        broken: |tables| tables.at("acceleration").filter(|_| !tables.case.runs_in()),
+        broken: |tables| tables.at("acceleration").filter(|_| !tables.case.is_changed_by_passes()),
     },
     Rule {
         this: "`max_jump` above 1",

@@ -1,0 +1,89 @@
+//! The bodies of a motion below their surfaces.
+
+use super::{AtDepth, Basquin, DangVan, Fatigue, StressHistory};
+use crate::error::Result;
+use crate::motion::{Contact, Motion, Pair};
+use crate::operator::Boundary;
+use crate::units::Metre;
+use crate::with::Given;
+
+/// Where fatigue is looked at, and the bodies that have limits.
+#[derive(Debug)]
+pub(super) struct Below {
+    pub(super) fatigue: Fatigue,
+    pub(super) boundary: Boundary,
+    /// The depths, ascending.
+    pub(super) depths: Vec<Metre>,
+    /// The bodies that have limits, lower one first.
+    bodies: [Option<Limited>; 2],
+}
+
+/// A body with its limits.
+#[derive(Debug)]
+pub(super) struct Limited {
+    poisson: f64,
+    pub(super) criterion: DangVan,
+    pub(super) damage: Basquin,
+    /// Number of depths to which material breaks out.
+    pub(super) pitting: usize,
+    /// Whether the risk is computed.
+    pub(super) risk: bool,
+    /// Whether there is no damage below the limit.
+    pub(super) endurance: bool,
+}
+
+impl Below {
+    /// Reads the limits of the bodies.
+    ///
+    /// # Errors
+    /// The reason why they are not accepted.
+    pub(super) fn new(fatigue: &Fatigue, given: &Given<'_>) -> Result<Self> {
+        let depths = fatigue.depths(given.pair.pitch());
+        let limited = |index: usize| {
+            let body = &given.surroundings.bodies[index];
+            let Some(limits) = body.properties.fatigue.as_ref() else { return Ok(None) };
+            Ok(Some(Limited {
+                poisson: body.material.poisson,
+                criterion: limits.criterion()?,
+                damage: limits.damage()?,
+                pitting: depths.iter().take_while(|depth| **depth <= limits.pit_depth).count(),
+                risk: limits.risk,
+                endurance: limits.endurance,
+            }))
+        };
+        let bodies = [limited(0)?, limited(1)?];
+        Ok(Self { fatigue: fatigue.clone(), boundary: given.surroundings.boundary, bodies, depths })
+    }
+
+    /// The bodies with limits, each with its index.
+    pub(super) fn limited(&self) -> impl Iterator<Item = (usize, &Limited)> {
+        self.bodies.iter().enumerate().filter_map(|(index, body)| Some((index, body.as_ref()?)))
+    }
+
+    /// Computes what a body of a pair has seen in the contacts of a pass.
+    ///
+    /// # Errors
+    /// [`Error::Interrupted`](crate::Error::Interrupted).
+    pub(super) fn seen(
+        &self,
+        (index, body): (usize, &Limited),
+        pair: &Pair,
+        (contacts, motion): (&[Contact], &Motion),
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Vec<AtDepth>> {
+        let grid = [pair.lower_grid(), pair.upper_grid()][index];
+        let sign = if index == 0 { 1.0 } else { -1.0 };
+        let contacts: Vec<&Contact> = contacts.iter().step_by(self.fatigue.every).collect();
+        let tractions = |position: usize| {
+            let contact = contacts[position];
+            let pressure = contact.pressure_field(pair.lower.width());
+            let placement = pair.placements(&contact.position)[index];
+            let sliding = motion.sliding(contact.position.stroke);
+            let shear = sliding.map(|sliding| placement.onto(&pressure.mapv(|p| sign * sliding.shear(p)[0])));
+            (placement.onto(&pressure), shear)
+        };
+        StressHistory::new(grid, self.boundary, body.poisson, contacts.len(), tractions)
+            .until(stop)
+            .dang_van(&body.criterion, &self.depths)
+    }
+}
