@@ -1,4 +1,4 @@
-//! What the passes of a motion do to the material below the surfaces.
+//! The damage that the passes of a motion leave in the material below the surfaces.
 
 use ndarray::Axis;
 
