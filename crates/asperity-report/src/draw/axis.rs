@@ -62,6 +62,16 @@ impl Unit {
         }
     }
 
+    /// The unit of a field, SI.
+    pub fn of_field(unit: &'static str) -> Self {
+        match unit {
+            "" | "1" => Self::Number,
+            "m" => Self::Length,
+            "Pa" => Self::Pressure,
+            _ => Self::Of(unit),
+        }
+    }
+
     /// The multiples, ascending, and the smallest number that is well shown in one.
     fn multiples(self) -> (&'static [(f64, &'static str)], f64) {
         match self {

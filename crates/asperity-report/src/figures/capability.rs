@@ -48,7 +48,7 @@ fn maps<C: Capability>(fields: &Fields, rows: &[C::Row], of: &str, sheet: &mut S
         if stored.field.iter().all(|value| *value == 0.0) {
             continue;
         }
-        let quantity = Quantity::new(map.quantity, Unit::Of((map.unit)(row)));
+        let quantity = Quantity::new(map.quantity, Unit::of_field((map.unit)(row)));
         let place = rows.iter().find_map(|row| (map.mark)(row, map.field));
         sheet.add(map.field, map.title, of, || {
             Ok(field_map(map, &stored.field, &stored.grid, quantity, place))

@@ -80,7 +80,7 @@ fn planes<C: Capability>(fields: &Fields, rows: &[C::Row]) -> Vec<Plane> {
             x: 0.0,
             down: map.is_section,
             quantity: map.quantity,
-            unit: Unit::Of((map.unit)(row)),
+            unit: Unit::of_field((map.unit)(row)),
             shades: if scale.is_some() { Shades::Logarithmic } else { Shades::FromZero },
             spans: Vec::new(),
             mark: rows.iter().find_map(|row| (map.mark)(row, map.field)).map(|place| (place, map.marked)),

@@ -52,32 +52,14 @@ const LACKING: &str = "Where a column wears by less than it needs in order not t
 pub(super) const MAPS: &[Map<FatigueRecord>] = &[
     over_limit("over_limit_lower", "Dang Van's f over its limit in the lower body"),
     over_limit("over_limit_upper", "Dang Van's f over its limit in the upper body"),
-    Map {
-        is_section: true,
-        mark: deepest,
-        ..map(
-            "over_limit_section_lower",
-            "f over its limit below the surface of the lower body",
-            SECTION,
-            "f/b",
-        )
-    },
-    Map {
-        is_section: true,
-        mark: deepest,
-        ..map(
-            "over_limit_section_upper",
-            "f over its limit below the surface of the upper body",
-            SECTION,
-            "f/b",
-        )
-    },
     logarithmic("damage_lower", "largest damage so far in the lower body", DAMAGE, "damage", |_| "1"),
     logarithmic("damage_upper", "largest damage so far in the upper body", DAMAGE, "damage", |_| "1"),
     logarithmic("critical_wear_lower", "wear of a pass that saves the lower body", NEEDED, PASS, |_| "m"),
     logarithmic("critical_wear_upper", "wear of a pass that saves the upper body", NEEDED, PASS, |_| "m"),
     logarithmic("lacking_wear_lower", "wear of a pass that the lower body lacks", LACKING, PASS, |_| "m"),
     logarithmic("lacking_wear_upper", "wear of a pass that the upper body lacks", LACKING, PASS, |_| "m"),
+    section("over_limit_section_lower", "section through the largest f of the lower body"),
+    section("over_limit_section_upper", "section through the largest f of the upper body"),
 ];
 
 const PASS: &str = "wear of a pass";
@@ -103,6 +85,10 @@ const fn map(
 
 const fn over_limit(field: &'static str, title: &'static str) -> Map<FatigueRecord> {
     Map { mark: most, ..map(field, title, F, "f/b") }
+}
+
+const fn section(field: &'static str, title: &'static str) -> Map<FatigueRecord> {
+    Map { is_section: true, mark: deepest, ..map(field, title, SECTION, "f/b") }
 }
 
 const fn logarithmic(
