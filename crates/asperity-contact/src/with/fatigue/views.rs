@@ -252,8 +252,17 @@ pub(super) fn doubts(fatigue: &Fatigue, rows: &[FatigueRecord], surroundings: &S
                 .to_owned(),
         );
     }
-    let limits = surroundings.bodies.iter().filter_map(|body| body.properties.fatigue.as_ref());
-    if limits.clone().any(|limits| limits.risk) && !rows.iter().any(|row| row.life_ratio.is_some()) {
+    let limits = surroundings.bodies.iter().zip([OnBody::Lower, OnBody::Upper]);
+    let limits = limits.filter_map(|(body, name)| Some((name, body.properties.fatigue.as_ref()?)));
+    for (name, _) in limits.clone().filter(|(_, limits)| limits.pit_depth > 0.0) {
+        if rows.iter().any(|row| row.body == name && row.pitted_share.is_none()) {
+            doubts.push(format!(
+                "nothing breaks out of the {} body: its pits are less deep than the first depth, half a cell; take deeper ones or smaller cells",
+                name.word()
+            ));
+        }
+    }
+    if limits.clone().any(|(_, limits)| limits.risk) && !rows.iter().any(|row| row.life_ratio.is_some()) {
         doubts.push(
             "`risk` compares lives with those of the bodies without roughness under the same load, but these are flat, nothing is at risk, or \
              an approach is prescribed: it needs curved bodies under a load"
