@@ -515,7 +515,7 @@ def _solved(pair: tuple[Body, Body], keywords: Any, options: Mapping[str, Any]) 
             found["case"],
             {body: PlasticState(**volume) for body, volume in found.get("plastic_state", {}).items()},
             found["closed_form"],
-            found["adhesion"],
+            found["interface"].get("adhesion"),
         )
     out, warner = path("out", options["out"]), Warner()
     with Teller(options["progress"]) as tell:

@@ -22,7 +22,7 @@ class Solved(Comparable):
 
     @property
     def touching(self) -> NDArray[np.bool_]:
-        """Whether each cell is in contact. With adhesion a cell in contact may be under tension."""
+        """Whether each cell is in contact. If the bodies attract each other, such a cell may be under tension."""
         raise NotImplementedError
 
     @property

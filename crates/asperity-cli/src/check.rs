@@ -10,7 +10,6 @@ use asperity::study::{
     Bodies, Case, Demand, Estimate, MountedSurface, Plan, SurfaceInput, bodies, estimate, json_schema,
 };
 use asperity::units::{self, Dimension, bytes};
-use asperity::with::adhesion::{AdhesionRange, Attraction};
 use asperity::with::{BodyLaw, Capability, Listed};
 use asperity::{each_capability, each_law};
 
@@ -60,7 +59,7 @@ fn text(
         _ => None,
     };
     let theory = estimate.closed_form.as_ref().map(|form| ("theory", closed_form::expected(form)));
-    let adhesion = case.adhesion.map(|spec| ("adhesion", adhesion(&spec, estimate)));
+    let interface = case.interface.describe(&estimate.interface);
     let stress = estimate.subsurface.as_ref().map(|plan| ("stress", stress(case, plan)));
     let device = device.as_ref().map(|card| ("device", on_device(card)));
     let mut asked = Vec::new();
@@ -68,7 +67,7 @@ fn text(
     each_capability!(C => asked.extend(C::of(&case.with).map(|asked| (C::VERB, asked.describe(&surroundings)))));
     let mut page = format!("{}\n\n", case.title);
     let laws = laws(case, demand);
-    let besides = theory.into_iter().chain(friction).chain(history).chain(adhesion);
+    let besides = theory.into_iter().chain(friction).chain(history).chain(interface);
     for (name, value) in rows.into_iter().chain(device).chain(besides).chain(laws).chain(stress).chain(asked)
     {
         let _ = writeln!(page, "{name:<8} {value}");
@@ -157,32 +156,6 @@ fn pair(case: &Case, estimate: &Estimate) -> String {
         most => format!("{} … {}", pressure(estimate.hardness), pressure(most)),
     };
     format!("{modulus}, pressure up to {up_to}; {who} plastically")
-}
-
-fn adhesion(spec: &Attraction, estimate: &Estimate) -> String {
-    let work = units::format(spec.work, Dimension::SurfaceEnergy);
-    let mut text = format!("work {work}, {}", spec.potential.word());
-    let Some(numbers) = &estimate.adhesion else { return text };
-    let length = |value| units::format(value, Dimension::Length);
-    let of_the_grid = if spec.range == AdhesionRange::Grid { " from the grid" } else { "" };
-    let _ = write!(
-        text,
-        ", range {}{of_the_grid}, tension up to {}; process zone {}, {:.2} cells",
-        length(numbers.range),
-        units::format(numbers.max_tension, Dimension::Pressure),
-        length(numbers.process_zone),
-        numbers.process_zone_cells
-    );
-    if let Some(tabor) = numbers.tabor {
-        let _ = write!(text, "; Tabor's parameter {}", units::format_number(tabor));
-    }
-    if let Some(parameter) = numbers.pastewka_robbins {
-        let _ = write!(text, "; Pastewka and Robbins {} (sticky below 1)", units::format_number(parameter));
-    }
-    if let Some(energy) = numbers.full_contact_energy {
-        let _ = write!(text, "; full contact stores {} of the work", units::format_number(energy));
-    }
-    text
 }
 
 fn contact(case: &Case, estimate: &Estimate) -> String {

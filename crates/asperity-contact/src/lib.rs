@@ -26,7 +26,7 @@
 //! | two topographies and materials | [`motion::Pair`] | the argument of [`motion::press`], [`motion::load_in_stages`], [`motion::roll`], [`motion::SlidingContact`] and [`motion::Simulation`] |
 //! | a grid and compliances | [`operator::Operators`] | an [`operator::Operator`]: pressure in, displacement out |
 //! | an operator and a gap | [`solver::solve_normal`], [`solver::Params`] | [`solver::Solution`] with its [`solver::Stats`] |
-//! | an attraction between the surfaces | [`adhesion::Adhesion`], [`motion::Pair::with_adhesion`], [`solver::solve_adhesive`] | the contact that the bodies reach on their way |
+//! | an attraction between the surfaces | [`adhesion::Adhesion`], [`motion::Pair::with_interface`], [`solver::solve_adhesive`] | the contact that the bodies reach on their way |
 //! | cells in contact and their heat sources | [`temperature::FlashTemperature`], [`temperature::SteadyTemperature`] | their temperature and the heat partition |
 //! | cells in contact and conductivities | [`conductance::solve`] | [`conductance::Conductance`]: thermal or electrical |
 //! | the deformed gap of a contact | [`flow::solve()`] | its permeability, leakage and critical constriction |
@@ -82,7 +82,6 @@
 mod math;
 pub mod stress;
 pub mod material;
-pub mod adhesion;
 pub mod reference;
 pub mod kernel;
 pub mod operator;
@@ -97,6 +96,7 @@ pub mod verification;
 
 pub use asperity_base::{choice, error, grid, ndarray, ranks, units};
 pub use asperity_surface as surface;
+pub use solver::adhesion;
 pub use with::{conductance, fatigue, film, flow, wear};
 
 pub use choice::Choice;

@@ -32,7 +32,7 @@ pub fn press_slab(
     control: Control,
     params: &Params,
 ) -> Result<SlabContact> {
-    pair.check_no_adhesion()?;
+    pair.interface().check_combined()?;
     pair.check_line(&slab.whole_grid(), boundary)?;
     let position = pair.at_rest();
     let (gap, bounds) = (pair.initial_gap(&position), pair.bounds(&position, None));

@@ -25,7 +25,7 @@ use asperity_contact::motion::Pair;
 use asperity_contact::operator::{Boundary, Edge};
 use asperity_contact::solver::{Device, Method};
 use asperity_contact::with::{BodyLaw, Capability, Listed};
-use asperity_contact::{each_capability, each_law};
+use asperity_contact::{each_capability, each_interface, each_law};
 use asperity_study::SurfaceInput;
 use asperity_study::case::Case;
 use asperity_study::io::fields::FieldFile;
@@ -212,6 +212,7 @@ fn check(case: &Case) -> Result<()> {
     ];
     let tables = tables.map(|(table, given)| (table.to_owned(), given));
     let mut asked = Vec::new();
+    each_interface!(I => asked.push((I::NAME.to_owned(), I::of(&case.interface).is_some())));
     each_capability!(C => asked.push((C::NAME.to_owned(), C::of(&case.with).is_some())));
     match tables.into_iter().chain(asked).chain(of_bodies).find(|(_, given)| *given) {
         None => Ok(()),

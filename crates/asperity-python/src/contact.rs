@@ -87,7 +87,7 @@ pub(crate) fn rest<'py>(
         increments,
         updates,
         fields,
-        adhesion,
+        interface,
         closed_form,
         plastic_result,
         found,
@@ -107,7 +107,7 @@ pub(crate) fn rest<'py>(
     contact.set_item("updates", record(py, &updates)?)?;
     contact.set_item("found", record(py, &found)?)?;
     contact.set_item("closed_form", record(py, &closed_form)?)?;
-    contact.set_item("adhesion", record(py, &adhesion)?)?;
+    contact.set_item("interface", record(py, &interface)?)?;
     contact.set_item("warnings", warnings)?;
     contact.set_item("pitch", fields.grid.pitch)?;
     contact.set_item("approach", fields.approach)?;

@@ -8,13 +8,11 @@ use super::summary::{CONVERGED, RunningIn};
 use asperity_base::units::Dimension;
 use asperity_contact::each_capability;
 use asperity_contact::motion::{
-    AdhesionPassRecord, AdhesionRecord, Column, CreepRecord, DragRecord, ENDINGS, FrettingRecord, HeatRecord,
-    IncrementRecord, PassDragRecord, PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord,
-    Presence, ResidualRecord, RunningRecord, ShearRecord, StaticRecord, SteadyRecord, StepRecord,
-    SweepRecord, UpdateRecord,
+    Column, CreepRecord, DragRecord, ENDINGS, FrettingRecord, HeatRecord, IncrementRecord, PassDragRecord,
+    PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Presence, ResidualRecord, RunningRecord,
+    ShearRecord, StaticRecord, SteadyRecord, StepRecord, SweepRecord, UpdateRecord,
 };
-use asperity_contact::with::adhesion::AdhesionSummary;
-use asperity_contact::with::{Capability, Row as _};
+use asperity_contact::with::{Capability, InterfaceNumbers, Row as _};
 
 /// Returns the records of the results by name, each with its columns.
 ///
@@ -26,9 +24,6 @@ pub fn records() -> &'static [(&'static str, &'static [Column])] {
             ("StaticRecord", StaticRecord::OWN_COLUMNS),
             ("Converged", &[CONVERGED]),
             ("ShearRecord", ShearRecord::OWN_COLUMNS),
-            ("AdhesionRecord", AdhesionRecord::OWN_COLUMNS),
-            ("AdhesionPassRecord", AdhesionPassRecord::OWN_COLUMNS),
-            ("AdhesionSummary", AdhesionSummary::OWN_COLUMNS),
             ("PlasticRecord", PlasticRecord::OWN_COLUMNS),
             ("ResidualRecord", ResidualRecord::OWN_COLUMNS),
             ("ClosedFormRecord", ClosedFormRecord::OWN_COLUMNS),
@@ -50,6 +45,7 @@ pub fn records() -> &'static [(&'static str, &'static [Column])] {
             ("RunningIn", RunningIn::OWN_COLUMNS),
             ("Table", &OF_A_STUDY),
         ];
+        records.extend(InterfaceNumbers::GROUPS);
         each_capability!(C => records.extend_from_slice(<C as Capability>::Row::GROUPS));
         records
     });
@@ -172,6 +168,8 @@ mod tests {
     use serde::Serialize;
     use serde::de::DeserializeOwned;
     use serde_json::{Map, Value, json};
+
+    use asperity_contact::with::adhesion::AdhesionSummary;
 
     use super::*;
     use crate::tables::Row;

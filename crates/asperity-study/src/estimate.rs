@@ -4,7 +4,7 @@ mod contact;
 mod demand;
 mod plausible;
 
-pub(super) use contact::{CELLS_ACROSS, attraction_cut_off};
+pub(super) use contact::{CELLS_ACROSS, are_curved};
 pub use contact::{cut_off, spot, too_few_cells};
 pub use demand::{Demand, demand, memory_on_device};
 
@@ -24,7 +24,7 @@ use asperity_contact::motion::{
 };
 use asperity_contact::reference::HertzSphere;
 use asperity_contact::solver::{Control, Coupling, Creep, Friction, Rolling, Tangential};
-use asperity_contact::with::adhesion::AdhesionSummary;
+use asperity_contact::with::InterfaceNumbers;
 use asperity_surface::{Form, Level};
 
 /// Largest rms slope of the gap for a half-space theory: up to here tan and sin of a slope agree within about 5 %.
@@ -63,8 +63,8 @@ pub struct Estimate {
     pub plastic_limit: Newton,
     /// Rms slope of the initial gap, for independent surfaces.
     pub gap_slope: f64,
-    /// Adhesion of the bodies in numbers; `None` without adhesion.
-    pub adhesion: Option<AdhesionSummary>,
+    /// The interface of the bodies in numbers.
+    pub interface: InterfaceNumbers,
     /// Closed form of the contact, if both bodies are smooth forms and stay elastic; `None` for others.
     pub closed_form: Option<ClosedForm>,
     /// Requested output of the stress under the surface.
@@ -143,9 +143,9 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         mean_facing_area: overlaps.iter().sum::<usize>() as f64 / overlaps.len() as f64 * column,
         plastic_limit,
         gap_slope: slopes.iter().filter(|slope| slope.is_finite()).fold(0.0, |all: f64, s| all.hypot(*s)),
-        adhesion: None,
+        interface: InterfaceNumbers::default(),
         closed_form: ClosedForm::of(case, lower_grid.extent(), control)
-            .filter(|_| case.adhesion.is_none() && !case.relaxes())
+            .filter(|_| case.interface.is_empty() && !case.relaxes())
             .filter(|form| form.max_pressure.is_none_or(|pressure| pressure <= hardness)),
         subsurface: Plan::new(case, [&lower_grid, &upper_grid], &positions)?,
         viscoelastic: viscoelastic::estimate(
@@ -158,20 +158,16 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     };
     estimate.warnings = warnings(case, bodies, &estimate);
     estimate.warnings.extend(estimate.viscoelastic.iter().flat_map(|bodies| bodies.warnings.clone()));
-    if let Some(table) = case.adhesion {
-        let adhesion = table.on(&lower_grid, estimate.modulus)?;
+    if case.interface.is_empty() {
+        contacts(case, bodies, &positions, &mut estimate);
+    } else {
+        // Hertz' contact says little about bodies that are no hard walls to each other.
         let heights = [&bodies.lower, &bodies.upper].map(|body| body.topography.heights());
         let largest = positions.iter().max_by_key(|position| position.columns).expect("a position");
-        let gap = initial_gap(heights, largest);
-        let (pitch, boundary) = (lower_grid.pitch, case.contact.boundary);
-        let numbers = AdhesionSummary::new(&adhesion, &gap, pitch, boundary, estimate.modulus);
-        let pitch = pitch[0].max(pitch[1]);
-        estimate.warnings.extend(numbers.warnings(&adhesion, estimate.modulus, pitch));
-        estimate.adhesion = Some(numbers);
-    }
-    // Hertz' contact says little about bodies that attract each other.
-    if case.adhesion.is_none() {
-        contacts(case, bodies, &positions, &mut estimate);
+        let (gap, boundary) = (initial_gap(heights, largest), case.contact.boundary);
+        let (numbers, doubts) = case.interface.numbers(&lower_grid, &gap, boundary, estimate.modulus)?;
+        estimate.warnings.extend(doubts);
+        estimate.interface = numbers;
     }
     let yields = rolls_plastically(case, bodies, &estimate);
     estimate.predicted.extend(yields);

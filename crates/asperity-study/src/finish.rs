@@ -14,8 +14,7 @@ use asperity_base::error::Result;
 use asperity_base::units::Metre;
 use asperity_contact::motion::{Pair, PlasticRecord, UpdateRecord};
 use asperity_contact::solver::{Control, Params};
-use asperity_contact::with::Observations;
-use asperity_contact::with::adhesion::AdhesionSummary;
+use asperity_contact::with::{InterfaceNumbers, Observations};
 
 /// Results of a run for its summary.
 pub struct Computed {
@@ -25,8 +24,8 @@ pub struct Computed {
     pub(super) sliding: Option<UpdateRecord>,
     /// The plastic flow of a motion of elasto-plastic bodies.
     pub(super) plasticity: Option<PlasticRecord>,
-    /// Adhesion of the bodies in numbers.
-    pub(super) adhesion: Option<AdhesionSummary>,
+    /// The interface of the bodies in numbers.
+    pub(super) interface: InterfaceNumbers,
     /// The closed form of the contact of smooth forms.
     pub(super) closed_form: Option<ClosedFormRecord>,
     /// The rows of the capabilities.
@@ -46,7 +45,7 @@ impl Computed {
             subsurface: Vec::new(),
             sliding: None,
             plasticity: None,
-            adhesion: None,
+            interface: InterfaceNumbers::default(),
             closed_form: None,
             found: Observations::default(),
         }
@@ -59,7 +58,7 @@ pub fn conclude(
     writer: &Writer,
     resolved: Value,
     began: Instant,
-    Computed { outcome, subsurface, sliding, plasticity, adhesion, closed_form, found }: Computed,
+    Computed { outcome, subsurface, sliding, plasticity, interface, closed_form, found }: Computed,
     mut warnings: Vec<String>,
 ) -> Result<Summary> {
     outcome.check()?;
@@ -75,7 +74,7 @@ pub fn conclude(
         running_in,
         sliding,
         plasticity,
-        adhesion,
+        interface,
         closed_form,
         version: env!("CARGO_PKG_VERSION").to_owned(),
         case: resolved,
@@ -100,7 +99,7 @@ pub fn closed_form(case: &Case, extent: [Metre; 2], outcome: &Outcome) -> Option
         Outcome::Sweep(points) => points.last().filter(|point| point.plastic_area == 0.0).map(Into::into),
         Outcome::Passes(_) => None,
     }?;
-    let is_plain = case.sliding.is_none() && !case.relaxes() && case.adhesion.is_none() && !case.runs_in();
+    let is_plain = case.sliding.is_none() && !case.relaxes() && case.interface.is_empty() && !case.runs_in();
     let form = ClosedForm::of(case, extent, Control::Load(computed.load)).filter(|_| is_plain)?;
     Some(form.beside(computed))
 }
@@ -111,8 +110,8 @@ pub(super) fn pair(case: &Case, bodies: Bodies) -> Result<Pair> {
     let materials = [&case.lower.material, &case.upper.material];
     let pair = Pair::new(lower.topography, upper.topography, materials)?
         .with_hardness([lower.hardness, upper.hardness])?;
-    let attraction = case.adhesion.map(|table| table.on(&pair.lower_grid(), pair.modulus())).transpose()?;
-    viscoelastic::relax(case, pair.with_adhesion(attraction), &master_curves)
+    let interface = case.interface.between(&pair.lower_grid(), pair.modulus())?;
+    viscoelastic::relax(case, pair.with_interface(interface), &master_curves)
 }
 
 /// Returns the solver parameters of `case`.

@@ -22,7 +22,7 @@ use asperity_base::error::{Error, Result};
 use asperity_contact::motion::{
     Body, Motion, Output, Pair, PassRecord, PlasticRecord, Simulation, SolvedPass, Watch,
 };
-use asperity_contact::with::adhesion::{self, AdhesionSummary};
+use asperity_contact::with::{self, InterfaceNumbers};
 use asperity_surface::{NEVER, Stop};
 
 /// A running motion. [`Passes::solve`] and [`Passes::finish`] alternate until no pass is left, and [`Passes::end`] writes
@@ -39,7 +39,7 @@ pub struct Passes {
     observers: Observers,
     limits: Limits,
     resolved: Value,
-    adhesion: Option<AdhesionSummary>,
+    interface: InterfaceNumbers,
     warnings: Vec<String>,
     began: Instant,
 }
@@ -94,7 +94,7 @@ impl Passes {
         let observers =
             Observers::new(case, simulation.pair(), simulation.positions(), (Some(&writer), done))?;
         let limits = Limits::new(case, simulation.pair(), &estimate, (Some(&writer), done))?;
-        let Estimate { adhesion, warnings, .. } = estimate;
+        let Estimate { interface, warnings, .. } = estimate;
         let represented = passes.iter().map(PassRecord::represents).sum();
         let simulation = match passes.len() {
             0 => {
@@ -134,7 +134,7 @@ impl Passes {
             observers,
             limits,
             resolved,
-            adhesion,
+            interface,
             warnings,
             began,
         })
@@ -192,7 +192,7 @@ impl Passes {
         let passes = self.done()?;
         self.warnings.extend(self.limits.all());
         self.warnings.extend(review::motion(&self.case, shapes, &passes));
-        self.warnings.extend(adhesion::depends_on_history(&passes));
+        self.warnings.extend(with::doubts_after_passes(&passes));
         let left = self.simulation.plastic_volumes();
         let plasticity = (!left.is_empty()).then(|| -> Result<PlasticRecord> {
             let steps = self.writer.results().steps()?;
@@ -204,7 +204,7 @@ impl Passes {
         let (found, _) = self.observers.finish()?;
         self.warnings.extend(observe::doubts(&self.case, &found, &[]));
         let outcome = Computed {
-            adhesion: self.adhesion,
+            interface: self.interface,
             found: observe::summary(&found),
             outcome: Outcome::Passes(passes),
             subsurface,

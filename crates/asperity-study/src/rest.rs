@@ -24,10 +24,9 @@ use asperity_contact::motion::{
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Equilibrium, Friction, Params, Rolling, Solution};
-use asperity_contact::with::adhesion::{self, AdhesionSummary};
 use asperity_contact::with::plasticity::PlasticRegion;
 use asperity_contact::with::views::Kept;
-use asperity_contact::with::{self, Observations};
+use asperity_contact::with::{self, InterfaceNumbers, Observations};
 
 /// Result of a static contact.
 #[derive(Debug, Clone)]
@@ -41,8 +40,8 @@ pub struct StaticResult {
     pub updates: Vec<UpdateRecord>,
     /// The fields of the contact; for a sweep, at its last point.
     pub fields: RestFields,
-    /// Adhesion of the bodies in numbers; `None` without adhesion.
-    pub adhesion: Option<AdhesionSummary>,
+    /// The interface of the bodies in numbers.
+    pub interface: InterfaceNumbers,
     /// The closed form of the contact, if both bodies are smooth forms; `None` for others.
     pub closed_form: Option<ClosedFormRecord>,
     /// The plastic state below the surfaces; `None` for other than elasto-plastic bodies.
@@ -80,7 +79,7 @@ impl StaticResult {
             increments: Vec::new(),
             updates: Vec::new(),
             fields,
-            adhesion: None,
+            interface: InterfaceNumbers::default(),
             closed_form: None,
             plastic_result: None,
             found: Observations::default(),
@@ -137,10 +136,6 @@ pub(super) fn solve(
     let law = case.friction.as_ref().map(|friction| &friction.law);
     let control = case.contact.prescribed.control(apparent_area);
     let extent = pair.lower_grid().extent();
-    let adhesion = pair.adhesion().map(|adhesion| {
-        let (gap, boundary) = (pair.initial_gap(&pair.at_rest()), case.contact.boundary);
-        AdhesionSummary::new(adhesion, &gap, pair.pitch(), boundary, pair.modulus())
-    });
     let contact = StaticProblem { case, pair, estimate, law, control, params: params(case), writer, watch };
     if let Some(slide) = case.slide(apparent_area) {
         return contact.slide(slide);
@@ -154,8 +149,8 @@ pub(super) fn solve(
         }
         _ => contact.press(),
     }?;
-    let adhesion = adhesion.map(|adhesion| adhesion.after(&rest.increments));
-    Ok(StaticResult { adhesion, closed_form: closed_form(case, extent, &rest.outcome), ..rest })
+    let interface = estimate.interface.after(&rest.increments);
+    Ok(StaticResult { interface, closed_form: closed_form(case, extent, &rest.outcome), ..rest })
 }
 
 /// A static contact to be solved.
@@ -283,11 +278,11 @@ impl StaticProblem<'_> {
 
     /// Creates the result from the end of a loading, or of rolling, with the warnings of `broken` limits.
     fn loaded(self, contact: LoadedContact, broken: Vec<String>) -> StaticResult {
-        let jumps = adhesion::jumps(&contact.increments).into_iter().collect();
+        let of_increments = with::doubts_after_increments(&contact.increments).into_iter().collect();
         let warnings = [
             broken,
             review::loaded(&contact, self.boundary()),
-            jumps,
+            of_increments,
             self.review(contact.solution.normal()),
         ]
         .concat();
@@ -361,7 +356,7 @@ fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field
             (solution.normal, Some((solution.shear, solution.displacement, solution.stick)))
         }
     };
-    let contact = pair.adhesion().map(|_| normal.contact_field());
+    let contact = (!pair.interface().is_hard()).then(|| normal.contact_field());
     // The heights are those of the prepared bodies, whatever the loading history did to them.
     drop(normal.initial_gap);
     let gap = pair.initial_gap(&pair.at_rest()) + &normal.displacement - normal.approach;

@@ -3,7 +3,7 @@
 use ndarray::Axis;
 
 use super::case::Case;
-use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, attraction_cut_off, cut_off, spot, too_few_cells};
+use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, are_curved, cut_off, spot, too_few_cells};
 use asperity_base::grid::Field;
 use asperity_base::units::{self, Dimension, Joule, Metre, SquareMetre};
 use asperity_contact::motion::{
@@ -11,13 +11,14 @@ use asperity_contact::motion::{
     PlasticVolume, ShearRecord, StaticRecord, StepRecord, SweepRecord,
 };
 use asperity_contact::operator::Boundary;
+use asperity_contact::with;
 
 /// Returns the warnings of a static contact, from its pressure.
 pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) -> Vec<String> {
     let gap = || pair.initial_gap(&pair.at_rest());
     let rim = cut_off(pressure, gap, pair.pitch(), boundary);
-    let attraction = attraction_cut_off(pressure, gap, pair.pitch(), boundary);
-    rim.into_iter().chain(attraction).chain(too_few_cells(spot(pressure, boundary))).collect()
+    let of_interface = with::doubts_at_rest(pressure, boundary, || are_curved(&gap(), pair.pitch()));
+    rim.into_iter().chain(of_interface).chain(too_few_cells(spot(pressure, boundary))).collect()
 }
 
 /// Returns the warnings of a sweep, from its points and the contact of the `last` one.

@@ -67,7 +67,7 @@ pub(super) fn run_with(
         updates,
         fields,
         plastic_result,
-        adhesion,
+        interface,
         closed_form,
         found,
         warnings: of_answer,
@@ -91,7 +91,7 @@ pub(super) fn run_with(
         subsurface,
         sliding,
         plasticity: None,
-        adhesion,
+        interface,
         closed_form,
         found: observe::summary(&found),
     };

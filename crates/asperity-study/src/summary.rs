@@ -13,8 +13,7 @@ use asperity_base::error::{Error, Result};
 use asperity_base::record::columns;
 use asperity_base::units::{CubicMetre, Metre, Second};
 use asperity_contact::motion::{Column, PassRecord, PlasticRecord, StaticRecord, SweepRecord, UpdateRecord};
-use asperity_contact::with::Observations;
-use asperity_contact::with::adhesion::AdhesionSummary;
+use asperity_contact::with::{InterfaceNumbers, Observations};
 
 /// The content of `summary.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -37,9 +36,9 @@ pub struct Summary {
     /// residual state of a static contact is in its record.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plasticity: Option<PlasticRecord>,
-    /// Adhesion of the bodies in numbers; `None` without adhesion.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub adhesion: Option<AdhesionSummary>,
+    /// The interface of the bodies in numbers, under the name of its table.
+    #[serde(flatten)]
+    pub interface: InterfaceNumbers,
     /// Closed form of the contact beside the computed one, if both bodies are smooth forms; `None` for others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub closed_form: Option<ClosedFormRecord>,
@@ -182,7 +181,7 @@ mod tests {
             convolutions: 15.5,
             residual: 3e-7,
             shear: None,
-            adhesion: None,
+            interface: None,
             plastic: None,
             fretting: None,
         };
@@ -192,7 +191,7 @@ mod tests {
             running_in: None,
             sliding: None,
             plasticity: None,
-            adhesion: None,
+            interface: InterfaceNumbers::default(),
             closed_form: None,
             outcome: Outcome::Static(Box::new(record)),
             subsurface: vec![SubsurfaceRecord {

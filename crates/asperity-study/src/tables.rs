@@ -298,7 +298,7 @@ mod tests {
             largest_spot_cells: 1,
             max_pressure: 4e9,
             heat: None,
-            adhesion: None,
+            interface: None,
             plastic: None,
             drag: None,
             plastic_cells: 0,
@@ -313,7 +313,7 @@ mod tests {
     fn pass() -> PassRecord {
         PassRecord {
             running: None,
-            adhesion: None,
+            interface: None,
             plastic: None,
             drag: None,
             pass: 1,
@@ -369,7 +369,7 @@ mod tests {
             iterations: 12,
             convolutions: 21.25,
             residual: 1e-7,
-            adhesion: None,
+            interface: None,
             steady: None,
         }
     }

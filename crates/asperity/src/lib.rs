@@ -27,7 +27,7 @@
 //! | two topographies and materials | [`motion::Pair`] | the argument of [`motion::press`], [`motion::load_in_stages`], [`motion::roll`], [`motion::SlidingContact`] and [`motion::Simulation`] |
 //! | a grid and compliances | [`operator::Operators`] | an [`operator::Operator`]: pressure in, displacement out |
 //! | an operator and a gap | [`solver::solve_normal`], [`solver::Params`] | [`solver::Solution`] with its [`solver::Stats`] |
-//! | an attraction between the surfaces | [`adhesion::Adhesion`], [`motion::Pair::with_adhesion`], [`solver::solve_adhesive`] | the contact that the bodies reach on their way |
+//! | an attraction between the surfaces | [`adhesion::Adhesion`], [`motion::Pair::with_interface`], [`solver::solve_adhesive`] | the contact that the bodies reach on their way |
 //! | cells in contact and their heat sources | [`temperature::FlashTemperature`], [`temperature::SteadyTemperature`] | their temperature and the heat partition |
 //! | cells in contact and conductivities | [`conductance::solve`] | [`conductance::Conductance`]: thermal or electrical |
 //! | the deformed gap of a contact | [`flow::solve()`] | its permeability, leakage and critical constriction |
@@ -101,7 +101,7 @@ pub use asperity_contact::{
     adhesion, conductance, fatigue, film, flow, kernel, material, motion, operator, plasticity, reference,
     solver, stress, subsurface, temperature, verification, viscoelastic, wear, with,
 };
-pub use asperity_contact::{each_capability, each_law, each_property};
+pub use asperity_contact::{each_capability, each_interface, each_law, each_property};
 #[cfg(feature = "study")]
 pub use asperity_study as study;
 #[cfg(feature = "study")]

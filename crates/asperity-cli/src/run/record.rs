@@ -1,11 +1,11 @@
 //! Summary of a contact at the end of a run: a line for each number.
 
 use asperity::motion::{PassRecord, PlasticRecord, StaticRecord};
+use asperity::solver::InterfaceRecord;
 use asperity::study::{Case, ClosedFormRecord, Outcome, SubsurfaceRecord, Summary, dimension_of_column};
 use asperity::units::{Dimension, format, format_number};
 use asperity::with;
-use asperity::with::adhesion::AdhesionSummary;
-use asperity::with::views::Answer;
+use asperity::with::views::{Answer, Line};
 use asperity::with::{BodyLaw, BodyLaws, Capability, Listed, Observations, Reported, answering};
 use asperity::{each_capability, each_law};
 
@@ -25,9 +25,10 @@ pub fn text(case: &Case, summary: &Summary, found: &Observations) -> String {
     };
     let theory = summary.closed_form.as_ref().map_or(String::new(), theory_lines);
     let plastic = summary.plasticity.as_ref().map_or(String::new(), plastic_line);
-    let adhesion = summary.adhesion.as_ref().map_or(String::new(), adhesion_lines);
+    let of_interface: String =
+        summary.interface.lines().iter().map(|Line { name, value, .. }| line(name, value)).collect();
     answers(case, found, matches!(summary.outcome, Outcome::Sweep(_)))
-        + &adhesion
+        + &of_interface
         + &contact
         + &theory
         + &plastic
@@ -66,24 +67,6 @@ fn begun_small(sentence: &str) -> String {
 /// Describes what passes have done to the bodies.
 fn changes(passes: &[PassRecord]) -> String {
     with::after_passes(passes).iter().map(told).collect()
-}
-
-/// Describes the adhesion of the bodies, and what a retreat shows.
-fn adhesion_lines(numbers: &AdhesionSummary) -> String {
-    let mut rows = Vec::new();
-    if let Some(load) = numbers.pull_off {
-        rows.push(("pull-off", format(load, Dimension::Force)));
-    }
-    if let Some(work) = numbers.work_of_separation {
-        rows.push((
-            "separation",
-            format!("{} of work under loads that pull", format(work, Dimension::Energy)),
-        ));
-    }
-    if let Some(tabor) = numbers.tabor {
-        rows.push(("Tabor's parameter", format_number(tabor)));
-    }
-    rows.iter().map(|(name, value)| line(name, value)).collect()
 }
 
 /// Describes the closed form of the contact, and the deviation of the computed contact from it.
@@ -154,18 +137,8 @@ fn static_table(case: &Case, record: &StaticRecord) -> String {
         ("mean gap", format(record.mean_gap, Dimension::Length)),
         ("elastic energy", format(record.elastic_energy, Dimension::Energy)),
     ];
-    if let Some(adhesion) = &record.adhesion {
-        rows.extend([
-            ("least pressure", format(adhesion.min_pressure, Dimension::Pressure)),
-            ("adhesive load", format(adhesion.adhesive_load, Dimension::Force)),
-            ("adhesion energy", format(adhesion.adhesion_energy, Dimension::Energy)),
-        ]);
-        if adhesion.jumps > 0 {
-            let lost = format(adhesion.energy_lost, Dimension::Energy);
-            let jumps = if adhesion.jumps == 1 { "jump" } else { "jumps" };
-            rows.push(("energy lost", format!("{lost} in {} {jumps}", adhesion.jumps)));
-        }
-    }
+    let of_interface = record.interface.iter().flat_map(InterfaceRecord::lines).collect::<Vec<_>>();
+    rows.extend(of_interface.iter().map(|line| (&*line.name, line.value.clone())));
     if record.plastic_cells > 0 {
         rows.push(("plastic cells", record.plastic_cells.to_string()));
         rows.push(("plastic volume", format(record.plastic_volume, Dimension::Volume)));

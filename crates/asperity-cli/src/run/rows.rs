@@ -2,8 +2,9 @@
 
 use asperity::each_law;
 use asperity::motion::{PassRecord, SweepRecord};
+use asperity::solver::InterfacePassRecord;
 use asperity::study::case::{Case, Source};
-use asperity::with::views::PassCell;
+use asperity::with::views::{PassCell, RowCell};
 use asperity::with::{BodyLaw, Listed};
 
 use super::columns::{Cell, Columns};
@@ -72,12 +73,9 @@ impl Rows {
             let work = plastic.plastic_work_lower + plastic.plastic_work_upper;
             ranked.push((Rank::Always, Cell::of("work", "plastic_work_lower", work)));
         }
-        if let Some(adhesion) = &pass.adhesion {
-            let load = Cell::of("adhesive", "mean_adhesive_load", adhesion.mean_adhesive_load);
-            ranked.push((Rank::Always, load));
-            if adhesion.adhesive_drag > 0.0 {
-                ranked.push((Rank::Always, Cell::of("drag", "adhesive_drag", adhesion.adhesive_drag)));
-            }
+        for RowCell { head, column, value, .. } in pass.interface.iter().flat_map(InterfacePassRecord::cells)
+        {
+            ranked.push((Rank::Always, Cell::of(head, column, value)));
         }
         if let Some(drag) = &pass.drag {
             ranked.push((Rank::Always, Cell::of("drag/W", "drag_coefficient", drag.drag_coefficient)));
@@ -175,8 +173,11 @@ impl Rows {
             if self.yields {
                 cells.push(Cell::of("plastic", "plastic_volume", point.plastic_volume));
             }
-            cells.push(match (point.adhesion, point.steady) {
-                (Some(adhesion), _) => Cell::of("adhesive", "adhesive_load", adhesion.adhesive_load),
+            cells.push(match (&point.interface, point.steady) {
+                (Some(interface), _) => {
+                    let RowCell { head, column, value, .. } = interface.cell();
+                    Cell::of(head, column, value)
+                }
                 (None, Some(steady)) => Cell::of("drag/W", "drag_coefficient", steady.drag_coefficient),
                 (None, None) => Cell::of("stiff", "stiffness", point.stiffness),
             });

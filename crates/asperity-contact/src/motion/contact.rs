@@ -4,15 +4,14 @@ use std::sync::Arc;
 
 use crate::error::Result;
 use crate::grid::{Field, Placement};
-use crate::motion::adhesive::press_from;
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
-use crate::motion::record::{AdhesionRecord, StaticRecord, StepRecord};
+use crate::motion::record::{StaticRecord, StepRecord};
 use crate::motion::rim::Interior;
 use crate::motion::spot::largest_spot;
 use crate::motion::watch::{OneOfMany, StaticWatch, Watch};
 use crate::operator::{Boundary, Operators};
-use crate::solver::{Control, Params, Sliding, Solution, Stats, solve_normal_watched, solve_sliding};
+use crate::solver::{Before, Control, InterfaceRecord, Params, Sliding, Solution, Stats, solve_sliding};
 use crate::units::{CubicMetre, Kelvin, Metre, Newton, Pascal};
 
 /// The solution at one position: only the cells in contact.
@@ -23,7 +22,7 @@ pub struct Contact {
     pub position: Position,
     /// Flat cells in contact and their pressure, Pa: with p > 0, or with p > −σ(0) where the bodies attract each other.
     pub pressure: Vec<(u32, Pascal)>,
-    /// Flat cells that are open and attract each other, and their pressure, Pa, below 0. None without adhesion.
+    /// Flat cells that are open and under tension, and their pressure, Pa, below 0. None between hard walls.
     pub tension: Vec<(u32, Pascal)>,
     /// Flat cells at the hardness and their plastic interference w, m.
     pub plastic: Vec<(u32, Metre)>,
@@ -35,8 +34,8 @@ pub struct Contact {
     pub gap: Option<Arc<Field>>,
     /// Largest elastic displacement of a cell, m; `None` if it is unknown, as for a pass that is solved together with its wear.
     pub max_displacement: Option<Metre>,
-    /// Attraction of the bodies; `None` without adhesion.
-    pub adhesion: Option<AdhesionRecord>,
+    /// Tension across the gap; `None` between hard walls.
+    pub interface: Option<InterfaceRecord>,
     /// Load W = ΔA Σ p, N.
     pub load: Newton,
     /// Friction force Q = ΔA Σ q along x of the upper body on the lower one.
@@ -50,8 +49,8 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// Solves the contact of `pair` at `position`, in gross slip if there is friction, from the pressure `start` if given. Bodies that
-    /// attract each other come from the contact `last` on the same grid, or from afar.
+    /// Solves the contact of `pair` at `position`, in gross slip if there is friction, from the pressure `start` or from the contact
+    /// `last` on the same grid, if one is given.
     #[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
     pub(super) fn solve(
         pair: &Pair,
@@ -69,27 +68,21 @@ impl Contact {
         let shape = [position.columns, gap.ncols()];
         let bounds = pair.bounds(&position, sliding.map(|sliding| &sliding.friction));
         let solution = match sliding {
-            _ if pair.adhesion().is_some() => {
-                let last = last.map(|last| Solution { initial_gap: gap.clone(), ..last.clone() });
-                let mut operator = operators.on(shape);
-                press_from(pair, operator.as_mut(), &gap, &bounds, control, last.as_ref(), params, watch)?
-            }
             Some(sliding) if sliding.shear_displaces_normally(pair.couples()) => {
                 let mut operator = operators.coupled_on(shape);
                 solve_sliding(operator.as_mut(), &gap, &bounds, sliding, control, start, params, watch)?
                     .normal
             }
             _ => {
+                let last = last.map(|last| Solution { initial_gap: gap.clone(), ..last.clone() });
+                let guess = start.map_or(Before::Apart, Before::Guess);
+                let before = last.as_ref().map_or(guess, Before::Contact);
                 let mut operator = params.device.operator(operators, shape);
-                solve_normal_watched(operator.as_mut(), &gap, &bounds, control, start, params, watch)?
+                pair.interface().solve(operator.as_mut(), &gap, &bounds, control, before, params, watch)?
             }
         };
-        let mut contact = Self::new(position, sliding, &solution);
-        contact.adhesion = pair.adhesion().map(|adhesion| {
-            let record = AdhesionRecord::of(adhesion, &solution);
-            last.map_or(record, |last| record.since(adhesion, &solution, last))
-        });
-        Ok((contact, solution))
+        let interface = InterfaceRecord::of(pair.interface(), &solution, last);
+        Ok((Self { interface, ..Self::new(position, sliding, &solution) }, solution))
     }
 
     /// Keeps the gap of the `solution`, if it is `wanted`.
@@ -123,7 +116,7 @@ impl Contact {
             temperature: None,
             gap: None,
             max_displacement: None,
-            adhesion: None,
+            interface: None,
             load,
             tangential_force: 0.0,
             approach,
@@ -156,7 +149,7 @@ impl Contact {
             temperature: None,
             gap: None,
             max_displacement: Some(solution.max_displacement()),
-            adhesion: None,
+            interface: None,
             load: solution.load(),
             approach: solution.approach,
             residual: solution.residual,
@@ -239,7 +232,7 @@ impl Contact {
             convolutions: self.stats.convolutions,
             residual: self.residual,
             heat: None,
-            adhesion: self.adhesion,
+            interface: self.interface,
             plastic: None,
             drag: None,
         }
@@ -275,8 +268,9 @@ pub fn press(
     let mut operator = params.device.operator(&operators, pair.lower_grid().shape);
     let bounds = pair.bounds(&position, None);
     let watch = StaticWatch::new(watch, 0, 1, control);
-    let solution = press_from(pair, operator.as_mut(), &gap, &bounds, control, None, params, &watch)?;
-    Ok(StaticContact { record: StaticRecord::new(&solution).attracted(pair, &solution), solution })
+    let solution =
+        pair.interface().solve(operator.as_mut(), &gap, &bounds, control, Before::Apart, params, &watch)?;
+    Ok(StaticContact { record: StaticRecord::of(pair, &solution), solution })
 }
 
 /// Returns the operators of a pair at full overlap, and the gap between the bodies.
@@ -302,15 +296,14 @@ impl StaticRecord {
             convolutions: solution.stats.convolutions,
             residual: solution.residual,
             shear: None,
-            adhesion: None,
+            interface: None,
             plastic: None,
             fretting: None,
         }
     }
 
-    /// Adds the attraction of a pair from afar, if it has any.
-    pub(super) fn attracted(self, pair: &Pair, solution: &Solution) -> Self {
-        let adhesion = pair.adhesion().map(|adhesion| AdhesionRecord::of(adhesion, solution));
-        Self { adhesion, ..self }
+    /// Returns the record of a contact without friction of a pair that comes from afar.
+    pub(super) fn of(pair: &Pair, solution: &Solution) -> Self {
+        Self { interface: InterfaceRecord::of(pair.interface(), solution, None), ..Self::new(solution) }
     }
 }

@@ -107,7 +107,7 @@ pub fn press_elasto_plastic(
     watch: &dyn Watch,
     outputs: &mut [&mut dyn Output],
 ) -> Result<ElastoPlasticContact> {
-    pair.check_no_adhesion()?;
+    pair.interface().check_combined()?;
     pair.check_elastic()?;
     let (operators, initial_gap) = facing(pair, boundary)?;
     let shape = pair.lower_grid().shape;

@@ -31,7 +31,7 @@ impl Solver<'_> {
         params: &Params,
     ) -> Result<Vec<Contact>> {
         let pair = &outcome.pair;
-        if pair.adhesion().is_some() {
+        if !pair.interface().is_hard() {
             return Err(Error::Unsupported(TOO_MUCH_WEAR));
         }
         let positions = self.positions.len();
@@ -101,7 +101,7 @@ impl Solver<'_> {
 
 /// Message for a pass with too much wear for an explicit step that cannot be solved implicitly.
 const TOO_MUCH_WEAR: &str = "a single pass wears so much that the pressures of single cells would oscillate: give a smaller wear coefficient, larger \
-     cells or a shorter pass; the implicit solution needs one approach for the whole pass, no adhesion and no coupling of \
+     cells or a shorter pass; the implicit solution needs one approach for the whole pass, no attraction and no coupling of \
      shear to normal displacements";
 
 /// Displacement at all positions of a pass, stacked in one field, under the pressures at all of them. It is the elastic

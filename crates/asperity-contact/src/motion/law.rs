@@ -192,7 +192,7 @@ pub(super) fn sums(
         let [lower, upper] = placements.map(|placement| -> Vec<u32> {
             contact.pressure.iter().map(|(cell, _)| placement.cell(*cell as usize) as u32).collect()
         });
-        // Laws count pressure alone, not the tension of adhesion.
+        // Laws count pressure alone, not tension.
         let pressure: Vec<Pascal> = contact.pressure.iter().map(|(_, p)| p.max(0.0)).collect();
         let magnitude = |&p: &Pascal| {
             position_data

@@ -4,21 +4,20 @@ use std::borrow::Cow;
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
-use crate::motion::adhesive::press_from;
 use crate::motion::contact::facing;
 use crate::motion::course::{self, Course, Output, Step, StepRow};
 use crate::motion::extrapolation::Acceleration;
 use crate::motion::fretting::{ChangedBodies, Laws};
 use crate::motion::law::Law;
 use crate::motion::pair::Pair;
-use crate::motion::record::{AdhesionRecord, CreepRecord, IncrementRecord, ShearRecord, StaticRecord};
+use crate::motion::record::{CreepRecord, IncrementRecord, ShearRecord, StaticRecord};
 use crate::motion::stage::{Origin, Progress, Stage};
 use crate::motion::state::{Flattening, LoadedContact, LoadingState};
 use crate::motion::watch::{StaticWatch, Watch};
 use crate::operator::{Boundary, CoupledOperator, Operator};
 use crate::solver::{
-    self, Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Rolling, RollingSolution,
-    solve_frictional_watched, solve_rolling_watched,
+    self, Before, Control, Equilibrium, Friction, FrictionalSolution, InterfaceRecord, Loading, Params,
+    Rolling, RollingSolution, solve_frictional_watched, solve_rolling_watched,
 };
 use crate::units::{Joule, Kelvin, Second};
 use crate::viscoelastic::{CreepMemory, solve_in_time};
@@ -91,7 +90,7 @@ impl StagedLoading {
         let solver = match friction {
             None => Solver::Frictionless(params.device.operator(&operators, shape)),
             Some(friction) => {
-                pair.check_no_adhesion()?;
+                pair.interface().check_combined()?;
                 pair.check_elastic()?;
                 pair.check_shear()?;
                 Solver::Frictional(operators.coupled_on(shape), friction)
@@ -242,7 +241,7 @@ pub fn roll(
     watch: &dyn Watch,
 ) -> Result<LoadedContact> {
     let (operators, gap) = facing(pair, boundary)?;
-    pair.check_no_adhesion()?;
+    pair.interface().check_combined()?;
     pair.check_elastic()?;
     pair.check_shear()?;
     let mut operator = operators.coupled_on(pair.lower_grid().shape);
@@ -261,9 +260,10 @@ impl LoadedContact {
         watch: &dyn solver::Watch,
     ) -> Result<Self> {
         let bounds = pair.bounds(&pair.at_rest(), None);
-        let solution = press_from(pair, operator, gap, &bounds, control, None, params, watch)?;
+        let solution =
+            pair.interface().solve(operator, gap, &bounds, control, Before::Apart, params, watch)?;
         let plastic = solution.plastic_interference();
-        let record = StaticRecord::new(&solution).attracted(pair, &solution);
+        let record = StaticRecord::of(pair, &solution);
         let solution = Equilibrium::Frictionless(Box::new(solution));
         Ok(Self::at_once(record, solution, plastic, None))
     }
@@ -372,11 +372,8 @@ impl Increments {
             (_, solution) => solution.map(|solution| solution.slip.clone()),
         };
         let [dissipation, more_error] = of_friction.unwrap_or_default();
-        let adhesion = pair.adhesion().map(|adhesion| {
-            let record = AdhesionRecord::of(adhesion, contact.normal());
-            let last = last.as_ref().map(Equilibrium::normal);
-            last.map_or(record, |last| record.since(adhesion, contact.normal(), last))
-        });
+        let before = last.as_ref().map(Equilibrium::normal);
+        let interface = InterfaceRecord::of(pair.interface(), contact.normal(), before);
         let area = pair.cell_area();
         let stage = &stages[next.stage];
         let mut represented = 1;
@@ -419,7 +416,7 @@ impl Increments {
             fretting,
             plastic_volume: area * flattening.total(plastic).sum(),
             dissipation,
-            adhesion,
+            interface,
             iterations: stats.iterations,
             convolutions: stats.convolutions,
             ..IncrementRecord::of(&contact)
@@ -456,9 +453,8 @@ impl StagedLoading {
             if computed > 0.0 { dissipation_error * (dissipation / computed) } else { dissipation_error };
         let shear = solution.frictional().map(|solution| shear_record(solution, dissipation));
         let fretting = increments.last().and_then(|last| last.fretting);
-        let adhesion = increments.last().and_then(|last| last.adhesion);
-        let adhesion = adhesion
-            .map(|last| last.after(increments.iter().filter_map(|increment| increment.adhesion.as_ref())));
+        let of_interface = || increments.iter().filter_map(|increment| increment.interface.as_ref());
+        let interface = of_interface().next_back().map(|last| last.after(of_interface()));
         let normal = solution.normal();
         let gap = changed.as_ref().map(|changed| changed.pair.initial_gap(&changed.pair.at_rest()));
         let gap = gap.unwrap_or(self.gap) + &normal.displacement - normal.approach;
@@ -467,7 +463,7 @@ impl StagedLoading {
             iterations: increments.iter().map(|increment| increment.iterations).sum(),
             convolutions: sum(|increment| increment.convolutions),
             shear,
-            adhesion,
+            interface,
             fretting,
             ..static_record(&solution, &plastic)
         };
@@ -510,9 +506,10 @@ impl Solver {
         let bounds = &pair.bounds(&pair.at_rest(), None);
         match self {
             Self::Frictionless(operator) => {
-                let last = last.map(Equilibrium::normal);
+                let before = Before::from(last.map(Equilibrium::normal));
                 let operator = operator.as_mut();
-                press_from(pair, operator, gap, bounds, loading.normal, last, params, watch)
+                pair.interface()
+                    .solve(operator, gap, bounds, loading.normal, before, params, watch)
                     .map(|solution| Equilibrium::Frictionless(Box::new(solution)))
             }
             Self::Frictional(operator, friction) => {

@@ -1,6 +1,5 @@
 //! Two bodies in relative motion: positions, passes, the geometry of the pair and its plastic change.
 
-mod adhesive;
 mod approach;
 mod batch;
 mod body;
@@ -39,7 +38,6 @@ mod warm_start;
 mod watch;
 mod worn_away;
 
-pub use adhesive::AdhesionHistory;
 pub use asperity_base::record::{Column, Presence};
 pub use body::{Body, State};
 pub use contact::{Contact, StaticContact, press};
@@ -59,10 +57,9 @@ pub use path::{OffsetY, Path, Position, Stroke, overlap_positions, shift_positio
 pub use plastic_volume::PlasticVolume;
 pub use record::lost_volumes::{ENDINGS, is_volume_of_law};
 pub use record::{
-    AdhesionPassRecord, AdhesionRecord, CreepRecord, DragRecord, FrettingRecord, HeatRecord, IncrementRecord,
-    LostVolume, PassDragRecord, PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Regime,
-    ResidualRecord, RunningRecord, ShearRecord, StaticRecord, SteadyRecord, StepRecord, SweepRecord,
-    UpdateRecord,
+    CreepRecord, DragRecord, FrettingRecord, HeatRecord, IncrementRecord, LostVolume, PassDragRecord,
+    PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Regime, ResidualRecord, RunningRecord,
+    ShearRecord, StaticRecord, SteadyRecord, StepRecord, SweepRecord, UpdateRecord,
 };
 pub use record::{FILM, WEAR};
 pub use report::PassReport;
@@ -186,8 +183,6 @@ pub struct Motion {
     pub path: Path,
     /// Offset of the passes along y. An offset other than 0 needs a boundary periodic along y.
     pub offset_y: OffsetY,
-    /// Where bodies that attract each other come from at each position.
-    pub adhesion_history: AdhesionHistory,
     /// Time, ≥ 0, for which viscoelastic bodies are apart between two passes. Without it the next pass of a shift begins from the last contact;
     /// the bodies of an overlap then come apart for no time.
     pub pause: Second,
@@ -210,7 +205,6 @@ impl Motion {
             bulk: None,
             path: Path::OneWay,
             offset_y: OffsetY::NONE,
-            adhesion_history: AdhesionHistory::None,
             pause: 0.0,
         }
     }
@@ -287,12 +281,6 @@ impl Motion {
         Self { offset_y, ..self }
     }
 
-    /// Sets where bodies that attract each other come from at each position.
-    #[must_use]
-    pub const fn with_adhesion_history(self, adhesion_history: AdhesionHistory) -> Self {
-        Self { adhesion_history, ..self }
-    }
-
     /// Sets the time, ≥ 0, for which viscoelastic bodies are apart between two passes.
     #[must_use]
     pub const fn with_pause(self, pause: Second) -> Self {
@@ -349,9 +337,9 @@ impl Motion {
     }
 
     /// Returns how many of the `positions` of a pass must be solved, the first ones. If the bodies do not change, the
-    /// return stroke repeats the contacts of the forward stroke, unless friction displaces the surfaces normally.
-    pub fn distinct(&self, positions: usize, yields: bool, couples: bool) -> usize {
-        let follows = self.adhesion_history == AdhesionHistory::Path;
+    /// return stroke repeats the contacts of the forward stroke, unless friction displaces the surfaces normally, or each position `follows`
+    /// from the one before.
+    pub fn distinct(&self, positions: usize, yields: bool, couples: bool, follows: bool) -> usize {
         let stays = self.is_frozen(yields) && !follows;
         let pushed =
             self.sliding(Stroke::Forth).is_some_and(|sliding| sliding.shear_displaces_normally(couples));

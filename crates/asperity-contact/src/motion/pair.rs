@@ -1,6 +1,7 @@
 //! A pair of contacting bodies.
 
-use crate::adhesion::Adhesion;
+use std::sync::Arc;
+
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid, Placement, check_finite, flat_mut};
 use crate::kernel::{SharedResponse, response};
@@ -9,7 +10,7 @@ use crate::math::{Bands, parallel};
 use crate::motion::body::{Body, State};
 use crate::motion::path::Position;
 use crate::operator::{Boundary, Operators};
-use crate::solver::{Bounds, Friction};
+use crate::solver::{Bounds, Friction, HardWall, Interface};
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre, Pascal, SquareMetre, format_distinct};
 use crate::viscoelastic::{Creep, Relaxation};
@@ -26,7 +27,7 @@ pub struct Pair {
     response: SharedResponse,
     /// Prescribed share of the lower body in the plastic deformation; `None` if the softer of two cells takes all of it.
     share: Option<f64>,
-    adhesion: Option<Adhesion>,
+    interface: Arc<dyn Interface>,
     /// Composite creep compliance of the lower and of the upper body; `None` if neither is viscoelastic.
     creep: Option<[Creep; 2]>,
 }
@@ -67,7 +68,7 @@ impl Pair {
             compliances,
             response: response(materials[0], materials[1])?,
             share: None,
-            adhesion: None,
+            interface: Arc::new(HardWall),
             creep: None,
         })
     }
@@ -124,10 +125,10 @@ impl Pair {
         Self { share: Some(share), ..self }
     }
 
-    /// Sets or removes the attraction between the bodies. Static contacts without friction take it into account.
+    /// Sets the interface of the bodies, by default [`HardWall`]. Static contacts without friction and passes take it into account.
     #[must_use]
-    pub fn with_adhesion(self, adhesion: impl Into<Option<Adhesion>>) -> Self {
-        Self { adhesion: adhesion.into(), ..self }
+    pub fn with_interface(self, interface: Arc<dyn Interface>) -> Self {
+        Self { interface, ..self }
     }
 
     /// Replaces the elastic response of the materials by another `response`.
@@ -138,9 +139,9 @@ impl Pair {
         Self { response: response.into(), ..self }
     }
 
-    /// The attraction between the bodies, if any.
-    pub fn adhesion(&self) -> Option<&Adhesion> {
-        self.adhesion.as_ref()
+    /// The interface of the bodies.
+    pub fn interface(&self) -> &dyn Interface {
+        self.interface.as_ref()
     }
 
     /// Size of a cell.
@@ -177,16 +178,6 @@ impl Pair {
             .ok_or(Error::Unsupported("these bodies support friction only in gross sliding without coupling"))
     }
 
-    /// Returns [`Error::Unsupported`] if the bodies attract each other.
-    pub fn check_no_adhesion(&self) -> Result<()> {
-        match self.adhesion {
-            Some(_) => Err(Error::Unsupported(
-                "adhesion is not solved together with coupled friction, rolling, sliding in place, plastic flow or ranks",
-            )),
-            None => Ok(()),
-        }
-    }
-
     /// Returns [`Error::Unsupported`] if a body is viscoelastic.
     pub(super) fn check_elastic(&self) -> Result<()> {
         match self.creep {
@@ -197,10 +188,10 @@ impl Pair {
         }
     }
 
-    /// Returns [`Error::Unsupported`] if viscoelastic bodies attract each other or yield.
+    /// Returns [`Error::Unsupported`] if viscoelastic bodies yield or have an interface other than hard walls.
     pub(super) fn check_creep(&self) -> Result<()> {
-        match self.creep.is_some() && (self.adhesion.is_some() || self.yields()) {
-            true => Err(Error::Unsupported("viscoelastic bodies with adhesion or a hardness")),
+        match self.creep.is_some() && (!self.interface.is_hard() || self.yields()) {
+            true => Err(Error::Unsupported("viscoelastic bodies that attract each other or have a hardness")),
             false => Ok(()),
         }
     }

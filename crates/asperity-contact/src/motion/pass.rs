@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
+use crate::motion::Motion;
 use crate::motion::contact::Contact;
 use crate::motion::law::{self, Law};
 use crate::motion::pair::Pair;
@@ -14,7 +15,6 @@ use crate::motion::plastic_volume::ElastoPlasticPass;
 use crate::motion::record::LostVolume;
 use crate::motion::rim::Interior;
 use crate::motion::watch::{Progress, Watch};
-use crate::motion::{AdhesionHistory, Motion};
 use crate::operator::Operators;
 use crate::solver::{Control, Params, Solution};
 use crate::units::Newton;
@@ -104,11 +104,6 @@ impl Solver<'_> {
         Error::AtPosition { pass, position: index + 1, positions, source }
     }
 
-    /// Whether each position begins with the contact at the position before.
-    fn follows(&self, pair: &Pair) -> bool {
-        pair.adhesion().is_some() && self.motion.adhesion_history == AdhesionHistory::Path
-    }
-
     /// Returns the largest difference between the loads of a pass and those of bodies that come from the position before, over the mean
     /// of |W|. It solves every eighth position again, and the one before it.
     ///
@@ -195,7 +190,7 @@ impl Solver<'_> {
             let mut last = None;
             for index in 0..self.positions.len() {
                 let (contact, solution) = solve(&after, index, last.as_ref())?;
-                last = self.follows(pair).then_some(solution);
+                last = pair.interface().follows_path().then_some(solution);
                 let (sums, _) =
                     law::sums(self.laws, &after, std::slice::from_ref(&contact), &position_data, None)?;
                 law::advance(self.laws, &mut after, &sums, 1.0, self.interiors, &mut lost);
@@ -211,7 +206,7 @@ impl Solver<'_> {
             });
         }
         let positions = 0..self.positions.len();
-        let contacts: Vec<Contact> = if self.follows(pair) {
+        let contacts: Vec<Contact> = if pair.interface().follows_path() {
             let mut last = None;
             let in_sequence = positions.map(|index| {
                 let (contact, solution) = solve(pair, index, last.as_ref())?;

@@ -174,7 +174,7 @@ impl SlidingContact {
     /// If the bodies have different shapes.
     pub fn new(pair: Pair, boundary: Boundary, slide: Slide, params: Params) -> Result<Self> {
         let slide = slide.checked(&pair)?;
-        pair.check_no_adhesion()?;
+        pair.interface().check_combined()?;
         pair.check_elastic()?;
         let (operators, _) = facing(&pair, boundary)?;
         let shape = pair.lower_grid().shape;

@@ -63,7 +63,7 @@ pub fn sweep(
     let shape = pair.lower_grid().shape;
     let rolls = points.iter().any(|point| point.rolling.is_some());
     if rolls {
-        pair.check_no_adhesion()?;
+        pair.interface().check_combined()?;
         pair.check_elastic()?;
         pair.check_shear()?;
     }
@@ -212,8 +212,8 @@ fn record(
     steady: Option<SteadyRecord>,
     params: &Params,
 ) -> Result<SweepRecord> {
-    // The attraction of open cells changes with the approach, too.
-    let (stiffness, stats) = match contact.record.adhesion.is_some() || steady.is_some() {
+    // A tension on open cells changes with the approach, too.
+    let (stiffness, stats) = match contact.record.interface.is_some() || steady.is_some() {
         true => (None, Stats::default()),
         false => normal_stiffness(operator, &contact.solution.normal().elastic_cells(), params)?,
     };
@@ -248,7 +248,7 @@ fn record(
         iterations: contact.record.iterations,
         convolutions: contact.record.convolutions + stats.convolutions,
         residual: contact.record.residual,
-        adhesion: contact.record.adhesion,
+        interface: contact.record.interface,
         steady,
     })
 }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::grid::Grid;
+use crate::grid::{Field, Grid};
 use crate::kernel::Line;
 use crate::math::good_size;
 use crate::units::Metre;
@@ -48,6 +48,13 @@ impl Boundary {
     /// Whether the surface is periodic along both axes, so that a uniform pressure moves it without resistance.
     pub fn leaves_mean_free(self) -> bool {
         self == Self::PERIODIC
+    }
+
+    /// Sums the outermost cells of a field at its free sides.
+    pub fn outermost(self, field: &Field) -> f64 {
+        let shape = [field.nrows(), field.ncols()];
+        let is_rim = |axis: usize, i: usize| !self.repeats(axis) && (i == 0 || i + 1 == shape[axis]);
+        field.indexed_iter().filter(|((i, j), _)| is_rim(0, *i) || is_rim(1, *j)).map(|(_, p)| p).sum()
     }
 
     /// Returns the only periodic axis, if there is exactly one.

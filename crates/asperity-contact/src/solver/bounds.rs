@@ -7,7 +7,7 @@ use crate::units::{Dimension, Pascal};
 
 /// Bounds of the pressure of each cell: lowerᵢ ≤ pᵢ ≤ upperᵢ, Pa.
 ///
-/// Without adhesion the lower bound is 0. The upper bound is the hardness, possibly reduced by shear or by a film. It
+/// Without a tension between the bodies the lower bound is 0. The upper bound is the hardness, possibly reduced by shear or by a film. It
 /// is infinite for elastic bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bounds {
@@ -16,12 +16,11 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// Bounds for elastic bodies without adhesion: 0 ≤ p.
+    /// Bounds for elastic bodies without tension: 0 ≤ p.
     pub const ELASTIC: Self =
         Self { lower: CellValues::Uniform(0.0), upper: CellValues::Uniform(f64::INFINITY) };
 
-    /// Creates bounds for bodies without adhesion and with a largest pressure `upper`, a number or a field: 0 ≤ p
-    /// ≤ upper.
+    /// Creates bounds for bodies without tension and with a largest pressure `upper`, a number or a field: 0 ≤ p ≤ upper.
     pub fn up_to(upper: impl Into<CellValues>) -> Self {
         Self { lower: CellValues::Uniform(0.0), upper: upper.into().in_rows() }
     }

@@ -118,7 +118,7 @@ pub(super) fn contact<'a>(
     start: Option<&'a Field>,
 ) -> Result<Contact<'a>> {
     if bounds.lower().min() < 0.0 {
-        return Err(Error::Unsupported("a device does not solve adhesive contacts"));
+        return Err(Error::Unsupported("a device does not solve contacts under tension"));
     }
     Ok(Contact { gap, upper: bounds.upper(), start })
 }

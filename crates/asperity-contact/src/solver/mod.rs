@@ -1,7 +1,7 @@
 //! The contact problem: pressures within their bounds that close the gap, under a load or at an approach.
 
 mod active_set;
-mod adhesive;
+pub mod adhesion;
 mod bounds;
 mod cascade;
 mod coarse_correction;
@@ -10,6 +10,7 @@ mod direct;
 mod equilibrium;
 mod feasible;
 mod friction;
+mod interface;
 #[cfg(test)]
 mod near_copies;
 mod polonsky_keer;
@@ -22,8 +23,8 @@ mod together;
 mod uniform;
 
 use active_set::NearCopies;
-pub use adhesive::solve_adhesive;
-pub(crate) use adhesive::solve_adhesive_watched;
+pub use adhesion::solve_adhesive;
+pub use adhesion::{AdhesionPassRecord as InterfacePassRecord, AdhesionRecord as InterfaceRecord};
 pub use asperity_base::watch::Watch;
 pub use bounds::Bounds;
 pub use device::{Card, Device, memory_on_device};
@@ -35,6 +36,7 @@ pub use friction::{
 pub(crate) use friction::{
     History, Start, solve_frictional_from, solve_frictional_watched, solve_rolling_watched, solve_sliding,
 };
+pub use interface::{Before, HardWall, Interface, InterfaceCost};
 pub use residual::{Residual, residual};
 pub(crate) use site::{OwnedSite, Site, coarse_site};
 pub use stiffness::normal_stiffness;

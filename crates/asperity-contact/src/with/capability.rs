@@ -216,6 +216,14 @@ pub struct Surroundings {
     pub dragging_speed: Option<MetrePerSecond>,
     /// Whether there is friction.
     pub has_friction: bool,
+    /// Whether the friction may displace the bodies normally, if they differ: its coupling is full.
+    pub couples: bool,
+    /// Whether the bodies slide in place.
+    pub slides_in_place: bool,
+    /// Whether a body deforms plastically below its surface.
+    pub flows: bool,
+    /// Whether a device solves the contact.
+    pub on_device: bool,
 }
 
 impl Surroundings {

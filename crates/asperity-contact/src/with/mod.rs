@@ -24,8 +24,16 @@
 //! |---|---|---|
 //! | [`viscoelastic`] | `[lower.viscoelastic]`, `[upper.viscoelastic]` | how the body relaxes |
 //! | [`fatigue`] | `[lower.fatigue]`, `[upper.fatigue]` | which alternating loads it endures |
+//!
+//! [`Interfaces`] are the tables of what acts between the surfaces. [`each_interface!`](crate::each_interface) walks their list. Their laws
+//! are [`Interface`](crate::solver::Interface)s of the solver.
+//!
+//! | module | table of the case | is |
+//! |---|---|---|
+//! | [`adhesion`] | `[adhesion]` | an attraction across the gap |
 
 mod capability;
+mod interface;
 mod law;
 mod property;
 pub mod adhesion;
@@ -42,14 +50,17 @@ pub use capability::{
     BodyConstants, BodyField, Capability, Given, NamedField, Observer, Place, Reported, Row, Rule,
     Surroundings, answering,
 };
+pub use interface::InterfaceNumbers;
 pub use law::{BodyLaw, Circumstances, LawRule, Slip, Timeless};
 pub use property::BodyProperty;
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::Result;
+use crate::grid::Field;
 use crate::motion::{FrettingRecord, IncrementRecord, Law, Pair, PassRecord, SweepRecord, UpdateRecord};
-use views::{Answer, Kept};
+use crate::operator::Boundary;
+use views::{Answer, Kept, Line, OfPoints};
 
 /// Declares a list of tables, each by its module and its struct: the struct that holds those that are given, and the macro that walks the list.
 /// `$dollar` is the sign `$` of this macro.
@@ -189,6 +200,23 @@ list! { $;
     fatigue::FatigueLimits;
 }
 
+list! { $;
+    /// The interface of the bodies, by its table; hard walls if none is given.
+    Interfaces
+    /// Repeats statements for each interface of the list, whose table has the given name in them.
+    ///
+    /// ```
+    /// use asperity_contact::each_interface;
+    ///
+    /// let mut names = Vec::new();
+    /// each_interface!(I => names.push(I::NAME));
+    /// assert_eq!(names, ["adhesion"]);
+    /// ```
+    each_interface
+    /// Attraction between the bodies.
+    adhesion::Attraction;
+}
+
 /// A table in the list of those that a case or a body may have.
 pub trait Listed<All>: Sized {
     /// Returns it, if it is given.
@@ -252,4 +280,29 @@ pub fn after_sliding(update: &UpdateRecord) -> Vec<Answer> {
     let mut answers = Vec::new();
     each_law!(L => answers.extend(L::after_sliding(update)));
     answers
+}
+
+/// Returns the jumps of a loading from one equilibrium to another, in words.
+pub fn jumps(increments: &[IncrementRecord]) -> Vec<Line> {
+    adhesion::jumps(increments)
+}
+
+/// Returns the curves over the points of a sweep besides those of the contact.
+pub fn of_points() -> Vec<OfPoints> {
+    vec![adhesion::OF_POINTS]
+}
+
+/// Returns reasons in the `pressure` of a contact at rest not to trust it. `curved` says whether the bodies are curved.
+pub fn doubts_at_rest(pressure: &Field, boundary: Boundary, curved: impl FnOnce() -> bool) -> Option<String> {
+    adhesion::cut_off(pressure, boundary, curved)
+}
+
+/// Returns reasons in the increments of a loading not to trust it.
+pub fn doubts_after_increments(increments: &[IncrementRecord]) -> Option<String> {
+    adhesion::jumped(increments)
+}
+
+/// Returns reasons in the passes of a motion not to trust them.
+pub fn doubts_after_passes(passes: &[PassRecord]) -> Option<String> {
+    adhesion::depends_on_history(passes)
 }

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::motion::PassRecord;
+use crate::motion::{PassRecord, SweepRecord};
 use crate::units::{Metre, Pascal};
 
 /// A number, or a few that belong together, in words.
@@ -193,6 +193,32 @@ pub struct PassCell {
     pub is_inside: bool,
     /// Its explanation above the table.
     pub about: &'static str,
+}
+
+/// A number in a row of the terminal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RowCell {
+    /// The head of its column.
+    pub head: &'static str,
+    /// The column of the results that has its unit.
+    pub column: &'static str,
+    /// The value.
+    pub value: f64,
+    /// Whether the page shows it among the first numbers.
+    pub is_answer: bool,
+}
+
+/// A curve over the points of a sweep.
+#[derive(Debug, Clone, Copy)]
+pub struct OfPoints {
+    /// The column, which is the name of the figure.
+    pub column: &'static str,
+    /// The quantity.
+    pub label: &'static str,
+    /// Whether its axis is logarithmic beside a logarithmic one.
+    pub may_be_log: bool,
+    /// The value of a point; `None` if it has none.
+    pub value: fn(&SweepRecord) -> Option<f64>,
 }
 
 /// A number that answers a question of the user.

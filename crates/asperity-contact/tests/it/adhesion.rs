@@ -1,6 +1,7 @@
 //! Adhesive contacts against closed forms and an independent program.
 
 use std::f64::consts::FRAC_1_PI;
+use std::sync::Arc;
 
 use asperity_base::{CellValues, Error, Field, Grid};
 use asperity_contact::adhesion::{Adhesion, Potential};
@@ -188,7 +189,7 @@ fn a_pair_is_pulled_until_adhesion_does_not_hold() {
     let tip = Topography::new(grid, sphere(&grid)).unwrap();
     // Two bodies of 2 E* have the composite modulus E*.
     let body = Material::elastic(1.5, 0.0).unwrap();
-    let pair = Pair::new(flat, tip, [&body, &body]).unwrap().with_adhesion(exponential(1.5));
+    let pair = Pair::new(flat, tip, [&body, &body]).unwrap().with_interface(Arc::new(exponential(1.5)));
     assert!((pair.modulus() - MODULUS).abs() < 1e-12);
     let stage = |load| {
         Stage::new(Loading { normal: Control::Load(load), tangential: Tangential::Force([0.0; 2]) }, 1)
@@ -200,8 +201,8 @@ fn a_pair_is_pulled_until_adhesion_does_not_hold() {
     let contact = load(&[0.5, 0.0, -1.0, -1.5, -1.6]).unwrap();
     for (increment, approach) in contact.increments[1..].iter().zip([1.126, 0.441, -0.114, -0.345]) {
         assert!((increment.approach - approach).abs() < 0.03, "{} {approach}", increment.approach);
-        assert_eq!(increment.adhesion.unwrap().jumps, 0);
-        assert!(increment.contact_area > 0.0 && increment.adhesion.unwrap().adhesive_load > 0.0);
+        assert_eq!(increment.interface.unwrap().jumps, 0);
+        assert!(increment.contact_area > 0.0 && increment.interface.unwrap().adhesive_load > 0.0);
     }
     let Err(Error::AtIncrement { increment: 6, source }) = load(&[0.5, 0.0, -1.0, -1.5, -1.6, -1.7]) else {
         panic!("it holds")

@@ -176,7 +176,7 @@ fn what_a_device_does_not_do_is_said() {
         error.unwrap_err().to_string()
     };
     let adhesive = Bounds::up_to(1.0).above(-0.1);
-    assert_eq!(refused(adhesive, &params), "a device does not solve adhesive contacts");
+    assert_eq!(refused(adhesive, &params), "a device does not solve contacts under tension");
     let direct = params.with_method(Method::Direct);
     assert!(refused(Bounds::ELASTIC, &direct).contains("by the active set only"));
 }

@@ -11,6 +11,7 @@ mod fatigue;
 mod flow;
 mod friction;
 mod in_place;
+mod interface;
 mod kinematics;
 mod laws;
 mod line;

@@ -2,6 +2,7 @@
 
 use crate::support::dense::{dense, mean_compliance, relaxation as body};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use asperity_contact::adhesion::Adhesion;
 use asperity_contact::material::Material;
@@ -263,13 +264,13 @@ fn what_viscoelastic_bodies_do_not_support_is_refused_before_anything_is_solved(
         StagedLoading::new(pair, Boundary::FREE, friction, vec![stage], Params::default()).map(|_| ())
     };
     assert!(loaded(pair(), None).is_ok() && pair().sliding_steadily(Boundary::FREE, 1.0).is_ok());
-    let sticky = || pair().with_adhesion(Adhesion::new(0.05, 1e-8).unwrap());
+    let sticky = || pair().with_interface(Arc::new(Adhesion::new(0.05, 1e-8).unwrap()));
     let soft = || pair().with_hardness([1e6.into(), f64::INFINITY.into()]).unwrap();
     let motion = Motion::new(Strategy::Overlap, control);
     let slide = Slide::graded(1e-3, 2, control);
     for (what, found) in [
-        ("adhesion", loaded(sticky(), None)),
-        ("adhesion", sticky().sliding_steadily(Boundary::FREE, 1.0).map(|_| ())),
+        ("attract each other", loaded(sticky(), None)),
+        ("attract each other", sticky().sliding_steadily(Boundary::FREE, 1.0).map(|_| ())),
         ("a hardness", loaded(soft(), None)),
         ("a hardness", soft().sliding_steadily(Boundary::FREE, 1.0).map(|_| ())),
         ("without friction", loaded(pair(), Some(Friction::coulomb(0.3).unwrap()))),

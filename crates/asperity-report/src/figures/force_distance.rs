@@ -1,4 +1,4 @@
-//! The force–distance curve of bodies that attract each other: the load over their distance, on the way together and apart.
+//! The force–distance curve of bodies that are no hard walls to each other: the load over their distance, on the way together and apart.
 
 use asperity_contact::motion::IncrementRecord;
 
@@ -8,9 +8,9 @@ use crate::draw::{Axis, Chart, Mark, Series};
 /// Increments up to which each has a marker.
 const MAX_MARKED: usize = 140;
 
-/// The curve of increments that go together and apart again; none of others, and none without adhesion.
+/// The curve of increments that go together and apart again; none of others, and none between hard walls.
 pub(crate) fn curves(increments: &[IncrementRecord]) -> Option<Curves> {
-    increments.iter().any(|increment| increment.adhesion.is_some()).then_some(())?;
+    increments.iter().any(|increment| increment.interface.is_some()).then_some(())?;
     let legs = legs(increments);
     let mark = if increments.len() > MAX_MARKED { Mark::Line } else { Mark::LineAndPoints };
     let series = |name: &str, together: bool| {
@@ -27,7 +27,7 @@ pub(crate) fn curves(increments: &[IncrementRecord]) -> Option<Curves> {
         .flat_map(|leg| leg.points.iter().copied())
         .min_by(|a, b| a[1].total_cmp(&b[1]))
         .filter(|[_, load]| *load < 0.0);
-    let jumped = |increment: &&IncrementRecord| increment.adhesion.is_some_and(|adhesion| adhesion.jumps > 0);
+    let jumped = |increment: &&IncrementRecord| increment.interface.is_some_and(|record| record.jumps > 0);
     let jumps: Curve = increments.iter().filter(jumped).map(point).collect();
     let mut series = vec![together, apart];
     series.extend(least.map(|least| Series::new("pull-off", vec![least], Mark::Points)));
@@ -114,7 +114,7 @@ fn within(curve: &[[f64; 2]], [low, high]: [f64; 2]) -> Curve {
 
 #[cfg(test)]
 mod tests {
-    use asperity_contact::motion::AdhesionRecord;
+    use asperity_contact::solver::InterfaceRecord;
 
     use super::*;
 
@@ -122,7 +122,7 @@ mod tests {
         let row = |(index, [distance, load]): (usize, &[f64; 2])| {
             let mut row = IncrementRecord::default();
             (row.increment, row.approach, row.load) = (index + 1, -distance, *load);
-            row.adhesion = Some(AdhesionRecord::default());
+            row.interface = Some(InterfaceRecord::default());
             row
         };
         points.iter().enumerate().map(row).collect()
@@ -148,7 +148,7 @@ mod tests {
         assert!(curves(&path(&[[1.0, 0.0], [0.0, 1.0]])).is_none());
         let mut without = path(&[[1.0, 0.0], [0.0, 1.0], [1.0, 0.0]]);
         assert!(curves(&without).is_some());
-        without.iter_mut().for_each(|increment| increment.adhesion = None);
+        without.iter_mut().for_each(|increment| increment.interface = None);
         assert!(curves(&without).is_none());
     }
 }

@@ -226,7 +226,7 @@ fn pressures(
     let Some(most) = loaded.max_by(|a, b| a.load.total_cmp(&b.load)) else { return Ok(()) };
     let read = |step: &StepRecord| StoredArray::read(fields, &pressure_name(step.step));
     // With tension in the cells in contact, whose least is that of the open ones, too.
-    let least = kept.iter().filter_map(|step| step.adhesion).map(|adhesion| adhesion.min_pressure);
+    let least = kept.iter().filter_map(|step| step.interface).map(|record| record.min_pressure);
     let range = ends_with_tension([least.fold(0.0, f64::min), largest])
         .unwrap_or([0.0, largest.max(f64::MIN_POSITIVE)]);
     let number = SHEET.min(kept.len());

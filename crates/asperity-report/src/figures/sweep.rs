@@ -2,6 +2,8 @@
 
 use asperity_contact::motion::SweepRecord;
 use asperity_contact::solver::Friction;
+use asperity_contact::with;
+use asperity_contact::with::views::OfPoints;
 use asperity_study::Case;
 use asperity_study::case::Prescribed;
 
@@ -12,20 +14,23 @@ use crate::error::Result;
 
 type Number = fn(&SweepRecord) -> f64;
 
-/// What is drawn over it: the column, which is the name of the figure, its axis, and whether that is logarithmic beside a logarithmic
-/// one. The mean gap falls with the logarithm of the load.
-const DRAWN: [(&str, &str, bool, Number); 6] = [
-    ("drag_coefficient", "drag over load", false, |p| {
-        p.steady.map_or(f64::NAN, |steady| steady.drag_coefficient)
-    }),
-    ("contact_area", "real contact area", true, |p| p.contact_area),
-    ("mean_gap", "mean gap", false, |p| p.mean_gap),
-    ("stiffness", "normal stiffness", true, |p| p.stiffness.unwrap_or(f64::NAN)),
-    ("max_pressure", "largest pressure", true, |p| p.max_pressure),
-    ("adhesive_load", "adhesive load", false, |p| {
-        p.adhesion.map_or(f64::NAN, |adhesion| adhesion.adhesive_load)
-    }),
+/// The curves of the contact. The mean gap falls with the logarithm of the load.
+const DRAWN: [OfPoints; 5] = [
+    drawn("drag_coefficient", "drag over load", false, |p| p.steady.map(|steady| steady.drag_coefficient)),
+    drawn("contact_area", "real contact area", true, |p| Some(p.contact_area)),
+    drawn("mean_gap", "mean gap", false, |p| Some(p.mean_gap)),
+    drawn("stiffness", "normal stiffness", true, |p| p.stiffness),
+    drawn("max_pressure", "largest pressure", true, |p| Some(p.max_pressure)),
 ];
+
+const fn drawn(
+    column: &'static str,
+    label: &'static str,
+    may_be_log: bool,
+    value: fn(&SweepRecord) -> Option<f64>,
+) -> OfPoints {
+    OfPoints { column, label, may_be_log, value }
+}
 
 pub(super) fn draw(points: &[SweepRecord], case: &Case, sheet: &mut Sheet) -> Result {
     let of = loads_in_words(points);
@@ -55,9 +60,12 @@ pub(crate) fn curves(points: &[SweepRecord], case: &Case) -> Vec<Curves> {
     ordered.sort_by(|a, b| x(a).total_cmp(&x(b)));
     let [least, most] = [f64::min, f64::max].map(|pick| points.iter().map(x).fold(f64::NAN, pick));
     let log = least > 0.0 && most >= DECADE * least;
-    // Bodies that attract each other have no stiffness, others no adhesive load.
-    let known = DRAWN.into_iter().filter(|(.., y)| points.iter().any(|point| y(point).is_finite()));
-    let drawn = known.map(|(name, label, may_be_log, y)| {
+    // Only hard walls have a stiffness, only other interfaces have curves of their own.
+    let all = DRAWN.into_iter().chain(with::of_points());
+    let known =
+        all.filter(|drawn| points.iter().any(|point| (drawn.value)(point).is_some_and(f64::is_finite)));
+    let drawn = known.map(|OfPoints { column: name, label, may_be_log, value }| {
+        let y = |point: &SweepRecord| value(point).unwrap_or(f64::NAN);
         let curve = ordered.iter().map(|point| [x(point), y(point)]).collect();
         let series = vec![Series::new("", curve, Mark::LineAndPoints)];
         let horizontal = Axis { log, ..Axis::of(swept.as_str(), column) };

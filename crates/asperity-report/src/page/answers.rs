@@ -1,8 +1,8 @@
-//! What the user asked for, before the contact itself: the answers of capabilities, of adhesion and of the laws of the bodies.
+//! What the user asked for, before the contact itself: the answers of capabilities, of the interface and of the laws of the bodies.
 
 use asperity_contact::each_capability;
 use asperity_contact::with::views::Answer;
-use asperity_contact::with::{self, Capability, Listed, adhesion, answering};
+use asperity_contact::with::{self, Capability, Listed, answering};
 use asperity_study::Outcome;
 
 use super::found::PageData;
@@ -14,10 +14,10 @@ pub(super) fn all(found: &PageData) -> Vec<Answer> {
         let rows = found.results.rows::<C>().unwrap_or_default();
         answers.extend(asked.answers(&answering::<C>(&rows, !found.points.is_empty())));
     });
-    let outcome = found.summary.as_ref().map(|summary| &summary.outcome);
-    if let Some(Outcome::Static(record)) = outcome {
-        let numbers = found.summary.as_ref().and_then(|summary| summary.adhesion.as_ref());
-        answers.extend(record.adhesion.iter().flat_map(|attraction| adhesion::answers(numbers, attraction)));
+    if let Some(summary) = &found.summary
+        && let Outcome::Static(record) = &summary.outcome
+    {
+        answers.extend(record.interface.iter().flat_map(|record| summary.interface.answers(record)));
         answers.extend(record.fretting.iter().flat_map(with::after_cycles));
     }
     answers.extend(with::after_points(&found.points));

@@ -4,8 +4,9 @@ use std::fmt::Write;
 
 use asperity_base::units::{CELSIUS, Dimension, format, format_number};
 use asperity_contact::motion::{IncrementRecord, PassRecord, StaticRecord, SweepRecord};
-use asperity_contact::with::views::Answer;
-use asperity_study::{Outcome, SubsurfaceRecord, column};
+use asperity_contact::solver::InterfacePassRecord;
+use asperity_contact::with::views::{Answer, RowCell};
+use asperity_study::{Outcome, SubsurfaceRecord, column, dimension_of_column};
 
 use super::found::PageData;
 use super::html::{escaped, minus};
@@ -141,8 +142,11 @@ fn of_passes(found: &PageData, first: &PassRecord, last: &PassRecord) -> Vec<Car
     if let Some(stress) = found.summary.as_ref().and_then(|summary| summary.subsurface.last()) {
         cards.push(of_stress(stress));
     }
-    if let Some(adhesion) = last.adhesion.filter(|adhesion| adhesion.adhesive_drag > 0.0) {
-        cards.push(Card::of("drag", "adhesive_drag", format(adhesion.adhesive_drag, Dimension::Force)));
+    let of_interface = last.interface.iter().flat_map(InterfacePassRecord::cells);
+    for RowCell { head, column, value, .. } in of_interface.filter(|cell| cell.is_answer) {
+        let value = dimension_of_column(column)
+            .map_or_else(|| format_number(value), |dimension| format(value, dimension));
+        cards.push(Card::of(head, column, value));
     }
     if let Some(drag) = last.drag {
         cards.push(Card::of("mean drag", "mean_drag", format(drag.mean_drag, Dimension::Force)));

@@ -332,9 +332,9 @@ fn of_sweep(found: &mut PageData) -> Vec<Frame> {
     frames
 }
 
-/// The increments that are kept of bodies that attract each other, each with its place on the force–distance curve; `None` if none is.
+/// The increments that are kept of bodies that are no hard walls to each other, each with its place on the force–distance curve; `None` if none is.
 fn of_increments(found: &mut PageData) -> Option<Vec<Frame>> {
-    found.case.adhesion?;
+    (!found.case.interface.is_empty()).then_some(())?;
     let increments = found.increments.clone();
     let kept: Vec<&IncrementRecord> =
         increments.iter().filter(|each| found.results.increment_path(each.increment).exists()).collect();

@@ -3,7 +3,6 @@
 //! A section is HTML, which reads and prints by itself, and data, which the page's own programs draw: maps in levels
 //! and curves, those of the figures. Nothing on the page asks for anything from outside.
 
-mod adhesion;
 mod answers;
 mod below;
 mod bodies;
@@ -17,6 +16,7 @@ mod plastic;
 mod found;
 mod head;
 mod html;
+mod interface;
 mod layers;
 mod live;
 mod numbers;
@@ -98,15 +98,15 @@ fn page(results: &Results, seen: Option<Seen>) -> asperity_base::Result<(String,
     let mut charts = Vec::new();
     // What the case asks for comes first.
     let mut sections = capability::sections(&mut found, &mut data, &mut charts);
-    let adhesion = ("adhesion", "Adhesion", adhesion::section(&found, &mut charts));
+    let interface = interface::section(&found, &mut charts);
     let over_speed = ("speed", "Over speed", course::over_speed(&found, &mut charts));
     let loading = ("loading", "Loading", course::loading(&found, &mut charts));
     let running_in = ("running-in", "Running in", course::running_in(&mut found, &mut charts));
     let contact = ("contact", "Contact", contact::section(&mut found, &mut data, &mut charts));
-    // Numbers of the attraction without a curve come after the maps.
+    // Numbers of the interface without a curve come after the maps.
     let beginning = match figures::of_force_distance(&found.increments) {
-        Some(_) => [adhesion, running_in, over_speed, loading, contact],
-        None => [running_in, over_speed, loading, contact, adhesion],
+        Some(_) => [interface, running_in, over_speed, loading, contact],
+        None => [running_in, over_speed, loading, contact, interface],
     };
     sections.extend(beginning);
     sections.extend([

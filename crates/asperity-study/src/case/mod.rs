@@ -45,16 +45,17 @@ use asperity_base::error::{Error, Result};
 use asperity_base::units::{MetrePerSecond, SquareMetre};
 use asperity_contact::material::{Coating, Compliances, Material};
 use asperity_contact::motion::{
-    Acceleration, AdhesionHistory, LoadControl, Motion, OffsetY, Path as MotionPath, PlasticUpdate, Strategy,
+    Acceleration, LoadControl, Motion, OffsetY, Path as MotionPath, PlasticUpdate, Strategy,
 };
 pub use asperity_contact::operator::{Boundary, Edge};
-use asperity_contact::solver::{Control, Sliding};
+use asperity_contact::solver::{Control, Coupling, Sliding};
 pub use asperity_contact::solver::{Device, Method};
 use asperity_contact::temperature::{Temperature, Thermal};
-use asperity_contact::with::adhesion::Attraction;
 use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
 use asperity_contact::with::viscoelastic::Steady;
-use asperity_contact::with::{BodyConstants, BodyLaws, BodyProperties, Capabilities, Surroundings};
+use asperity_contact::with::{
+    BodyConstants, BodyLaws, BodyProperties, Capabilities, Interfaces, Surroundings,
+};
 
 /// A case, resolved to SI.
 #[derive(Debug, Clone, Serialize)]
@@ -69,9 +70,9 @@ pub struct Case {
     pub upper: Body,
     /// Load, boundary and solver.
     pub contact: Contact,
-    /// Attraction between the bodies; `None` if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub adhesion: Option<Attraction>,
+    /// The interface of the bodies, by its table: hard walls if none is given.
+    #[serde(flatten)]
+    pub interface: Interfaces,
     /// Friction of the bodies; `None` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<FrictionSpec>,
@@ -290,7 +291,6 @@ impl MotionSpec {
             bulk: None,
             path: self.path,
             offset_y: self.offset_y,
-            adhesion_history: AdhesionHistory::None,
             pause: self.pause,
         }
     }
@@ -343,10 +343,10 @@ impl From<&Strategy> for StrategyKind {
 pub(crate) const MAX_CASE_BYTES: u64 = 4 << 20;
 
 impl Case {
-    /// Interval of the increments of a loading whose fields are kept, 0 for none: those of bodies that attract each other, whose way
-    /// together and apart is the result.
+    /// Interval of the increments of a loading whose fields are kept, 0 for none: those of bodies that are no hard walls to each other,
+    /// whose way together and apart is the result.
     pub(crate) fn increments_kept_every(&self) -> usize {
-        if self.adhesion.is_some() && !self.history.is_empty() { self.output.pressure_every } else { 0 }
+        if !self.interface.is_empty() && !self.history.is_empty() { self.output.pressure_every } else { 0 }
     }
 
     /// Whether a body is coated.
@@ -383,6 +383,10 @@ impl Case {
             repeats: self.motion.is_some_and(|motion| motion.repeats()),
             dragging_speed: self.dragging_speed(),
             has_friction: self.friction.is_some(),
+            couples: self.friction.as_ref().is_some_and(|friction| friction.law.coupling == Coupling::Full),
+            slides_in_place: self.sliding.is_some(),
+            flows: self.plasticity.is_some(),
+            on_device: self.contact.device != Device::Cpu,
         }
     }
 
@@ -447,7 +451,6 @@ impl Case {
         Some(Motion {
             friction: self.friction.as_ref().map(|friction| friction.law),
             bulk: self.temperature.map(|temperature| temperature.bulk),
-            adhesion_history: self.adhesion.map(|adhesion| adhesion.history).unwrap_or_default(),
             ..self.motion?.under(self.contact.prescribed.control(apparent_area))
         })
     }

@@ -17,9 +17,9 @@ use super::topography::{one_tells_the_other, topography};
 use super::{Case, TopographySpec};
 use asperity_base::error::Result;
 use asperity_base::table::Table as _;
-use asperity_contact::each_capability;
 use asperity_contact::temperature::Temperature;
-use asperity_contact::with::{Capabilities, Capability, Listed, uses};
+use asperity_contact::with::{Capabilities, Capability, Interfaces, Listed, uses};
+use asperity_contact::{each_capability, each_interface};
 
 /// Reads a topography in a separate table `[topography]`; also returns its document.
 pub(super) fn topography_alone(text: &str, folder: &Path) -> Result<(TopographySpec, Document)> {
@@ -67,7 +67,11 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     heat_together(&mut upper, &upper_table, &lower, used);
     one_tells_the_other(&lower.topography, &upper.topography, &upper_table)?;
     let contact = contact(&keys::CONTACT.demand(root)?)?;
-    let adhesion = tables::read(&keys::ADHESION, root)?;
+    let mut interface = Interfaces::default();
+    each_interface!(I => if let Some(table) = root.table(I::NAME)? {
+        known_in(&table)?;
+        I::read(&table)?.give(&mut interface);
+    });
     let mut motion = keys::MOTION.of(root)?.map(|table| motion(&table, contact.prescribed)).transpose()?;
     let sliding = tables::read(&keys::SLIDING, root)?;
     let mut friction = keys::FRICTION.of(root)?.map(|table| friction(&table)).transpose()?;
@@ -96,7 +100,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
         lower,
         upper,
         contact,
-        adhesion,
+        interface,
         friction,
         history: history.unwrap_or_default(),
         motion,

@@ -12,9 +12,9 @@ use asperity_contact::solver;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Prescribed {
-    /// Total normal force, > 0; of any sign in a history of bodies with adhesion.
+    /// Total normal force, > 0; of any sign in a history of bodies that attract each other.
     Load(Newton),
-    /// Load over the apparent area, > 0; of any sign in a history of bodies with adhesion.
+    /// Load over the apparent area, > 0; of any sign in a history of bodies that attract each other.
     MeanPressure(Pascal),
     /// Approach relative to the prepared heights; positive or negative.
     Approach(Metre),

@@ -313,35 +313,13 @@ pub fn cut_off(
         ["x", "y"][axis],
         value(side.rim),
         value(side.inside),
-        100.0 * outermost(pressure, boundary) / pressure.sum()
+        100.0 * boundary.outermost(pressure) / pressure.sum()
     ))
 }
 
-/// Warns if a free side of the grid cuts the attraction of curved bodies off, according to the `pressure`, which is negative
-/// under tension.
-pub(crate) fn attraction_cut_off(
-    pressure: &Field,
-    gap: impl FnOnce() -> Field,
-    pitch: [Metre; 2],
-    boundary: Boundary,
-) -> Option<String> {
-    /// Largest share of the adhesive load in the outermost cells without a warning.
-    const FELT: f64 = 0.01;
-    let tension = pressure.mapv(|pressure| (-pressure).max(0.0));
-    let share = outermost(&tension, boundary) / tension.sum();
-    (share > FELT).then_some(())?;
-    Paraboloid::of(&gap(), pitch)?;
-    Some(format!(
-        "the rim of the grid cuts the attraction off: the outermost cells have {:.1} % of the adhesive load; take a larger `shape`",
-        100.0 * share
-    ))
-}
-
-/// Sums the outermost cells of a field at its free sides.
-fn outermost(field: &Field, boundary: Boundary) -> f64 {
-    let shape = [field.nrows(), field.ncols()];
-    let is_rim = |axis: usize, i: usize| !boundary.repeats(axis) && (i == 0 || i + 1 == shape[axis]);
-    field.indexed_iter().filter(|((i, j), _)| is_rim(0, *i) || is_rim(1, *j)).map(|(_, p)| p).sum()
+/// Whether bodies with this gap are curved, and not flat or rough.
+pub(crate) fn are_curved(gap: &Field, pitch: [Metre; 2]) -> bool {
+    Paraboloid::of(gap, pitch).is_some()
 }
 
 /// Pressures at the two sides of the grid across an axis.

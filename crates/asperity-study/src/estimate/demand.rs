@@ -13,7 +13,7 @@ use asperity_contact::each_capability;
 use asperity_contact::material::Compliances;
 use asperity_contact::motion::{PlasticUpdate, Stage, memory_together};
 use asperity_contact::operator::{FreeFft, Operator};
-use asperity_contact::solver::{self, Control, Coupling, Method};
+use asperity_contact::solver::{self, Control, Coupling, InterfaceCost, Method};
 use asperity_contact::with::{Capability, Listed};
 
 /// Cost of a run. Memory in bytes.
@@ -123,9 +123,6 @@ const PICTURES: f64 = 60e6;
 const ANIMATION: f64 = 12e6;
 /// Number of fields of a static contact that are drawn at a time.
 const DRAWN: f64 = 6.0;
-/// Numbers of each cell for adhesion: the directions of a step of Newton's iteration, usually 25 or less and 60 at most, and the fields
-/// of two states.
-const ATTRACTED: f64 = 40.0;
 /// Numbers of each cell for steady sliding: the directions of a step of Newton's iteration on half of the cells, and the fields.
 const DIRECTIONS: f64 = 40.0;
 /// Terms of a fit to a master curve, and the fields of a term in a motion.
@@ -221,8 +218,8 @@ impl Sizes<'_> {
         // increments, and the tangential iteration.
         let coupled = 1.5 * padded + 3.0 * nx * (padded_y * ny + 2.0) + 34.0 * nx * ny;
         let mut solver = NUMBER * if self.is_coupled() { normal + coupled } else { normal };
-        if case.adhesion.is_some() {
-            solver += NUMBER * ATTRACTED * nx * ny;
+        if let Some(cost) = case.interface.cost() {
+            solver += NUMBER * cost.memory * nx * ny;
         }
         if case.steady.is_some() {
             solver += NUMBER * (DIRECTIONS * nx * ny + 6.0 * padded);
@@ -278,8 +275,9 @@ impl Sizes<'_> {
     fn solved(&self) -> &[usize] {
         let couples = self.compliances().is_some_and(|compliances| compliances.coupling != 0.0);
         let (yields, all) = (self.case.yields(), self.overlaps.len());
+        let follows = self.case.interface.follows_path();
         let motion = self.case.motion(1.0).filter(|_| !self.case.relaxes());
-        &self.overlaps[..motion.map_or(all, |motion| motion.distinct(all, yields, couples))]
+        &self.overlaps[..motion.map_or(all, |motion| motion.distinct(all, yields, couples, follows))]
     }
 
     /// Number of cells in all layers of each elasto-plastic body, and whether its boundary is periodic.
@@ -371,7 +369,8 @@ impl Sizes<'_> {
             let convolutions = contacts * cost.convolutions * digits;
             [convolutions, boundary * cost.work * convolutions * all]
         };
-        let normal = if case.adhesion.is_some() { ADHESIVE } else { NORMAL };
+        let of_interface = |InterfaceCost { convolutions, work, .. }| Cost { convolutions, work };
+        let normal = case.interface.cost().map_or(NORMAL, of_interface);
         let normal = Cost { convolutions: method * size * normal.convolutions, ..normal };
         let unlike = self.compliances().is_some_and(|compliances| compliances.dundurs().abs() > 1e-3);
         let rolling = if unlike { ROLLING_UNLIKE } else { ROLLING };
@@ -413,8 +412,8 @@ impl Sizes<'_> {
                 Some(LoadingPath::Sweep(points)) => {
                     let rolls = points.iter().filter(|point| point.rolling.is_some()).count() as f64;
                     let [a, b] = [of(rolling, rolls), of(normal, points.len() as f64 - rolls)];
-                    // The stiffness with adhesion is not computed.
-                    let each = if case.adhesion.is_some() { 0.0 } else { STIFFNESS };
+                    // Only the stiffness of hard walls is computed.
+                    let each = if case.interface.is_empty() { STIFFNESS } else { 0.0 };
                     let stiffness = each * boundary * digits * points.len() as f64 * all;
                     [a[0] + b[0], a[1] + b[1] + stiffness]
                 }
@@ -593,8 +592,6 @@ struct Cost {
 // Each is measured (docs/performance.md).
 /// A normal contact.
 const NORMAL: Cost = Cost { convolutions: 15.8, work: 2.2 };
-/// A normal contact of bodies that attract each other, with Tabor's parameter from 0.1 to 1.
-const ADHESIVE: Cost = Cost { convolutions: 45.0, work: 3.5 };
 /// A contact in gross slip whose shear displaces the surface normally.
 const SLIDING: Cost = Cost { convolutions: 36.0, work: 6.5 };
 /// An increment with friction of identical bodies, whose pressure does not depend on the shear.

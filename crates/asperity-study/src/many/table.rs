@@ -222,7 +222,7 @@ fn is_damage(error: &io::Error) -> bool {
 }
 
 /// Returns the numbers of a summary: the record of a static contact, or the last point of a sweep, or the last pass of a
-/// motion. Then those of sliding in place, of running-in, of the residual plastic flow, of adhesion, of the last most stressed point, and
+/// motion. Then those of sliding in place, of running-in, of the residual plastic flow, of the interface, of the last most stressed point, and
 /// of the capabilities.
 fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     let mut numbers = Vec::new();
@@ -240,8 +240,8 @@ fn numbers(summary: &Summary) -> Vec<(String, f64)> {
     if let Some(flow) = &summary.plasticity {
         add(&mut numbers, "", flow);
     }
-    if let Some(adhesion) = &summary.adhesion {
-        add(&mut numbers, "", adhesion);
+    if let Some(interface) = summary.interface.record() {
+        add(&mut numbers, "", interface);
     }
     if let Some(stress) = summary.subsurface.last() {
         add(&mut numbers, "subsurface_", stress);

@@ -15,10 +15,10 @@ use crate::io::lock::{self, Lock};
 use crate::limit::LIMITS_TABLE;
 use crate::tables;
 use asperity_base::error::{Error, Result};
-use asperity_contact::each_capability;
 use asperity_contact::motion::{StepRecord, SweepRecord};
 use asperity_contact::with::Capability;
 use asperity_contact::with::plasticity::Keep;
+use asperity_contact::{each_capability, each_interface};
 use serde_json::Value;
 
 /// Treatment of existing results.
@@ -168,7 +168,9 @@ fn resumable(results: &Results, case: &Value) -> Result<ExistingResults> {
     ] {
         if let Some(state) = results.last_state(rows, first, &table)? {
             whole(&results.state_path(state), &identity, None)?;
-            if first == 1 && case.get("adhesion").is_some_and(Value::is_object) {
+            let mut has_interface = false;
+            each_interface!(I => has_interface |= case.get(I::NAME).is_some_and(Value::is_object));
+            if first == 1 && has_interface {
                 let every = kept_every(case);
                 for increment in (1..=state).filter(|increment| is_nth(*increment, every)) {
                     whole(&results.increment_path(increment), &identity, None)?;

@@ -156,11 +156,11 @@ impl StepWriter {
     /// Writes the fields of a contact, a point of a sweep or an increment, if they are kept.
     fn write_contact(&self, step: &Step<'_>) -> Result<()> {
         let number = step.number;
-        let (kind, path, attracts) = match step.row {
+        let (kind, path, may_pull) = match step.row {
             StepRow::Increment(row) => {
-                ("increment", self.results.increment_path(number), row.adhesion.is_some())
+                ("increment", self.results.increment_path(number), row.interface.is_some())
             }
-            StepRow::Point(row) => ("point", self.results.point_path(number), row.adhesion.is_some()),
+            StepRow::Point(row) => ("point", self.results.point_path(number), row.interface.is_some()),
             StepRow::Update(_) | StepRow::Pass(_) => return Ok(()),
         };
         let (Some(solution), true) = (step.contact, is_nth(number, self.fields_every)) else { return Ok(()) };
@@ -171,7 +171,7 @@ impl StepWriter {
         };
         add("pressure", "Pa", &solution.pressure);
         // The pressure alone does not say which cells are in contact.
-        if attracts {
+        if may_pull {
             add("contact", "1", &solution.contact_field());
         }
         add("gap", "m", &solution.gap());

@@ -36,7 +36,7 @@ fn a_coating_is_read_and_written_back_and_nothing_is_written_where_there_is_none
 #[test]
 fn adhesion_and_loads_that_pull_are_read_and_written_back() {
     let case = load("sticking");
-    let adhesion = case.adhesion.unwrap();
+    let adhesion = case.interface.adhesion.unwrap();
     assert_eq!((adhesion.work, adhesion.range), (0.05, AdhesionRange::Grid));
     assert_eq!(adhesion.potential, Potential::Dugdale);
     let stages: Vec<_> = case.history.iter().map(|stage| stage.normal.unwrap()).collect();

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::adhesion::AdhesionRecord;
 use super::creep::CreepRecord;
 use super::fretting::FrettingRecord;
 use super::plastic::PlasticStepRecord;
+use crate::solver::InterfaceRecord;
 use crate::units::{CubicMetre, Joule, Metre, Newton, Pascal, SquareMetre};
 use asperity_base::record::columns;
 use asperity_base::record::number_or_none;
@@ -51,9 +51,9 @@ columns! {
         pub convolutions: f64,
         /// Scale-free residual η, the larger of the normal and the tangential one.
         pub residual: f64,
-        /// Attraction of the bodies; none without adhesion.
+        /// Tension across the gap; none between hard walls.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
-        pub adhesion: Option<AdhesionRecord>,
+        pub interface: Option<InterfaceRecord>,
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PlasticStepRecord>,

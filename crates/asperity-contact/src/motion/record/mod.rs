@@ -3,7 +3,6 @@
 //! A field of a record is a column of its table, or a key of `summary.json`. Only this module declares it: its type is the
 //! unit and its documentation the meaning ([`asperity_base::record`]).
 
-mod adhesion;
 mod creep;
 mod plastic;
 mod fretting;
@@ -17,7 +16,6 @@ mod step;
 mod sweep;
 mod update;
 
-pub use adhesion::{AdhesionPassRecord, AdhesionRecord};
 pub use creep::{CreepRecord, DragRecord, PassDragRecord};
 pub use fretting::FrettingRecord;
 pub use increment::IncrementRecord;

@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::adhesion::AdhesionPassRecord;
 use super::creep::PassDragRecord;
 use super::lost_volumes::{self, LostVolume};
 use super::plastic::PassPlasticRecord;
 use super::running::RunningRecord;
+use crate::solver::InterfacePassRecord;
 use crate::units::{CubicMetre, Metre, Newton, Pascal, Second, SquareMetre};
 use asperity_base::record::columns;
 use asperity_base::record::number_or_none;
@@ -47,9 +47,9 @@ columns! {
         /// Wear, films and heat; none without wear and films.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub running: Option<RunningRecord>,
-        /// Attraction of the bodies; none without adhesion.
+        /// Tension across the gap; none between hard walls.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
-        pub adhesion: Option<AdhesionPassRecord>,
+        pub interface: Option<InterfacePassRecord>,
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PassPlasticRecord>,

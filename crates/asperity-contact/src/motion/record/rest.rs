@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::adhesion::AdhesionRecord;
 use super::fretting::FrettingRecord;
 use super::plastic::PlasticRecord;
+use crate::solver::InterfaceRecord;
 use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonMetre, Pascal, PerMetre, SquareMetre};
 use asperity_base::record::columns;
 
@@ -39,9 +39,9 @@ columns! {
         /// Tangential quantities; none without friction.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub shear: Option<ShearRecord>,
-        /// Attraction of the bodies; none without adhesion.
+        /// Tension across the gap; none between hard walls.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
-        pub adhesion: Option<AdhesionRecord>,
+        pub interface: Option<InterfaceRecord>,
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PlasticRecord>,

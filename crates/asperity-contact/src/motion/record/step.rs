@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::adhesion::AdhesionRecord;
 use super::creep::DragRecord;
 use super::plastic::PlasticStepRecord;
 use super::running::HeatRecord;
+use crate::solver::InterfaceRecord;
 use crate::units::{CubicMetre, Metre, Newton, Pascal, SquareMetre};
 use asperity_base::record::columns;
 
@@ -53,9 +53,9 @@ columns! {
         /// Frictional heat; none without a flash temperature.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub heat: Option<HeatRecord>,
-        /// Attraction of the bodies; none without adhesion.
+        /// Tension across the gap; none between hard walls.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
-        pub adhesion: Option<AdhesionRecord>,
+        pub interface: Option<InterfaceRecord>,
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PlasticStepRecord>,

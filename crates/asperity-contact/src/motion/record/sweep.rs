@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::adhesion::AdhesionRecord;
 use super::steady::SteadyRecord;
+use crate::solver::InterfaceRecord;
 use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonPerMetre, Pascal, SquareMetre};
 use asperity_base::record::columns;
 
@@ -37,7 +37,7 @@ columns! {
         pub plastic_volume: CubicMetre,
         /// Elastic energy ½ ΔA Σ p u; in rolling also the energy of the shear. For viscoelastic bodies it is no stored energy.
         pub elastic_energy: Joule,
-        /// Normal stiffness dW/dδ; unknown with adhesion, in steady sliding, and in full elastic contact of a periodic surface, where it is infinite.
+        /// Normal stiffness dW/dδ; unknown for bodies that attract each other, in steady sliding, and in full elastic contact of a periodic surface, where it is infinite.
         pub stiffness: Option<NewtonPerMetre>,
         /// Creepage along x; without rolling, the columns from here to `slip_work` are 0.
         pub creepage_x: f64,
@@ -61,9 +61,9 @@ columns! {
         pub convolutions: f64,
         /// Scale-free residual η.
         pub residual: f64,
-        /// Attraction of the bodies; none without adhesion.
+        /// Tension across the gap; none between hard walls.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
-        pub adhesion: Option<AdhesionRecord>,
+        pub interface: Option<InterfaceRecord>,
         /// Steady sliding of viscoelastic bodies; none for others.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub steady: Option<SteadyRecord>,

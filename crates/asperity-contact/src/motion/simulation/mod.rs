@@ -26,7 +26,7 @@ use crate::motion::together::memory_together;
 use crate::motion::volumes::Volumes;
 use crate::motion::warm_start::WarmStart;
 use crate::motion::watch::{Progress, Watch};
-use crate::motion::{AdhesionHistory, Motion, Strategy, check_limit};
+use crate::motion::{Motion, Strategy, check_limit};
 use crate::operator::{Boundary, Operators};
 use crate::plasticity::{PlasticBody, PlasticParams, PlasticState};
 use crate::solver::{Control, Coupling, Device, Params};
@@ -79,7 +79,10 @@ impl Simulation {
         let max_load: Vec<Newton> = positions.iter().map(|p| max_load(&pair, &motion, p)).collect();
         check_limit(motion.control, motion.load_control.plastic_limit(&max_load))?;
         let distinct = match pair.creep() {
-            None => motion.distinct(positions.len(), pair.yields(), pair.couples()),
+            None => {
+                let follows = pair.interface().follows_path();
+                motion.distinct(positions.len(), pair.yields(), pair.couples(), follows)
+            }
             Some(_) => positions.len(),
         };
         let columns: Vec<usize> = positions[..distinct].iter().map(|p| p.columns).collect();
@@ -88,19 +91,10 @@ impl Simulation {
             None => pair.lower.columns().min(pair.upper.columns()),
             Some(_) => pair.lower.columns().max(pair.upper.columns()),
         });
-        if pair.adhesion().is_some() {
-            params.device.only_processor("a device does not solve adhesive contacts")?;
-            let follows = motion.adhesion_history == AdhesionHistory::Path;
-            if follows && motion.strategy == Strategy::Overlap {
-                return Err(Error::Unsupported("adhesion follows the path of the bodies only in a shift"));
-            }
-            if motion.sliding(Stroke::Forth).is_some_and(|s| s.shear_displaces_normally(pair.couples())) {
-                return Err(Error::Unsupported(
-                    "adhesion is not solved together with shear that displaces the bodies normally",
-                ));
-            }
-        }
-        if motion.sliding(Stroke::Forth).is_some_and(|s| s.shear_displaces_normally(pair.couples())) {
+        let displaces =
+            motion.sliding(Stroke::Forth).is_some_and(|s| s.shear_displaces_normally(pair.couples()));
+        pair.interface().check_passes(motion.strategy != Strategy::Overlap, displaces, &params)?;
+        if displaces {
             params.device.only_processor(
                 "a device does not solve sliding whose shear displaces the bodies normally",
             )?;
@@ -111,7 +105,7 @@ impl Simulation {
             pair.check_shear()?;
         }
         let together = params.device == Device::Cpu
-            && pair.adhesion().is_none()
+            && pair.interface().is_hard()
             && pair.creep().is_none()
             && memory_together(&motion, params.method, pair.yields(), &columns, pair.lower.width()).is_some();
         Ok(Self {
@@ -141,7 +135,7 @@ impl Simulation {
     /// If the number of positions in `warm` differs from that of the solved positions of a pass, or if it has any although
     /// passes do not repeat.
     pub fn resumed(self, passes: usize, warm: WarmStart) -> Self {
-        let begins_alone = self.volumes.is_some() || self.pair.adhesion().is_some();
+        let begins_alone = self.volumes.is_some() || !self.pair.interface().is_hard();
         let kept = if self.repeats() && !begins_alone { self.distinct } else { 0 };
         assert_eq!(warm.positions.len(), kept, "positions of the warm start");
         let mut resumed = Self { passes_done: passes, warm, ..self };
@@ -449,15 +443,13 @@ impl Simulation {
         })
     }
 
-    /// Returns how much the loads of a pass of bodies with adhesion depend on the position before; 0 if they follow it.
+    /// Returns how much the loads of a pass depend on the position before; 0 if they do not, or if they follow it.
     fn history_difference(&self, outcome: &Pass, watch: &dyn Watch) -> Result<f64> {
-        let is_alone = self.motion.adhesion_history == AdhesionHistory::None;
-        match self.pair.adhesion() {
-            Some(_) if is_alone && !outcome.has_changed => {
-                self.solver(watch).history_difference(outcome, &self.params)
-            }
-            _ => Ok(0.0),
+        let interface = self.pair.interface();
+        if interface.is_hard() || interface.follows_path() || outcome.has_changed {
+            return Ok(0.0);
         }
+        self.solver(watch).history_difference(outcome, &self.params)
     }
 
     /// Adds the contacts of the return stroke to the solved ones, if they are the same.
@@ -487,8 +479,8 @@ impl Simulation {
         let SolvedPass { outcome, hardness, steps, guess, extrapolation, represented, .. } = pass;
         // Without repetition the next pass begins from zero.
         let (guess, again) = match self.repeats() {
-            // Each pass of elasto-plastic bodies, and of bodies with adhesion, begins with separated bodies.
-            true if self.volumes.is_some() || self.pair.adhesion().is_some() => (guess, &[][..]),
+            // Each pass of elasto-plastic bodies, and of bodies that are no hard walls to each other, begins with separated bodies.
+            true if self.volumes.is_some() || !self.pair.interface().is_hard() => (guess, &[][..]),
             true => (guess, &outcome.contacts[..self.distinct]),
             false => (None, &[][..]),
         };

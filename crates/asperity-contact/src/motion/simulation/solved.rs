@@ -8,12 +8,11 @@ use crate::motion::law;
 use crate::motion::pair::Pair;
 use crate::motion::pass::Pass;
 use crate::motion::plastic_volume::PlasticVolume;
-use crate::motion::record::{
-    AdhesionPassRecord, LostVolume, PassDragRecord, PassRecord, RunningRecord, StepRecord,
-};
+use crate::motion::record::{LostVolume, PassDragRecord, PassRecord, RunningRecord, StepRecord};
 use crate::motion::report::PassReport;
 use crate::motion::rim::Interior;
 use crate::motion::warm_start::{Guess, WarmStart};
+use crate::solver::InterfacePassRecord;
 use crate::units::{Metre, Second};
 
 /// A solved pass that is not yet [finished](super::Simulation::finish).
@@ -64,8 +63,8 @@ impl SolvedPass {
             outer_iterations: self.trials,
             wall_time_s: self.wall_time,
             running: self.running,
-            adhesion: AdhesionPassRecord::of(
-                self.steps.iter().filter_map(|step| step.adhesion.as_ref()),
+            interface: InterfacePassRecord::of(
+                self.steps.iter().filter_map(|step| step.interface.as_ref()),
                 self.distance,
                 self.history_difference,
             ),
@@ -142,7 +141,7 @@ fn summarise(outcome: &Pass, interiors: &[Interior; 2], steps: &[StepRecord]) ->
         max_pressure: most(|s| s.max_pressure),
         lost: outcome.lost.clone(),
         running: None,
-        adhesion: None,
+        interface: None,
         plastic: None,
         drag: None,
         sq_lower: pair.lower.heights.std(0.0),

@@ -1,12 +1,12 @@
-//! Adhesion of a case in numbers, and the warnings about it.
+//! Adhesion of a case in numbers.
 
 use serde::{Deserialize, Serialize};
 
-use crate::adhesion::{Adhesion, RESOLVED_CELLS};
+use crate::adhesion::Adhesion;
 use crate::grid::{Field, Grid};
-use crate::motion::{IncrementRecord, PassRecord};
+use crate::motion::IncrementRecord;
 use crate::operator::Boundary;
-use crate::units::{Dimension, Joule, Metre, Newton, Pascal, PerMetre, format};
+use crate::units::{Joule, Metre, Newton, Pascal, PerMetre};
 use asperity_base::math::RealFft2;
 use asperity_base::math::fft::angular_frequency;
 use asperity_base::record::columns;
@@ -79,51 +79,6 @@ impl AdhesionSummary {
         }
         Self { pull_off: least, work_of_separation: work, ..self }
     }
-
-    /// Returns the warnings that the grid and the surfaces give before a contact is solved.
-    pub fn warnings(&self, adhesion: &Adhesion, modulus: Pascal, pitch: Metre) -> Vec<String> {
-        let length = |value| format(value, Dimension::Length);
-        let coarse = (self.process_zone_cells < 0.999 * RESOLVED_CELLS).then(|| {
-            format!(
-                "the grid does not resolve the adhesion: the process zone at the edge of a contact is {}, {:.2} cells, and pull-off \
-                 needs {RESOLVED_CELLS}; take a pitch of {}, or `range = \"grid\"`, which is {}",
-                length(self.process_zone),
-                self.process_zone_cells,
-                length(self.process_zone / RESOLVED_CELLS),
-                length(Adhesion::grid_range(adhesion.work, modulus, pitch))
-            )
-        });
-        coarse.into_iter().collect()
-    }
-}
-
-/// Returns the warning about jumps of a loading.
-pub fn jumps(increments: &[IncrementRecord]) -> Option<String> {
-    let jumped = |increment: &&IncrementRecord| increment.adhesion.is_some_and(|adhesion| adhesion.jumps > 0);
-    let jumps: Vec<_> = increments.iter().filter(jumped).collect();
-    let first = jumps.first()?;
-    Some(format!(
-        "the bodies jump in {} of {} increments, first in increment {}: the energy lost there depends on the increments; take more of \
-         them",
-        jumps.len(),
-        increments.len(),
-        first.increment
-    ))
-}
-
-/// Returns the warning about positions that depend on the one before.
-pub fn depends_on_history(passes: &[PassRecord]) -> Option<String> {
-    /// Largest change of the load of a position, relative to the mean, without a warning.
-    const INDEPENDENT: f64 = 0.01;
-    let of_pass = |pass: &PassRecord| pass.adhesion.map_or(0.0, |adhesion| adhesion.history_difference);
-    let largest = passes.iter().map(of_pass).fold(0.0, f64::max);
-    (largest > INDEPENDENT).then(|| {
-        format!(
-            "the load of a position changes by {:.1} % if the bodies come from the position before: contacts jump, and depend on the \
-             path; set `history = \"path\"` in [adhesion] of a shift",
-            100.0 * largest
-        )
-    })
 }
 
 /// Returns the rms slope and the rms Laplacian of a gap, by differences of neighbouring cells. They wrap round periodic axes.

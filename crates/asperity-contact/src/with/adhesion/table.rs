@@ -2,10 +2,9 @@
 
 use serde::{Serialize, Serializer};
 
-use crate::adhesion::{Adhesion, Potential};
+use crate::adhesion::{Adhesion, History, Potential};
 use crate::error::Result;
 use crate::grid::Grid;
-use crate::motion::AdhesionHistory;
 use crate::units::{Dimension, JoulePerSquareMetre, Metre, Pascal};
 use asperity_base::table::{Bounds, Exists, Key, Kind, Value};
 use asperity_derive::Table;
@@ -32,9 +31,9 @@ pub struct Attraction {
     pub potential: Potential,
     /// In a motion: `"none"`, the bodies come from afar at each position; `"path"`, in a shift, from the position before, so that jumps
     /// lose energy.
-    #[key(choice, default = AdhesionHistory::None, example = "\"path\"")]
+    #[key(choice, default = History::None, example = "\"path\"")]
     #[serde(skip_serializing_if = "is_none")]
-    pub history: AdhesionHistory,
+    pub history: History,
 }
 
 /// Israelachvili, Intermolecular and Surface Forces: 10 mJ/m² in liquids to some J/m² of clean metals.
@@ -65,6 +64,11 @@ impl Serialize for AdhesionRange {
 }
 
 impl Attraction {
+    /// Whether the bodies come from the position before at each position of a pass.
+    pub(in crate::with) fn follows_path(&self) -> bool {
+        self.history == History::Path
+    }
+
     /// Returns the law for bodies with this composite modulus on a `grid`.
     ///
     /// # Errors
@@ -74,7 +78,7 @@ impl Attraction {
             AdhesionRange::Length(range) => range,
             AdhesionRange::Grid => Adhesion::grid_range(self.work, modulus, grid.pitch[0].max(grid.pitch[1])),
         };
-        Ok(Adhesion::new(self.work, range)?.with_potential(self.potential))
+        Ok(Adhesion::new(self.work, range)?.with_potential(self.potential).with_history(self.history))
     }
 }
 
@@ -93,6 +97,7 @@ fn range(value: &dyn Value, key: &Key) -> Result<AdhesionRange> {
     }
 }
 
-fn is_none(history: &AdhesionHistory) -> bool {
-    *history == AdhesionHistory::None
+/// Whether it is the default.
+fn is_none(history: &History) -> bool {
+    *history == History::None
 }

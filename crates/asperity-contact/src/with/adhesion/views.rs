@@ -1,12 +1,128 @@
-//! Attraction in words.
+//! Attraction in numbers and words.
 
-use super::AdhesionSummary;
-use crate::motion::AdhesionRecord;
-use crate::units::{Dimension, format};
-use crate::with::views::Answer;
+use super::{AdhesionRange, AdhesionSummary, Attraction};
+use crate::adhesion::{AdhesionPassRecord, AdhesionRecord};
+use crate::motion::IncrementRecord;
+use crate::units::{Dimension, format, format_number};
+use crate::with::views::{Answer, Line, OfPoints, RowCell};
+use asperity_base::choice::Choice;
+
+/// The numbers in the order of the page, with their names there.
+pub(super) const LABELS: [(&str, &str); 9] = [
+    ("pull_off", "pull-off"),
+    ("work_of_separation", "work of separation"),
+    ("tabor", "Tabor's parameter"),
+    ("pastewka_robbins", "Pastewka and Robbins"),
+    ("range", "range"),
+    ("max_tension", "largest tension"),
+    ("process_zone", "process zone"),
+    ("process_zone_cells", "cells of the process zone"),
+    ("full_contact_energy", "energy of full contact"),
+];
+
+/// The curve over the points of a sweep.
+pub(in crate::with) const OF_POINTS: OfPoints = OfPoints {
+    column: "adhesive_load",
+    label: "adhesive load",
+    may_be_log: false,
+    value: |point| point.interface.map(|record| record.adhesive_load),
+};
+
+impl Attraction {
+    /// Describes it for `asperity check`, with its `numbers` if they are known.
+    pub fn describe(&self, numbers: Option<&AdhesionSummary>) -> String {
+        let length = |value| format(value, Dimension::Length);
+        let work = format(self.work, Dimension::SurfaceEnergy);
+        let mut text = format!("work {work}, {}", self.potential.word());
+        let Some(numbers) = numbers else { return text };
+        let of_the_grid = if self.range == AdhesionRange::Grid { " from the grid" } else { "" };
+        text += &format!(
+            ", range {}{of_the_grid}, tension up to {}; process zone {}, {:.2} cells",
+            length(numbers.range),
+            format(numbers.max_tension, Dimension::Pressure),
+            length(numbers.process_zone),
+            numbers.process_zone_cells
+        );
+        if let Some(tabor) = numbers.tabor {
+            text += &format!("; Tabor's parameter {}", format_number(tabor));
+        }
+        if let Some(parameter) = numbers.pastewka_robbins {
+            text += &format!("; Pastewka and Robbins {} (sticky below 1)", format_number(parameter));
+        }
+        if let Some(energy) = numbers.full_contact_energy {
+            text += &format!("; full contact stores {} of the work", format_number(energy));
+        }
+        text
+    }
+}
+
+impl AdhesionSummary {
+    /// Returns the numbers for the terminal: what a retreat shows, and Tabor's parameter.
+    pub fn lines(&self) -> Vec<Line> {
+        let pull_off = self.pull_off.map(|load| Line::new("pull-off", format(load, Dimension::Force)));
+        let separation = self.work_of_separation.map(|work| {
+            let work = format(work, Dimension::Energy);
+            Line::new("separation", format!("{work} of work under loads that pull"))
+        });
+        let tabor = self.tabor.map(|tabor| Line::new("Tabor's parameter", format_number(tabor)));
+        [pull_off, separation, tabor].into_iter().flatten().collect()
+    }
+}
+
+impl AdhesionRecord {
+    /// Returns the numbers of a contact at rest.
+    pub fn lines(&self) -> Vec<Line> {
+        let energy = |value| format(value, Dimension::Energy);
+        let mut lines = vec![
+            Line::new("least pressure", format(self.min_pressure, Dimension::Pressure)),
+            Line::new("adhesive load", format(self.adhesive_load, Dimension::Force)),
+            Line::new("adhesion energy", energy(self.adhesion_energy)),
+        ];
+        if self.jumps > 0 {
+            let jumps = if self.jumps == 1 { "jump" } else { "jumps" };
+            let lost = format!("{} in {} {jumps}", energy(self.energy_lost), self.jumps);
+            lines.push(Line::new("energy lost", lost));
+        }
+        lines
+    }
+
+    /// Returns its number in the row of a point of a sweep on the terminal.
+    pub fn cell(&self) -> RowCell {
+        RowCell { head: "adhesive", column: "adhesive_load", value: self.adhesive_load, is_answer: false }
+    }
+}
+
+impl AdhesionPassRecord {
+    /// Returns its numbers in the row of a pass on the terminal.
+    pub fn cells(&self) -> Vec<RowCell> {
+        let (head, column) = ("adhesive", "mean_adhesive_load");
+        let load = RowCell { head, column, value: self.mean_adhesive_load, is_answer: false };
+        let (head, column) = ("drag", "adhesive_drag");
+        let drag = RowCell { head, column, value: self.adhesive_drag, is_answer: true };
+        [load].into_iter().chain((self.adhesive_drag > 0.0).then_some(drag)).collect()
+    }
+}
+
+/// Returns the jumps of a loading, one by one.
+pub(in crate::with) fn jumps(increments: &[IncrementRecord]) -> Vec<Line> {
+    let jump = |pair: &[IncrementRecord]| {
+        let [before, after] = [&pair[0], &pair[1]];
+        let record = after.interface.filter(|record| record.jumps > 0)?;
+        let text = format!(
+            "load {} → {}, area of contact {} → {}, energy lost {}",
+            format(before.load, Dimension::Force),
+            format(after.load, Dimension::Force),
+            format(before.contact_area, Dimension::Area),
+            format(after.contact_area, Dimension::Area),
+            format(record.energy_lost, Dimension::Energy)
+        );
+        Some(Line::new(format!("jump in increment {}", after.increment), text))
+    };
+    increments.windows(2).filter_map(jump).collect()
+}
 
 /// Returns what a contact at rest of bodies that attract each other shows: their pull-off if they retreat, else their attraction.
-pub fn answers(numbers: Option<&AdhesionSummary>, record: &AdhesionRecord) -> Vec<Answer> {
+pub(in crate::with) fn answers(numbers: Option<&AdhesionSummary>, record: &AdhesionRecord) -> Vec<Answer> {
     let retreat = numbers.and_then(|numbers| numbers.pull_off.zip(numbers.work_of_separation));
     let Some((least, work)) = retreat else {
         let value = format(record.adhesive_load, Dimension::Force);

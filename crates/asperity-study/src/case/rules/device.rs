@@ -47,15 +47,6 @@ pub(super) const RULES: &[Rule] = &[
         },
     },
     Rule {
-        this: "[adhesion]",
-        with: "`device` in [contact]",
-        message: "a device does not solve adhesive contacts",
-        hint: ON_PROCESSOR,
-        at: "adhesion",
-        example: &[ON_DEVICE, r#"adhesion = { work = "50 mJ/m2", range = "2 nm" }"#],
-        broken: |tables| tables.on_device("adhesion", |_| true),
-    },
-    Rule {
         this: "[plasticity]",
         with: "`device` in [contact]",
         message: "a device does not solve bodies that deform plastically below the surface",

@@ -1,7 +1,7 @@
 //! Rules of friction, rolling, sweeps and histories.
 
 use super::super::friction::IN_PLANE;
-use super::super::{Boundary, InPlane, StageSpec};
+use super::super::{Boundary, InPlane, Prescribed, StageSpec};
 use super::Rule;
 use super::examples::{AT_ANY_SPEED, FLOWS, LINE, ROLLS, RUBS, SWEEP, VOLUME};
 
@@ -182,6 +182,25 @@ pub(super) const RULES: &[Rule] = &[
         at: "history.force",
         example: &[r#"history = [{ force = "0.1 N" }]"#],
         broken: |tables| tables.of_stage(&IN_PLANE).filter(|_| tables.case.friction.is_none()),
+    },
+    Rule {
+        this: "a `load` or `mean_pressure` of at most 0 in [[history]]",
+        with: "no [adhesion]",
+        message: "'{key}' is {value}, expected a value above 0: nothing holds the bodies together",
+        hint: "a load may pull at bodies with [adhesion]",
+        at: "history.load",
+        example: &[r#"history = [{ load = "-1 N" }]"#],
+        broken: |tables| {
+            let pulls = |normal: &Prescribed| match *normal {
+                Prescribed::Load(value) | Prescribed::MeanPressure(value) => value <= 0.0,
+                Prescribed::Approach(_) => false,
+            };
+            tables.case.interface.is_empty().then_some(())?;
+            let index =
+                tables.case.history.iter().position(|stage| stage.normal.as_ref().is_some_and(pulls))?;
+            let stage = tables.stages().into_iter().nth(index)?.table().ok()?;
+            stage.get("load").or(stage.get("mean_pressure"))
+        },
     },
 ];
 

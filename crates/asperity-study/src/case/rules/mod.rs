@@ -3,7 +3,6 @@
 //! Each row has a message, a hint and the key that the error points to. A case is checked against the rows once all of its
 //! tables are read. `docs/input/combinations.md` lists them, and a test runs their examples.
 
-mod adhesion;
 mod bodies;
 mod device;
 mod examples;
@@ -20,8 +19,10 @@ use super::{Body, Case, FrictionSpec, LoadingPath, MotionSpec};
 use asperity_base::error::{Error, Result};
 use asperity_base::table;
 use asperity_contact::motion::Strategy;
-use asperity_contact::with::{BodyLaw, Capability, Circumstances, Listed, Slip, Timeless};
-use asperity_contact::{each_capability, each_law};
+use asperity_contact::with::{
+    self, BodyLaw, Capability, Circumstances, Listed, Slip, Surroundings, Timeless,
+};
+use asperity_contact::{each_capability, each_interface, each_law};
 
 /// The description of a rule: two entries of a case file exclude each other, or one requires the other.
 pub type Exclusion = table::Rule<()>;
@@ -40,7 +41,7 @@ const OF_THE_CONTACT: [&[Rule]; 6] =
     [bodies::RULES, viscoelastic::RULES, motion::RULES, loading::RULES, plasticity::RULES, running::RULES];
 
 /// Rules of everything else, which come after those of the laws.
-const OF_THE_REST: [&[Rule]; 4] = [temperature::RULES, output::RULES, adhesion::RULES, device::RULES];
+const OF_THE_REST: [&[Rule]; 3] = [temperature::RULES, output::RULES, device::RULES];
 
 /// Returns an error if the case breaks a rule.
 pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
@@ -49,12 +50,8 @@ pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
     tables.check_laws()?;
     tables.check(&OF_THE_REST)?;
     let surroundings = case.surroundings();
-    each_capability!(C => for rule in C::RULES {
-        let is_broken = C::of(&case.with).is_some_and(|asked| (rule.broken)(asked, &surroundings));
-        if let Some(entry) = tables.at(rule.at).filter(|_| is_broken) {
-            return Err(refused(rule, &entry));
-        }
-    });
+    each_interface!(I => tables.check_given(I::of(&case.interface), I::RULES, &surroundings)?);
+    each_capability!(C => tables.check_given(C::of(&case.with), C::RULES, &surroundings)?);
     Ok(())
 }
 
@@ -63,6 +60,7 @@ pub fn rules() -> Vec<Exclusion> {
     let mut exclusions: Vec<_> = OF_THE_CONTACT.into_iter().flatten().map(Rule::described).collect();
     each_law!(L => exclusions.extend(L::RULES.iter().map(table::Rule::described)));
     exclusions.extend(OF_THE_REST.into_iter().flatten().map(Rule::described));
+    each_interface!(I => exclusions.extend(I::RULES.iter().map(table::Rule::described)));
     each_capability!(C => exclusions.extend(C::RULES.iter().map(table::Rule::described)));
     exclusions
 }
@@ -79,6 +77,19 @@ impl<'a> Tables<'a> {
     fn check(&self, rules: &[&[Rule]]) -> Result<()> {
         let broken = rules.iter().copied().flatten().find_map(|rule| Some((rule, (rule.broken)(self)?)));
         broken.map_or(Ok(()), |(rule, entry)| Err(refused(rule, &entry)))
+    }
+
+    /// Returns an error if a table that is `given` breaks one of its rules.
+    fn check_given<T>(
+        &self,
+        given: Option<&T>,
+        rules: &[with::Rule<T>],
+        surroundings: &Surroundings,
+    ) -> Result<()> {
+        let Some(table) = given else { return Ok(()) };
+        let broken = rules.iter().filter(|rule| (rule.broken)(table, surroundings));
+        let mut broken = broken.filter_map(|rule| Some((rule, self.at(rule.at)?)));
+        broken.next().map_or(Ok(()), |(rule, entry)| Err(refused(rule, &entry)))
     }
 
     /// Returns an error if the case breaks a rule of a law that changes a body.

@@ -22,11 +22,10 @@ use asperity_base::table::Table as _;
 pub use asperity_base::table::{Bounds, Exists, Fallback, Key, Kind, Section};
 use asperity_contact::material::Coating;
 use asperity_contact::temperature::Temperature;
-use asperity_contact::with::adhesion::Attraction;
 use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
 use asperity_contact::with::viscoelastic::Steady;
 use asperity_contact::with::{BodyLaw, BodyProperty, Capability};
-use asperity_contact::{each_capability, each_law, each_property};
+use asperity_contact::{each_capability, each_interface, each_law, each_property};
 
 /// Returns all keys of a case file, section by section, in the order in which a misplaced key is searched.
 ///
@@ -40,6 +39,7 @@ use asperity_contact::{each_capability, each_law, each_property};
 pub fn keys() -> &'static [Section] {
     static KEYS: LazyLock<Vec<Section>> = LazyLock::new(|| {
         let (mut root, mut of_capabilities) = (root::SECTION.keys.to_vec(), Vec::new());
+        each_interface!(I => root.push(typed::table(I::NAME, Fallback::Absent("none"), I::MEANING).key));
         each_capability!(C => {
             root.push(typed::table(C::NAME, Fallback::Absent("none"), C::MEANING).key);
             of_capabilities.extend(C::sections());
@@ -54,7 +54,8 @@ pub fn keys() -> &'static [Section] {
 fn of_every_case() -> Vec<Section> {
     let declared = |section: Section| vec![section];
     let (mut both, mut of_laws) = (body::both::SECTION.keys.to_vec(), Vec::new());
-    let mut of_properties = Vec::new();
+    let (mut of_properties, mut of_interfaces) = (Vec::new(), Vec::new());
+    each_interface!(I => of_interfaces.extend(I::sections()));
     each_property!(P => {
         both.push(typed::table(P::NAME, Fallback::Absent(P::WITHOUT), P::MEANING).key);
         of_properties.extend(P::sections());
@@ -68,7 +69,7 @@ fn of_every_case() -> Vec<Section> {
         declared(body::upper::SECTION),
         Coating::sections(),
         declared(loading::contact::SECTION),
-        Attraction::sections(),
+        of_interfaces,
         declared(moving::motion::SECTION),
         declared(loading::friction::SECTION),
         SubsurfaceSpec::sections(),
@@ -102,10 +103,9 @@ mod tests {
     use asperity_contact::material::Coating;
     use asperity_contact::motion::Acceleration;
     use asperity_contact::temperature::Temperature;
-    use asperity_contact::with::adhesion::Attraction;
     use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
     use asperity_contact::with::viscoelastic::{Steady, Viscoelasticity};
-    use asperity_contact::{each_capability, film, wear};
+    use asperity_contact::{each_capability, each_interface, film, wear};
     use asperity_surface::{Form, Generator};
 
     use super::super::cursor::Table as Written;
@@ -177,7 +177,7 @@ mod tests {
         check::<wear::WearCoefficient>("coefficient = 1e-16");
         check::<film::Film>("");
         check::<Temperature>("");
-        check::<Attraction>("");
+        each_interface!(I => check::<I>(""));
         check::<SubsurfaceSpec>("");
         check::<Coating>("");
         check::<Viscoelasticity>("moduli = [1e6]\ntimes = [1]");

@@ -29,7 +29,6 @@ section! { &[], "";
         Absent("none"),
         "volume below the surface in which bodies deform plastically",
     );
-    ADHESION: Nested = table("adhesion", Absent("none"), "attraction between the bodies");
     SUBSURFACE: Nested = table("subsurface", Absent("none"), "stress below the surface");
     OUTPUT: Nested = table("output", Absent("its defaults"), "stored results");
 }

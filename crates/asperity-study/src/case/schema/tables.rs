@@ -63,7 +63,7 @@ pub(crate) fn belongs(key: &str, table: &str) -> Option<(String, Option<String>)
     let name = declared(table);
     let elsewhere = |section: &&Section| section.has(key) && !section.tables.contains(&name.as_str());
     let hint = match keys().iter().filter(|section| !section.tables.is_empty()).find(elsewhere) {
-        // The key of this name in [adhesion] is a word, and rarely meant.
+        // A key of this name in another table is a word, and rarely meant.
         _ if key == root::HISTORY.key.name => "write stages as separate tables: [[history]]".to_owned(),
         Some(section) => {
             let body = name.split('.').next();

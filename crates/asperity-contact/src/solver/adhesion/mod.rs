@@ -7,22 +7,27 @@
 //! Rounds are slow near an instability. Newton's iteration then finds the equilibrium towards which they converge.
 
 mod forecast;
+mod law;
 mod newton;
+mod record;
 #[cfg(test)]
 mod tests;
+
+pub use law::{Adhesion, History, Potential, RESOLVED_CELLS};
+pub use record::{AdhesionPassRecord, AdhesionRecord};
 
 use std::mem;
 
 use ndarray::Zip;
 
-use crate::adhesion::{Adhesion, Potential};
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, in_rows};
 use crate::operator::Operator;
 use crate::solver::{
-    Bounds, Control, Params, Solution, Stats, Watch, residual, self_influence, solve_normal_watched,
+    Before, Bounds, Control, Interface, InterfaceCost, Params, Solution, Stats, Watch, residual,
+    self_influence, solve_normal_watched,
 };
-use crate::units::Newton;
+use crate::units::{JoulePerSquareMetre, Metre, Newton, Pascal};
 use asperity_base::watch::check_stop;
 
 use forecast::Changes;
@@ -64,28 +69,74 @@ pub fn solve_adhesive(
     params: &Params,
 ) -> Result<Solution> {
     let (initial_gap, upper) = (in_rows(initial_gap), upper.clone().in_rows());
-    solve_adhesive_watched(operator, &initial_gap, adhesion, &upper, control, last, params, &())
+    let problem = Problem { initial_gap: &initial_gap, adhesion, upper: &upper, control, params, watch: &() };
+    problem.checked(operator)?.solve(operator, last)
 }
 
-/// [`solve_adhesive`] with a watch.
-#[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
-pub(crate) fn solve_adhesive_watched(
-    operator: &mut dyn Operator,
-    initial_gap: &Field,
-    adhesion: &Adhesion,
-    upper: &CellValues,
-    control: Control,
-    last: Option<&Solution>,
-    params: &Params,
-    watch: &dyn Watch,
-) -> Result<Solution> {
-    if !operator.slab().is_whole() {
-        return Err(Error::Unsupported("adhesion is not solved on several ranks"));
-    }
-    params.device.only_processor("a device does not solve adhesive contacts")?;
-    let problem = Problem { initial_gap, adhesion, upper, control, params, watch };
-    problem.solve(operator, last)
+impl Adhesion {
+    /// Cost of a contact with Tabor's parameter from 0.1 to 1, as measured (docs/performance.md). The memory is that of the directions of a
+    /// step of Newton's iteration, usually 25 or less and 60 at most, and of the fields of two states.
+    pub const COST: InterfaceCost = InterfaceCost { convolutions: 45.0, work: 3.5, memory: 40.0 };
 }
+
+impl Interface for Adhesion {
+    fn solve(
+        &self,
+        operator: &mut dyn Operator,
+        gap: &Field,
+        bounds: &Bounds,
+        control: Control,
+        before: Before<'_>,
+        params: &Params,
+        watch: &dyn Watch,
+    ) -> Result<Solution> {
+        let last = match before {
+            Before::Contact(last) => Some(last),
+            Before::Apart | Before::Guess(_) => None,
+        };
+        let upper = bounds.upper();
+        let problem = Problem { initial_gap: gap, adhesion: self, upper, control, params, watch };
+        problem.checked(operator)?.solve(operator, last)
+    }
+
+    fn tension(&self, gap: Metre) -> Pascal {
+        self.tension(gap)
+    }
+
+    fn energy(&self, gap: Metre) -> JoulePerSquareMetre {
+        self.energy(gap)
+    }
+
+    fn is_hard(&self) -> bool {
+        false
+    }
+
+    fn follows_path(&self) -> bool {
+        self.history == History::Path
+    }
+
+    fn check_combined(&self) -> Result<()> {
+        Err(Error::Unsupported(
+            "adhesion is not solved together with coupled friction, rolling, sliding in place, plastic flow or ranks",
+        ))
+    }
+
+    fn check_passes(&self, is_shift: bool, displaces: bool, params: &Params) -> Result<()> {
+        params.device.only_processor(NOT_ON_A_DEVICE)?;
+        if self.follows_path() && !is_shift {
+            return Err(Error::Unsupported("adhesion follows the path of the bodies only in a shift"));
+        }
+        if displaces {
+            return Err(Error::Unsupported(
+                "adhesion is not solved together with shear that displaces the bodies normally",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// Message for a device.
+const NOT_ON_A_DEVICE: &str = "a device does not solve adhesive contacts";
 
 /// A contact with adhesion to be solved.
 struct Problem<'a> {
@@ -98,6 +149,15 @@ struct Problem<'a> {
 }
 
 impl Problem<'_> {
+    /// Returns [`Error::Unsupported`] if a device or several ranks are to solve it.
+    fn checked(self, operator: &dyn Operator) -> Result<Self> {
+        if !operator.slab().is_whole() {
+            return Err(Error::Unsupported("adhesion is not solved on several ranks"));
+        }
+        self.params.device.only_processor(NOT_ON_A_DEVICE)?;
+        Ok(self)
+    }
+
     fn solve(&self, operator: &mut dyn Operator, last: Option<&Solution>) -> Result<Solution> {
         let Self { initial_gap, control, params, .. } = *self;
         let tolerance = params.tolerance;

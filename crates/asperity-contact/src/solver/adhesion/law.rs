@@ -1,4 +1,4 @@
-//! Adhesion: the attraction between two surfaces across their gap, and the numbers that describe how strong it is.
+//! The attraction between two surfaces across their gap, and the numbers that describe how strong it is.
 
 use std::f64::consts::PI;
 
@@ -18,6 +18,19 @@ pub enum Potential {
 
 choice!(Potential: "exponential" => Exponential, "dugdale" => Dugdale);
 
+/// Where bodies that attract each other come from at each position of a pass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum History {
+    /// From afar: positions are independent.
+    #[default]
+    None,
+    /// From the position before, with its displacement: the bodies keep what adheres, and jumps lose energy. Each pass begins from
+    /// afar.
+    Path,
+}
+
+choice!(History: "none" => None, "path" => Path);
+
 /// Attraction between two surfaces: the potential energy v(g) of an area at the gap g ≥ 0, with v(0) = −w.
 ///
 /// The tension σ = dv/dg ≥ 0 pulls the surfaces together. It is largest in contact, σ(0) = w/ϱ. Both potentials are concave, so
@@ -31,6 +44,8 @@ pub struct Adhesion {
     pub range: Metre,
     /// Form of the attraction.
     pub potential: Potential,
+    /// Where the bodies come from at each position of a pass.
+    pub history: History,
 }
 
 impl Adhesion {
@@ -43,13 +58,19 @@ impl Adhesion {
         let expected = "a finite energy of an area above 0";
         check_in(Dimension::SurfaceEnergy, "work of adhesion", work, good(work), expected)?;
         check_in(Dimension::Length, "range of adhesion", range, good(range), "a finite length above 0")?;
-        Ok(Self { work, range, potential: Potential::Exponential })
+        Ok(Self { work, range, potential: Potential::Exponential, history: History::None })
     }
 
     /// Sets the form of the attraction.
     #[must_use]
     pub const fn with_potential(self, potential: Potential) -> Self {
         Self { potential, ..self }
+    }
+
+    /// Sets where the bodies come from at each position of a pass.
+    #[must_use]
+    pub const fn with_history(self, history: History) -> Self {
+        Self { history, ..self }
     }
 
     /// Returns the shortest range that a grid resolves, ϱ = √(1.5 π w Δ/E*): the process zone then has 1.5 cells of the

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::adhesion::Adhesion;
-use crate::solver::Solution;
+use crate::solver::{Interface, Solution};
 use crate::units::{Joule, Metre, Newton, Pascal};
 use asperity_base::record::columns;
 
@@ -62,15 +61,27 @@ impl Stored {
 }
 
 impl AdhesionRecord {
+    /// Creates the record of a contact whose bodies come from the contact `before`, or from afar; `None` between hard walls.
+    pub(crate) fn of(
+        interface: &dyn Interface,
+        solution: &Solution,
+        before: Option<&Solution>,
+    ) -> Option<Self> {
+        (!interface.is_hard()).then(|| {
+            let record = Self::alone(interface, solution);
+            before.map_or(record, |before| record.since(interface, solution, before))
+        })
+    }
+
     /// Creates the record of a contact whose bodies come from afar.
-    pub(in crate::motion) fn of(adhesion: &Adhesion, solution: &Solution) -> Self {
+    fn alone(interface: &dyn Interface, solution: &Solution) -> Self {
         let area = solution.grid.cell_area();
         let gap = solution.gap();
         let (mut tension, mut energy) = (0.0, 0.0);
         for (cell, (p, g)) in solution.pressure.iter().zip(&gap).enumerate() {
-            energy += adhesion.energy(*g);
+            energy += interface.energy(*g);
             if !solution.bounds.touches(cell, *p) {
-                tension += adhesion.tension(*g);
+                tension += interface.tension(*g);
             }
         }
         Self {
@@ -85,12 +96,7 @@ impl AdhesionRecord {
     /// Adds the energy lost since the contact `before` of the same bodies.
     ///
     /// The work is ½(W₀ + W₁)(δ₁ − δ₀), and that of a change of the gap h by the motion, −½ΔA Σ (p₀ + p₁)(h₁ − h₀).
-    pub(in crate::motion) fn since(
-        self,
-        adhesion: &Adhesion,
-        solution: &Solution,
-        before: &Solution,
-    ) -> Self {
+    fn since(self, interface: &dyn Interface, solution: &Solution, before: &Solution) -> Self {
         let moved: Metre = solution.approach - before.approach;
         let mut work = 0.5 * (solution.load() + before.load()) * moved;
         let pressures = solution.pressure.iter().zip(&before.pressure);
@@ -98,16 +104,16 @@ impl AdhesionRecord {
         let of_motion: f64 = pressures.zip(gaps).map(|((p1, p0), (h1, h0))| (p0 + p1) * (h1 - h0)).sum();
         work -= 0.5 * solution.grid.cell_area() * of_motion;
         let now = Stored::of(solution, &self);
-        let then = Stored::of(before, &Self::of(adhesion, before));
+        let then = Stored::of(before, &Self::alone(interface, before));
         let lost = work - (now.energy - then.energy);
-        // A loss below the adhesion of a cell is no jump, however small the energy of separated bodies is.
-        let of_a_cell = adhesion.work * solution.grid.cell_area();
+        // A loss below the work of adhesion of a cell is no jump, however small the energy of separated bodies is.
+        let of_a_cell = -interface.energy(0.0) * solution.grid.cell_area();
         let jumps = lost > of_a_cell.max(JUMP * now.size.max(then.size));
         Self { energy_lost: if jumps { lost } else { 0.0 }, jumps: usize::from(jumps), ..self }
     }
 
     /// Adds the losses of earlier increments.
-    pub(in crate::motion) fn after<'a>(self, increments: impl Iterator<Item = &'a Self>) -> Self {
+    pub(crate) fn after<'a>(self, increments: impl Iterator<Item = &'a Self>) -> Self {
         increments.fold(Self { energy_lost: 0.0, jumps: 0, ..self }, |sum, increment| Self {
             energy_lost: sum.energy_lost + increment.energy_lost,
             jumps: sum.jumps + increment.jumps,
@@ -118,7 +124,7 @@ impl AdhesionRecord {
 
 impl AdhesionPassRecord {
     /// Creates the record of a pass of this sliding `distance` from those of its positions.
-    pub(in crate::motion) fn of<'a>(
+    pub(crate) fn of<'a>(
         positions: impl Iterator<Item = &'a AdhesionRecord>,
         distance: Metre,
         history_difference: f64,
