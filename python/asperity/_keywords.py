@@ -104,11 +104,16 @@ def takes(keywords: Any) -> Callable[[Function], Function]:
         described.__annotations__ = {**function.__annotations__, **types}
         del described.__annotations__["options"]
         if function.__doc__ is not None:
-            rows = "\n".join(_row(key, annotation) for key, annotation in annotations.items())
-            described.__doc__ = inspect.cleandoc(function.__doc__).replace("**options", rows)
+            described.__doc__ = with_rows(function.__doc__, keywords)
         return cast(Function, call)
 
     return decorate
+
+
+def with_rows(text: str, keywords: Any) -> str:
+    """A docstring in which rows of the `keywords` replace ``**options``."""
+    rows = "\n".join(_row(key, annotation) for key, annotation in keywords.__annotations__.items())
+    return inspect.cleandoc(text).replace("**options", rows)
 
 
 def _meant(key: str, known: list[str]) -> str:

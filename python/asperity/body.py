@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Mapping
-from typing import Any, Literal, cast
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import keys
+from ._keywords import takes, with_rows
 from ._same import Comparable
 from .errors import bad_input
 from .material import Material
 from .surface import Surface
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 Mount = Literal["turned-over", "as-is"]
 
@@ -31,31 +35,21 @@ class Body(Comparable):
         Orientation of the heights of an upper body. ``"turned-over"``: they are measured with the material below, and the body is
         turned over about y. ``"as-is"``: they are already the heights of the underside. By default an underside from results is
         taken as it is, and any other surface is turned over. A lower body does not use it.
-    wear : keys.Wear, optional
-        Wear of the body: `coefficient`, `dimensionless` or `energy`, and `under_film`.
-    film : keys.Film, optional
-        Tribofilm on the body.
-    viscoelastic : keys.Viscoelastic, optional
-        Relaxation of the body, whose `young` is the relaxed modulus: `moduli` and `times`, or the `file` of a master curve. For ``steady``
-        of :func:`contact`, for stages with a time and for passes.
-    fatigue : keys.FatigueLimits, optional
-        Limits of the body under alternating loads, `torsion` and `tension`, for ``fatigue`` of :func:`simulate`.
     thermal : keys.Thermal, optional
         Thermal constants for a flash temperature: `conductivity`, W/(m K), `heat_capacity`, J/(kg K), and `density`, kg/m³. For heat
         that passes a contact `conductivity` alone, for a current `resistivity`, Ω m.
+    **options
     """
 
+    @takes(keys.OfBody)
     def __init__(
         self,
         surface: Surface,
         material: Material,
         mount: Mount | None = None,
         *,
-        wear: keys.Wear | None = None,
-        film: keys.Film | None = None,
-        viscoelastic: keys.Viscoelastic | None = None,
-        fatigue: keys.FatigueLimits | None = None,
         thermal: keys.Thermal | None = None,
+        **options: Unpack[keys.OfBody],
     ) -> None:
         if not isinstance(surface, Surface):
             hint = "asp.Surface(heights, pitch=...) makes one of an array"
@@ -67,15 +61,15 @@ class Body(Comparable):
         self.surface = surface
         self.material = material
         self.mount = mount
-        self.wear = _copied(wear)
-        self.film = _copied(film)
-        self.viscoelastic = _copied(viscoelastic)
-        self.fatigue = _copied(fatigue)
         self.thermal = _copied(thermal)
+        vars(self).update({name: _copied(table) for name, table in options.items()})
 
     def __repr__(self) -> str:
         mount = "" if self.mount is None else f", mount={self.mount!r}"
         return f"Body({self.surface!r}, {self.material!r}{mount})"
+
+
+Body.__doc__ = with_rows(Body.__doc__ or "", keys.OfBody)
 
 
 def _copied(table: object) -> dict[str, Any] | None:
@@ -107,7 +101,7 @@ class Handed:
                 raise bad_input(f"{name}.hardness", message)
             self.hardness[name] = hardness
             table["hardness"] = {"given": name}
-        table |= {"wear": body.wear, "film": body.film, "viscoelastic": body.viscoelastic, "fatigue": body.fatigue}
+        table |= {name: getattr(body, name) for name in keys.OfBody.__annotations__}
         table |= body.thermal or {}
         if name == "upper" and body.mount is not None:
             table["mount"] = body.mount

@@ -269,7 +269,7 @@ class AtPass(Failed):
 
 
 class AtUpdate(Failed):
-    """An update of wear in place has no valid result: `update`, from 1 (0 before the first), and the `cause`."""
+    """An update of a contact that slides in place has no valid result: `update`, from 1 (0 before the first), and the `cause`."""
 
     update: int
     cause: AsperityError

@@ -286,91 +286,6 @@ class Temperature(_RequiredTemperature, total=False):
     every: int
 
 
-class Wear(TypedDict, total=False):
-    """Keys of ``wear`` of a body. Exactly one of the first three is given.
-
-    Attributes
-    ----------
-    coefficient : float or str
-        Wear volume per load and sliding distance (Archard); volume per load and distance > 0. Without it: exactly one
-        of the three.
-    dimensionless : float
-        `coefficient` times the `hardness` of the body, which must be a single number; number > 0. Without it: exactly
-        one of the three.
-    energy : float or str
-        Wear volume per frictional energy; requires [friction]; volume per load and distance > 0. Without it: exactly
-        one of the three.
-    under_film : float or str
-        Coefficient under the thickest film, in the unit of `coefficient` or `energy`, also with `dimensionless`, at
-        most the coefficient of the bare body; it decreases linearly with the thickness; the body needs a film; volume
-        per load and distance > 0. Without it: the coefficient of the bare body.
-    """
-
-    coefficient: Quantity
-    dimensionless: float
-    energy: Quantity
-    under_film: Quantity
-
-
-class _RequiredFilm(TypedDict):
-    law: Literal["arrhenius", "mechano-chemical", "solid-lubricant"]
-    max_thickness: Quantity
-
-
-class Film(_RequiredFilm, total=False):
-    """Keys of ``film`` of a body: its tribofilm.
-
-    Attributes
-    ----------
-    law : {"arrhenius", "mechano-chemical", "solid-lubricant"}
-        `"arrhenius"`: growth activated by stress, removal by sliding; `"mechano-chemical"`; `"solid-lubricant"`: a film
-        that is there at its thickest in the beginning and is only worn off. Required.
-    max_thickness : float or str
-        Upper limit of the film thickness; length > 0. Required.
-    hardness : float or str
-        Hardness under the thickest film, at most the hardness of the body; interpolated linearly in the thickness;
-        pressure > 0. Without it: the hardness of the body.
-    rate : float or str
-        With `law = "arrhenius"`: initial growth rate, at `at_temperature` and `at_stress`; speed > 0.
-    at_temperature : float or str
-        With `law = "arrhenius"`: temperature at which `rate` holds; temperature, 2e2 … 5e3 K.
-    at_stress : float or str
-        With `law = "arrhenius"`: stress at which `rate` holds; pressure ≥ 0.
-    activation_energy : float or str
-        With `law = "arrhenius"`: activation energy of the growth; energy, 0 or 1e-24 … 1e-17 J.
-    activation_volume : float or str
-        With `law = "arrhenius"`: activation volume of the growth; volume, 0 or 1e-36 … 1e-18 m³.
-    stress : {"pressure", "shear"}
-        With `law = "arrhenius"`: stress that activates the growth; `"shear"` requires [friction]. By default
-        `"pressure"`.
-    removal : float or str
-        With `law = "arrhenius"`: removal per pressure and sliding distance; rate per pressure and distance ≥ 0. By
-        default `0`.
-    x : float
-        With `law = "mechano-chemical"`: factor x of the growth; number, 1e-45 … 1e0.
-    c3 : float or str
-        With `law = "mechano-chemical"`: final removal C₃ as a thickness, at most `max_thickness`; length ≥ 0.
-    c4 : float
-        With `law = "mechano-chemical"`: rate C₄ of the removal, in 1/s; number, 0 or 1e-15 … 1e15 1/s.
-    wear : float or str
-        With `law = "solid-lubricant"`: film volume lost per load and sliding distance, until the film is worn off; the
-        heights of the surface include the film; volume per load and distance > 0.
-    """
-
-    hardness: Quantity
-    rate: Quantity
-    at_temperature: Quantity
-    at_stress: Quantity
-    activation_energy: Quantity
-    activation_volume: Quantity
-    stress: Literal["pressure", "shear"]
-    removal: Quantity
-    x: float
-    c3: Quantity
-    c4: float
-    wear: Quantity
-
-
 class Viscoelastic(TypedDict, total=False):
     """Keys of ``viscoelastic`` of a body: its relaxation. Either `moduli` and `times`, or `file` is given.
 
@@ -580,6 +495,91 @@ class Fatigue(_RequiredFatigue, total=False):
     passes: Sequence[int]
 
 
+class Wear(TypedDict, total=False):
+    """Keys of ``wear`` of a body: wear law.
+
+    Attributes
+    ----------
+    coefficient : float or str
+        Wear volume per load and sliding distance (Archard); volume per load and distance > 0. Without it: exactly one
+        of the three.
+    dimensionless : float
+        `coefficient` times the `hardness` of the body, which must be a single number; number > 0. Without it: exactly
+        one of the three.
+    energy : float or str
+        Wear volume per frictional energy; requires [friction]; volume per load and distance > 0. Without it: exactly
+        one of the three.
+    under_film : float or str
+        Coefficient under the thickest film, in the unit of `coefficient` or `energy`, also with `dimensionless`, at
+        most the coefficient of the bare body; it decreases linearly with the thickness; the body needs a film; volume
+        per load and distance > 0. Without it: the coefficient of the bare body.
+    """
+
+    coefficient: Quantity
+    dimensionless: float
+    energy: Quantity
+    under_film: Quantity
+
+
+class _RequiredFilm(TypedDict):
+    law: Literal["arrhenius", "mechano-chemical", "solid-lubricant"]
+    max_thickness: Quantity
+
+
+class Film(_RequiredFilm, total=False):
+    """Keys of ``film`` of a body: growing tribofilm.
+
+    Attributes
+    ----------
+    law : {"arrhenius", "mechano-chemical", "solid-lubricant"}
+        `"arrhenius"`: growth activated by stress, removal by sliding; `"mechano-chemical"`; `"solid-lubricant"`: a film
+        that is there at its thickest in the beginning and is only worn off. Required.
+    max_thickness : float or str
+        Upper limit of the film thickness; length > 0. Required.
+    hardness : float or str
+        Hardness under the thickest film, at most the hardness of the body; interpolated linearly in the thickness;
+        pressure > 0. Without it: the hardness of the body.
+    rate : float or str
+        With `law = "arrhenius"`: initial growth rate, at `at_temperature` and `at_stress`; speed > 0.
+    at_temperature : float or str
+        With `law = "arrhenius"`: temperature at which `rate` holds; temperature, 2e2 … 5e3 K.
+    at_stress : float or str
+        With `law = "arrhenius"`: stress at which `rate` holds; pressure ≥ 0.
+    activation_energy : float or str
+        With `law = "arrhenius"`: activation energy of the growth; energy, 0 or 1e-24 … 1e-17 J.
+    activation_volume : float or str
+        With `law = "arrhenius"`: activation volume of the growth; volume, 0 or 1e-36 … 1e-18 m³.
+    stress : {"pressure", "shear"}
+        With `law = "arrhenius"`: stress that activates the growth; `"shear"` requires [friction]. By default
+        `"pressure"`.
+    removal : float or str
+        With `law = "arrhenius"`: removal per pressure and sliding distance; rate per pressure and distance ≥ 0. By
+        default `0`.
+    x : float
+        With `law = "mechano-chemical"`: factor x of the growth; number, 1e-45 … 1e0.
+    c3 : float or str
+        With `law = "mechano-chemical"`: final removal C₃ as a thickness, at most `max_thickness`; length ≥ 0.
+    c4 : float
+        With `law = "mechano-chemical"`: rate C₄ of the removal, in 1/s; number, 0 or 1e-15 … 1e15 1/s.
+    wear : float or str
+        With `law = "solid-lubricant"`: film volume lost per load and sliding distance, until the film is worn off; the
+        heights of the surface include the film; volume per load and distance > 0.
+    """
+
+    hardness: Quantity
+    rate: Quantity
+    at_temperature: Quantity
+    at_stress: Quantity
+    activation_energy: Quantity
+    activation_volume: Quantity
+    stress: Literal["pressure", "shear"]
+    removal: Quantity
+    x: float
+    c3: Quantity
+    c4: float
+    wear: Quantity
+
+
 class Capabilities(TypedDict, total=False):
     """Keywords of the capabilities."""
 
@@ -589,6 +589,19 @@ class Capabilities(TypedDict, total=False):
         "Thermal or electrical conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`."]
     fatigue: Annotated[Fatigue | None, "",
         "Fatigue below the surfaces of bodies that pass over each other: `to`, `layers`, `every`, `passes`."]
+
+
+class OfBody(TypedDict, total=False):
+    """Keywords of a body: what contacts do to it, and how it responds."""
+
+    wear: Annotated[Wear | None, "",
+        "Wear law: `coefficient`, `dimensionless`, `energy`, `under_film`."]
+    film: Annotated[Film | None, "",
+        "Growing tribofilm: `law`, `max_thickness`, `hardness`, `rate`, `at_temperature`, `at_stress`, `activation_energy`, `activation_volume`, `stress`, `removal`, `x`, `c3`, `c4`, `wear`."]
+    viscoelastic: Annotated[Viscoelastic | None, "",
+        "Relaxation of the body: `moduli`, `times`, `file`, `terms_per_decade`, `shift`, `wlf_c1`, `wlf_c2`, `wlf_at`."]
+    fatigue: Annotated[FatigueLimits | None, "",
+        "Limits of the material under alternating loads: `torsion`, `tension`, `exponent`, `cycles`, `endurance`, `pit_depth`, `risk`."]
 
 
 class Common(Capabilities, total=False):
@@ -642,7 +655,7 @@ class Rest(TypedDict, total=False):
     steady: Annotated[Steady | None, "",
         "Steady sliding of viscoelastic bodies: `speed`, `speeds`."]
     acceleration: Annotated[Acceleration | None, "",
-        "Extrapolation over passes of wearing bodies: `tolerance`, `max_jump`, `max_wear`."]
+        "Extrapolation over passes of bodies that laws change: `tolerance`, `max_jump`, `max_wear`."]
     temperature: Annotated[Temperature | None, "",
         "Temperature of the bodies: `bulk`, `every`."]
     plasticity: Annotated[Plasticity | None, "",
@@ -662,13 +675,13 @@ class _RequiredSliding(TypedDict):
 
 
 class Sliding(_RequiredSliding, total=False):
-    """Keywords of wear in place."""
+    """Keywords of sliding in place."""
 
     speed: Annotated[Quantity | None, "sliding",
         "Speed of the upper body; required for growing films and for temperature; speed > 0. Without it: unknown."]
     updates: Annotated[int | None, "sliding",
-        "Number of implicit updates, each a contact with the wear during it; update i of n ends at the distance · (i/n)²; whole "
-        "number ≥ 1. By default `40`."]
+        "Number of implicit updates, each a contact with the changes of the bodies during it; update i of n ends at the distance "
+        "· (i/n)²; whole number ≥ 1. By default `40`."]
     temperature: Annotated[Temperature | None, "",
         "Temperature of the bodies: `bulk`, `every`."]
 
@@ -714,7 +727,7 @@ class Motion(TypedDict, total=False):
         "Upper body in the passes after the first: the same, or a fresh one, generated and prepared in the same way from another "
         "seed. By default `\"same\"`."]
     acceleration: Annotated[Acceleration | None, "",
-        "Extrapolation over passes of wearing bodies: `tolerance`, `max_jump`, `max_wear`."]
+        "Extrapolation over passes of bodies that laws change: `tolerance`, `max_jump`, `max_wear`."]
     temperature: Annotated[Temperature | None, "",
         "Temperature of the bodies: `bulk`, `every`."]
     plasticity: Annotated[Plasticity | None, "",

@@ -30,7 +30,7 @@ COMMAND = os.environ.get("ASPERITY", f"{sys.executable} -m asperity").split()
 
 # What a case may rightly come to in place of results.
 NO_ANSWER = re.compile(
-    r"closes the whole periodic gap|plastic limit|holds? at most|is at most|cannot carry|full contact|a single pass wears so much|what friction holds"
+    r"closes the whole periodic gap|plastic limit|holds? at most|is at most|cannot carry|full contact|a single pass removes so much|what friction holds"
 )
 # Cells of these columns may be empty.
 OPTIONAL = {

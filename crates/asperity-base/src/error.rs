@@ -552,7 +552,7 @@ impl Error {
                 "a quantity of the input is far too large or too small, for example one whose unit is missing".into(),
             ),
             Self::WornAway { .. } => Some(
-                "check the wear coefficient, a volume over load and distance, in 1/Pa, and not Archard's dimensionless number".into(),
+                "check the coefficient of the law that removes so much, a volume over load and distance, in 1/Pa, and not Archard's dimensionless number".into(),
             ),
             Self::AtPosition { source, .. }
             | Self::AtIncrement { source, .. }

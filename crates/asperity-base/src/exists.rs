@@ -24,11 +24,11 @@ pub const HEAT_CAPACITY: Exists = within(90.0, 6e3, "heavy metals to water", &["
 pub const DENSITY: Exists = within(100.0, 2.5e4, "foam to osmium", &["g/cm3"]);
 /// Thicknesses of layers.
 pub const LAYER: Exists = within(2e-10, 1e-1, "a layer of atoms to claddings", &["um", "nm"]);
-/// Wear coefficients: Archard's k = K/H.
+/// Volumes lost per load and distance: Archard's k = K/H.
 ///
-/// Holm, Electric Contacts; Rabinowicz, Friction and Wear of Materials: K from 10⁻⁹ (lubricated) to 10⁻² (metals
+/// Holm, Electric Contacts; Rabinowicz (1995): K from 10⁻⁹ (lubricated) to 10⁻² (metals
 /// that seize).
-pub const WEAR: Exists = within(
+pub const VOLUME_PER_WORK: Exists = within(
     1e-22,
     1e-10,
     "well lubricated bearings to dry metals that seize",

@@ -12,7 +12,7 @@ use crate::units::{Dimension, Range};
 /// Keys that belong to one table, or to each of several tables.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Section {
-    /// The dotted names of the tables: `lower.wear`, `upper.wear`; empty for the keys above all tables.
+    /// The dotted names of the tables: `lower.film`, `upper.film`; empty for the keys above all tables.
     pub tables: &'static [&'static str],
     /// The choice that gives the keys a meaning, as in a case file: `form = "sphere"`; empty if they always have one.
     pub kind: &'static str,
@@ -381,16 +381,8 @@ pub struct Rule<F> {
     pub at: &'static str,
     /// Keys that break the rule, as written above the tables of a case file.
     pub example: &'static [&'static str],
-    /// Finds whether the rule is broken; `()` in a description.
+    /// Finds whether the rule is broken.
     pub broken: F,
-}
-
-impl<F> Rule<F> {
-    /// Returns the rule as a description.
-    pub fn described(&self) -> Rule<()> {
-        let Self { this, with, message, hint, at, example, .. } = *self;
-        Rule { this, with, message, hint, at, example, broken: () }
-    }
 }
 
 impl Section {

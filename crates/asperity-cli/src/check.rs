@@ -388,10 +388,10 @@ fn laws(case: &Case, demand: &Demand) -> Vec<(&'static str, String)> {
     let passes = case.acceleration.and_then(|acceleration| {
         let passes = case.motion?.passes;
         Some(format!(
-            "about {} of {passes} computed, each extrapolated over at most {} or a wear of {}",
+            "about {} of {passes} computed, each extrapolated over at most {} or a depth of {}",
             units::format_number(demand.passes.round()),
             plural(acceleration.max_jump.min(passes), "pass", "passes"),
-            units::format(acceleration.max_wear, Dimension::Length)
+            units::format(acceleration.max_depth(), Dimension::Length)
         ))
     });
     rows.extend([("heat", heat), ("passes", passes)]);

@@ -341,7 +341,7 @@ fn hint(error: &Error) -> Option<String> {
         | Error::AtPass { source, .. }
         | Error::AtUpdate { source, .. } => hint(source),
         Error::WornAway { .. } => Some(
-            "check the wear: a `coefficient` is a volume over load and distance, as \"1e-7 mm3/(N m)\", and Archard's number is \
+            "check the law of the body: a `coefficient` is a volume over load and distance, as \"1e-7 mm3/(N m)\", and Archard's number is \
              `dimensionless`; or slide a shorter distance"
                 .to_owned(),
         ),

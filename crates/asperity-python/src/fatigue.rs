@@ -1,6 +1,6 @@
 //! Fatigue of a body that contacts pass over.
 
-use asperity::fatigue::{AtDepth, Basquin, DangVan, StressHistory, critical_wear};
+use asperity::fatigue::{AtDepth, Basquin, DangVan, StressHistory, critical_depths};
 use asperity::motion::Watch;
 use asperity::ndarray::{Array3, Axis, Ix3};
 use asperity::operator::{Boundary, Edge};
@@ -53,10 +53,10 @@ pub(crate) fn fatigue<'py>(
     Ok((fields, [criterion.weight(), criterion.limit()]))
 }
 
-/// The damage of a pass at each depth, and the wear of each column.
+/// The damage of a pass at each depth, and the critical depth of each column.
 type Damage<'py> = (Bound<'py, PyArray3<f64>>, Bound<'py, PyArray2<f64>>);
 
-/// Computes the damage of a pass at each depth `[iz, ix, iy]`, and the wear in a pass below which a column pits, from f over its limit.
+/// Computes the damage of a pass at each depth `[iz, ix, iy]`, and the depth that a column must lose in a pass for it not to pit, from f over its limit.
 #[pyfunction]
 pub(crate) fn damage<'py>(
     py: Python<'py>,
@@ -67,6 +67,6 @@ pub(crate) fn damage<'py>(
     let (exponent, cycles, endurance) = law;
     let law = ok(Basquin::new(exponent, cycles, endurance), py)?;
     let damage = over_limit.as_array().mapv(|over| law.damage(over));
-    let wear = damage.map_axis(Axis(0), |column| critical_wear(&depths, &column.to_vec()));
-    Ok((damage.into_pyarray(py), wear.into_pyarray(py)))
+    let critical = critical_depths(&depths, &damage);
+    Ok((damage.into_pyarray(py), critical.into_pyarray(py)))
 }

@@ -8,9 +8,10 @@ use super::summary::{CONVERGED, RunningIn};
 use asperity_base::units::Dimension;
 use asperity_contact::each_capability;
 use asperity_contact::motion::{
-    Column, CreepRecord, DragRecord, ENDINGS, FrettingRecord, HeatRecord, IncrementRecord, PassDragRecord,
-    PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Presence, ResidualRecord, RunningRecord,
-    ShearRecord, StaticRecord, SteadyRecord, StepRecord, SweepRecord, UpdateRecord,
+    Column, CreepRecord, DragRecord, ENDINGS, FrettingRecord, HeatRecord, IncrementRecord, LawsInCycles,
+    LawsInPass, LawsInUpdate, PassDragRecord, PassPlasticRecord, PassRecord, PlasticRecord,
+    PlasticStepRecord, Presence, ResidualRecord, RunningRecord, ShearRecord, StaticRecord, SteadyRecord,
+    StepRecord, SweepRecord, UpdateRecord,
 };
 use asperity_contact::with::{Capability, InterfaceNumbers, Row as _};
 
@@ -36,9 +37,12 @@ pub fn records() -> &'static [(&'static str, &'static [Column])] {
             ("IncrementRecord", IncrementRecord::OWN_COLUMNS),
             ("PlasticStepRecord", PlasticStepRecord::OWN_COLUMNS),
             ("FrettingRecord", FrettingRecord::OWN_COLUMNS),
+            ("LawsInCycles", LawsInCycles::OWN_COLUMNS),
             ("UpdateRecord", UpdateRecord::OWN_COLUMNS),
+            ("LawsInUpdate", LawsInUpdate::OWN_COLUMNS),
             ("PassRecord", PassRecord::OWN_COLUMNS),
             ("RunningRecord", RunningRecord::OWN_COLUMNS),
+            ("LawsInPass", LawsInPass::OWN_COLUMNS),
             ("PassPlasticRecord", PassPlasticRecord::OWN_COLUMNS),
             ("StepRecord", StepRecord::OWN_COLUMNS),
             ("HeatRecord", HeatRecord::OWN_COLUMNS),
@@ -68,7 +72,7 @@ const OF_A_STUDY: [Column; 5] = [CASE, DONE, WARNINGS, STATE, MESSAGE];
 /// Returns the prefixes that the table of a study adds to the column names of a record, with these columns.
 fn prefixes() -> Vec<(&'static str, &'static [Column])> {
     let mut prefixes =
-        vec![("sliding_", UpdateRecord::OWN_COLUMNS), ("subsurface_", SubsurfaceRecord::OWN_COLUMNS)];
+        vec![("sliding_", UpdateRecord::COLUMNS), ("subsurface_", SubsurfaceRecord::OWN_COLUMNS)];
     each_capability!(C => prefixes.extend(C::PREFIXES.iter().map(|prefix| (*prefix, <C as Capability>::Row::COLUMNS))));
     prefixes
 }
@@ -78,7 +82,7 @@ const COMPONENTS: [&str; 3] = ["_x", "_y", "_z"];
 
 /// Returns the declaration of a column of a table, or of a number of `summary.json`; `None` if no such column is written.
 ///
-/// The volumes removed by any law, such as `wear_volume_lower`, are declared as those of the law `plastic`. In the table of
+/// The volumes removed by any law, such as `NAME_volume_lower`, are declared as those of the law `plastic`. In the table of
 /// a study, vector components and prefixed columns are declared without suffix and prefix.
 pub fn column(name: &str) -> Option<Column> {
     find(records().iter().flat_map(|(_, columns)| *columns), name).or_else(|| {

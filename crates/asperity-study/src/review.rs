@@ -6,12 +6,13 @@ use super::case::Case;
 use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, are_curved, cut_off, spot, too_few_cells};
 use asperity_base::grid::Field;
 use asperity_base::units::{self, Dimension, Joule, Metre, SquareMetre};
+use asperity_contact::each_law;
 use asperity_contact::motion::{
     ElastoPlasticContact, IncrementRecord, Interior, LoadedContact, Pair, PassPlasticRecord, PassRecord,
     PlasticVolume, ShearRecord, StaticRecord, StepRecord, SweepRecord,
 };
 use asperity_contact::operator::Boundary;
-use asperity_contact::with;
+use asperity_contact::with::{self, BodyLaw};
 
 /// Returns the warnings of a static contact, from its pressure.
 pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) -> Vec<String> {
@@ -46,7 +47,7 @@ pub(super) fn loaded(contact: &LoadedContact, boundary: Boundary) -> Vec<String>
     warnings
 }
 
-/// Warns of bodies that wear and shift by more than a small part of their contact, while the same cells stay opposite each other.
+/// Warns of bodies that laws change and that shift by more than a small part of their contact, while the same cells stay opposite each other.
 fn moves_on(contact: &LoadedContact, boundary: Boundary) -> Option<String> {
     /// Amplitude over the width of the largest spot that needs no warning.
     const SMALL: f64 = 0.2;
@@ -241,8 +242,12 @@ fn slope(heights: &Field, pitch: [Metre; 2]) -> f64 {
 pub(super) fn motion(case: &Case, shapes: [[usize; 2]; 2], passes: &[PassRecord]) -> Vec<String> {
     let largest = passes.iter().map(|pass| pass.largest_spot_cells).max().unwrap_or(0);
     let flows = at_the_rim(case, shapes, passes, "plastic", "the plastic volume");
-    let wears = at_the_rim(case, shapes, passes, "wear", "the wear");
-    let all = contact_in_the_rim(passes).into_iter().chain(flows).chain(wears).chain(too_few_cells(largest));
+    let mut removed = Vec::new();
+    each_law!(L => if L::CELL.is_inside {
+        removed.extend(at_the_rim(case, shapes, passes, L::NAME, &format!("the {}", L::CELL.head)));
+    });
+    let all =
+        contact_in_the_rim(passes).into_iter().chain(flows).chain(removed).chain(too_few_cells(largest));
     let all = all.chain(strides(case, passes));
     all.chain(all_computed(case, passes)).chain(settled(passes)).collect()
 }

@@ -26,7 +26,7 @@ pub struct Summary {
     /// The outcome, in the file under the key `static`, `sweep` or `passes`.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// Totals over the passes of bodies that wear or grow films; `None` for others.
+    /// Totals over the passes of bodies that laws change; `None` for others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub running_in: Option<RunningIn>,
     /// The last update of a contact that slid in place, with its losses and final state; `None` for others.
@@ -56,7 +56,7 @@ pub struct Summary {
 }
 
 columns! {
-    /// The passes of bodies that wear or grow films, together: `running_in` in `summary.json`.
+    /// The passes of bodies that laws change, together: `running_in` in `summary.json`.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct RunningIn {
@@ -72,7 +72,7 @@ columns! {
 }
 
 impl RunningIn {
-    /// Sums these passes, if bodies wear or grow films in them.
+    /// Sums these passes, if laws change the bodies in them.
     pub(super) fn of(passes: &[PassRecord]) -> Option<Self> {
         passes.first()?.running?;
         let mut lost = BTreeMap::<String, [CubicMetre; 2]>::new();

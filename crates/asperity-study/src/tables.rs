@@ -281,7 +281,9 @@ fn failed(path: &Path) -> impl Fn(io::Error) -> Error {
 mod tests {
     use super::*;
     use crate::PASS_COLUMNS;
-    use asperity_contact::motion::{HeatRecord, IncrementRecord, LostVolume, RunningRecord, SweepRecord};
+    use asperity_contact::motion::{
+        HeatRecord, IncrementRecord, LawsInPass, LostVolume, RunningRecord, SweepRecord,
+    };
 
     fn step(step: usize) -> StepRecord {
         StepRecord {
@@ -409,10 +411,12 @@ mod tests {
             represents: 30,
             time: f64::NAN,
             distance: 0.1 + 0.2,
-            max_wear_lower: 1e-12,
-            max_wear_upper: 0.0,
-            mean_film_lower: 0.0,
-            mean_film_upper: 1.0 / 3.0,
+            laws: LawsInPass {
+                max_wear_lower: 1e-12,
+                max_wear_upper: 0.0,
+                mean_film_lower: 0.0,
+                mean_film_upper: 1.0 / 3.0,
+            },
             friction_work: 0.0,
             max_flash_temperature: f64::NAN,
             error_estimate: 1e-15,

@@ -24,7 +24,7 @@ pub enum Dimension {
     /// Newtons per metre.
     Stiffness,
     /// Volume lost per load and distance slid, or per energy of friction: 1/Pa, which is m³/(N m) and m³/J.
-    WearCoefficient,
+    VolumePerWork,
     /// Removal rate per pressure and distance slid, 1/(Pa m).
     RemovalRate,
     /// Kelvins; degrees Celsius are also read.
@@ -141,7 +141,7 @@ pub fn parse(text: &str, expected: Dimension) -> Result<f64, UnitError> {
     if value.is_finite() { Ok(value) } else { Err(UnitError::NotFinite { text: text.to_owned(), expected }) }
 }
 
-/// Unit in which wear coefficients are written.
+/// Unit in which volumes per load and distance are written.
 const MM3_PER_NM: &str = "mm³/(N m)";
 
 /// 0 °C in kelvins.
@@ -190,7 +190,7 @@ pub fn format_digits(value: f64, dimension: Dimension, digits: usize) -> String 
     if dimension == Dimension::Angle {
         return format!("{}°", legible(value.to_degrees(), digits));
     }
-    if dimension == Dimension::WearCoefficient {
+    if dimension == Dimension::VolumePerWork {
         return format!("{:e} {MM3_PER_NM}", round(value * 1e9, digits));
     }
     let Scale { base, power, .. } = dimension.scale();
@@ -283,7 +283,7 @@ impl Dimension {
             Self::Angle => "an angle",
             Self::Time => "a time",
             Self::Stiffness => "a stiffness",
-            Self::WearCoefficient => "a volume per load and distance",
+            Self::VolumePerWork => "a volume per load and distance",
             Self::RemovalRate => "a rate per pressure and distance",
             Self::Temperature => "a temperature",
             Self::Conductivity => "a thermal conductivity",
@@ -321,7 +321,7 @@ impl Dimension {
             Self::Angle => "5 deg",
             Self::Time => "1 ms",
             Self::Stiffness => "4 MN/m",
-            Self::WearCoefficient => "1e-7 mm3/(N m)",
+            Self::VolumePerWork => "1e-7 mm3/(N m)",
             Self::RemovalRate => "1e-11 1/(Pa m)",
             Self::Temperature => "100 °C",
             Self::Conductivity => "46 W/(m K)",
@@ -373,7 +373,7 @@ impl Dimension {
         Self::Angle,
         Self::Time,
         Self::Stiffness,
-        Self::WearCoefficient,
+        Self::VolumePerWork,
         Self::RemovalRate,
         Self::Temperature,
         Self::Conductivity,
@@ -410,7 +410,7 @@ impl Dimension {
             Self::Angle => scale(Base::Of("rad"), 1, 0),
             Self::Time => scale(Base::Of("s"), 1, 0),
             Self::Stiffness => scale(Base::Of("N/m"), 1, 12),
-            Self::WearCoefficient => scale(Base::Of("1/Pa"), 1, 0),
+            Self::VolumePerWork => scale(Base::Of("1/Pa"), 1, 0),
             Self::RemovalRate => scale(Base::Of("1/(Pa m)"), 1, 0),
             Self::Temperature => scale(Base::Of("K"), 1, 0),
             Self::Conductivity => scale(Base::Of("W/(m K)"), 1, 3),
@@ -440,7 +440,7 @@ impl Dimension {
         if self == Self::Angle {
             return Multiple { factor: std::f64::consts::PI / 180.0, symbol: "°".to_owned() };
         }
-        if self == Self::WearCoefficient {
+        if self == Self::VolumePerWork {
             return Multiple { factor: 1e-9, symbol: MM3_PER_NM.to_owned() };
         }
         let Scale { base, power, .. } = self.scale();
@@ -464,7 +464,7 @@ impl Dimension {
     fn takes_prefixes(self) -> bool {
         !matches!(
             self,
-            Self::WearCoefficient
+            Self::VolumePerWork
                 | Self::RemovalRate
                 | Self::Temperature
                 | Self::Conductivity
@@ -498,7 +498,7 @@ impl Dimension {
             Self::Angle => &[("deg", 0, PI / 180.0), ("°", 0, PI / 180.0)],
             Self::Time => &[("min", 0, 60.0), ("h", 0, 3600.0)],
             Self::Energy => &[("eV", -19, 1.602176634)],
-            Self::WearCoefficient => &[
+            Self::VolumePerWork => &[
                 ("mm3/(N m)", -9, 1.0),
                 ("mm³/(N m)", -9, 1.0),
                 ("mm^3/(N m)", -9, 1.0),
@@ -755,7 +755,7 @@ fn decimal(value: f64, digits: usize) -> String {
 mod tests {
     use super::Dimension::{
         Angle, Area, Conductivity, Density, Energy, Force, HeatCapacity, Length, Pressure, RemovalRate,
-        Speed, Temperature, Time, Volume, WearCoefficient,
+        Speed, Temperature, Time, Volume, VolumePerWork,
     };
     use super::*;
 
@@ -816,8 +816,8 @@ mod tests {
             ("3 nJ", Energy, 3e-9),
             ("0.8 eV", Energy, 0.8 * 1.602176634e-19),
             ("3.8e-3 nm3", Volume, 3.8e-30),
-            ("1e-7 mm3/(N m)", WearCoefficient, 1e-16),
-            ("1e-6 mm3/J", WearCoefficient, 1e-15),
+            ("1e-7 mm3/(N m)", VolumePerWork, 1e-16),
+            ("1e-6 mm3/J", VolumePerWork, 1e-15),
             ("1e-11 1/(Pa m)", RemovalRate, 1e-11),
             ("100 °C", Temperature, 373.15),
             ("300 K", Temperature, 300.0),
@@ -831,7 +831,7 @@ mod tests {
             ("18 uPa*s", Dimension::Viscosity, 18e-6),
             ("46 W/(m*K)", Dimension::Conductivity, 46.0),
             ("46 W/(m·K)", Dimension::Conductivity, 46.0),
-            ("1e-7 mm3/(N*m)", Dimension::WearCoefficient, 1e-16),
+            ("1e-7 mm3/(N*m)", Dimension::VolumePerWork, 1e-16),
             ("0.46 J/(g K)", HeatCapacity, 460.0),
             ("7850 kg/m3", Density, 7850.0),
             ("7.85 g/cm3", Density, 7850.0),

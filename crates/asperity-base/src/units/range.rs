@@ -36,7 +36,7 @@ impl Dimension {
             Self::Angle => (1e-15, 1e6, "rad"),
             Self::Time => (1e-15, 1e15, "s"),
             Self::Stiffness => (1e-21, 1e21, "N/m"),
-            Self::WearCoefficient => (1e-30, 1e-3, "1/Pa"),
+            Self::VolumePerWork => (1e-30, 1e-3, "1/Pa"),
             Self::RemovalRate => (1e-30, 1e9, "1/(Pa m)"),
             Self::Temperature => (1e-3, 1e5, "K"),
             Self::Conductivity => (1e-6, 1e6, "W/(m K)"),

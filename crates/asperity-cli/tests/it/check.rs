@@ -137,7 +137,7 @@ fn check_describes_the_laws_that_a_case_follows() {
         "\nwear     of both bodies 2e-8 mm³/(N m) per load and distance, 2e-9 mm³/(N m) under the film\n",
         "\nfilm     of both bodies Arrhenius growth up to 150 nm, pressure up to 2 GPa where it is thickest\n",
         "\nheat     bulk 373.1 K, flash temperature at each position\n",
-        " of 100000 computed, each extrapolated over at most 10000 passes or a wear of 5 nm\n",
+        " of 100000 computed, each extrapolated over at most 10000 passes or a depth of 5 nm\n",
         " to solve and write, ",
         " for figures and page\n",
     ] {

@@ -40,7 +40,10 @@ fn a_run_ends_in_the_pass_that_wears_its_body_away() {
             error.ends_with("the longer side of its grid is 128 µm: it is no longer a surface"),
             "{said}"
         );
-        assert!(said.contains("\nhint: check the wear: ") && said.contains("`dimensionless`"), "{said}");
+        assert!(
+            said.contains("\nhint: check the law of the body: ") && said.contains("`dimensionless`"),
+            "{said}"
+        );
         let out = folder.path().join("out");
         assert!(out.join("report.html").exists() && !out.join("summary.json").exists());
         assert!(refused(&asperity(&folder, "plot out")).contains("out has no finished pass to draw"));

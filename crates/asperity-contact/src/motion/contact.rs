@@ -32,7 +32,7 @@ pub struct Contact {
     /// Gap of all cells, m, where an output asks for it ([`crate::motion::Simulation::keeping_gaps`]): below 0 by up to the plastic
     /// interference on cells at the hardness.
     pub gap: Option<Arc<Field>>,
-    /// Largest elastic displacement of a cell, m; `None` if it is unknown, as for a pass that is solved together with its wear.
+    /// Largest elastic displacement of a cell, m; `None` if it is unknown, as for a pass that is solved together with its removal.
     pub max_displacement: Option<Metre>,
     /// Tension across the gap; `None` between hard walls.
     pub interface: Option<InterfaceRecord>,

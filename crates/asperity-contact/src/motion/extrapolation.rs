@@ -17,7 +17,7 @@ use asperity_derive::Table;
 /// Limits of the extrapolation over passes that are not computed.
 ///
 /// A computed pass is extrapolated over J passes. The sums S of its laws over a pass are assumed to change per pass by dS,
-/// as since the computed pass before. Their mean over the extrapolation is S + ½ J dS. Wear is then of second order in J
+/// as since the computed pass before. Their mean over the extrapolation is S + ½ J dS. The removal is then of second order in J
 /// (Adams and Bashforth), and a film grows as under frozen contact. The difference of the heights to those from S alone
 /// estimates the error.
 #[derive(Table, Debug, Clone, Copy, PartialEq, Serialize)]
@@ -64,6 +64,11 @@ impl Acceleration {
         Self { max_wear, ..self }
     }
 
+    /// Largest depth that a cell loses in an extrapolation.
+    pub fn max_depth(&self) -> Metre {
+        self.max_wear
+    }
+
     pub(super) fn checked(self) -> Result<Self> {
         check("tolerance", self.tolerance, self.tolerance > 0.0, "a number above 0")?;
         check("max_jump", self.max_jump as f64, self.max_jump > 0, "at least one pass")?;
@@ -85,11 +90,11 @@ pub struct LastExtrapolation {
 pub(super) struct Bounds {
     /// Remaining passes.
     pub(super) left: usize,
-    /// Volumes of plastic flow and of wear in a pass.
+    /// Volumes of plastic flow and of removal in a pass.
     pub(super) volumes: [f64; 2],
-    /// Largest wear depth of a pass.
+    /// Largest depth removed in a pass.
     pub(super) deepest: Metre,
-    /// Number of passes of wear at which a checkerboard mode of the pressures would no longer decay.
+    /// Number of passes of removal at which a checkerboard mode of the pressures would no longer decay.
     pub(super) stable: f64,
 }
 
@@ -163,11 +168,11 @@ pub(super) fn relaxation(
         }
     }
     let longest = count.map(|count| count.into_iter().fold(0.0, f64::max) * distance);
-    let wear = |law: &dyn Law| {
+    let removal = |law: &dyn Law| {
         let per_pressure = law.per_pressure(friction);
         per_pressure[0] * longest[0] + per_pressure[1] * longest[1]
     };
-    laws.iter().map(|law| wear(law.as_ref())).sum()
+    laws.iter().map(|law| removal(law.as_ref())).sum()
 }
 
 impl Acceleration {

@@ -1,7 +1,7 @@
-//! Laws that change the bodies during a loading: where a contact slips by less than its size, it wears and grows films where it slips.
+//! Laws that change the bodies during a loading: where a contact slips by less than its size, its bodies change where it slips.
 //!
 //! In a stage the laws act after each increment. In a cycle the bodies are frozen: the laws sum over its increments and act at its end,
-//! for the cycle itself or for several at once, with the slip of the computed one. The pressures change with the wear of these cycles. The
+//! for the cycle itself or for several at once, with the slip of the computed one. The pressures change with the removal of these cycles. The
 //! depth of a cell follows from the mean of its pressures on the bodies before and after them (the trapezoidal rule), of which the second is
 //! found as a contact with [`Compliant`] cells. Any number of cycles is stable.
 
@@ -10,7 +10,7 @@ use crate::grid::{CellValues, Field};
 use crate::motion::extrapolation::{self, Acceleration, Bounds, GridCompliance, LastExtrapolation};
 use crate::motion::law::{self, CyclicSlip, Law, Sums};
 use crate::motion::pair::Pair;
-use crate::motion::record::{FILM, FrettingRecord, LostVolume, WEAR};
+use crate::motion::record::{FrettingRecord, LawsInCycles, LostVolume};
 use crate::motion::rim::Interior;
 use crate::motion::{Strategy, worn_away};
 use crate::operator::{Boundary, Compliant, Operator, Operators};
@@ -162,7 +162,7 @@ impl Laws {
         Ok(cycles)
     }
 
-    /// Returns the sums of a cycle over so many `cycles`, in the mean of the pressures before and after their wear, from those with the
+    /// Returns the sums of a cycle over so many `cycles`, in the mean of the pressures before and after their removal, from those with the
     /// pressures before.
     fn implicitly(
         &mut self,
@@ -173,29 +173,31 @@ impl Laws {
         cycles: usize,
     ) -> Result<Vec<Sums>> {
         let normal = &contact.normal;
-        if !self.laws.iter().any(|law| wears(law.as_ref())) {
+        if !self.laws.iter().any(|law| follows_pressure(law.as_ref())) {
             return Ok(sums);
         }
         let one = law::tried(&self.laws, &bodies.pair, &sums, 1);
         let mut depth = Field::zeros(normal.pressure.raw_dim());
-        for ([lower, upper], _) in one.iter().zip(&self.laws).filter(|(_, law)| wears(law.as_ref())) {
+        for ([lower, upper], _) in
+            one.iter().zip(&self.laws).filter(|(_, law)| follows_pressure(law.as_ref()))
+        {
             depth += lower;
             depth += upper;
         }
-        // Half of the wear is that of the pressures before, half is in proportion to those after.
+        // Half of the removal is that of the pressures before, half is in proportion to those after.
         let half = 0.5 * cycles as f64;
         let mut compliance = depth.clone();
         compliance.zip_mut_with(&normal.pressure, |depth, pressure| {
             *depth = if *pressure > 0.0 { half * *depth / pressure } else { 0.0 };
         });
-        // The gap under the shear, whose contact without wear is the present one.
+        // The gap under the shear, whose contact without removal is the present one.
         let mut of_pressure = Field::zeros(normal.pressure.raw_dim());
         self.operator.apply(&normal.pressure, &mut of_pressure);
         let gap = gap + &normal.displacement - of_pressure + half * depth;
         let mut operator = Compliant::new(self.operator.as_mut(), CellValues::Field(compliance))?;
         let start = Some(&normal.pressure);
         let worn = solve_normal(&mut operator, &gap, &normal.bounds, control, start, &self.params)?;
-        for (sums, _) in sums.iter_mut().zip(&self.laws).filter(|(_, law)| wears(law.as_ref())) {
+        for (sums, _) in sums.iter_mut().zip(&self.laws).filter(|(_, law)| follows_pressure(law.as_ref())) {
             for of_body in sums.iter_mut() {
                 ndarray::Zip::from(&mut of_body[0]).and(&worn.pressure).and(&normal.pressure).for_each(
                     |sum, worn, before| {
@@ -214,7 +216,7 @@ impl Laws {
         let Some(last) = bodies.last.as_ref().filter(|_| cycles > 1) else { return changing };
         let factor = 0.5 * cycles as f64 / last.extrapolation.passes as f64;
         let laws = self.laws.iter().zip(&mut changing).zip(&last.extrapolation.sums);
-        for ((_, sums), then) in laws.filter(|((law, _), _)| wears(law.as_ref())) {
+        for ((_, sums), then) in laws.filter(|((law, _), _)| follows_pressure(law.as_ref())) {
             for (sum, then) in sums.iter_mut().zip(then) {
                 ndarray::Zip::from(&mut sum[0]).and(&then[0]).and(&last.pressure).and(pressure).for_each(
                     |sum, then, before, now| {
@@ -254,30 +256,13 @@ impl Laws {
 
     /// Describes the bodies after an increment.
     pub(super) fn record(&self, bodies: &ChangedBodies) -> FrettingRecord {
-        let pair = &bodies.pair;
-        let of = |name: &str, of_body: &dyn Fn(&Field) -> f64| {
-            [&pair.lower, &pair.upper]
-                .map(|body| body.state.get(name).map_or(0.0, |state| of_body(&state.values)))
-        };
-        let deepest = |values: &Field| values.iter().copied().fold(0.0, f64::max);
-        let [worn_volume_lower, worn_volume_upper] = of(WEAR, &|values| pair.cell_area() * values.sum());
-        let [max_wear_lower, max_wear_upper] = of(WEAR, &deepest);
-        let [max_film_lower, max_film_upper] = of(FILM, &deepest);
-        FrettingRecord {
-            cycles: bodies.cycles,
-            worn_volume_lower,
-            worn_volume_upper,
-            max_wear_lower,
-            max_wear_upper,
-            max_film_lower,
-            max_film_upper,
-            friction_work: bodies.work,
-            wear_error: bodies.error,
-        }
+        let mut columns = LawsInCycles::default();
+        self.laws.iter().for_each(|law| law.record_cycles(&bodies.pair, &mut columns));
+        FrettingRecord::new(bodies.cycles, columns, bodies.work, bodies.error)
     }
 }
 
 /// Whether the first sum of a law is in proportion to the pressure.
-fn wears(law: &dyn Law) -> bool {
+fn follows_pressure(law: &dyn Law) -> bool {
     law.per_pressure(1.0) != [0.0; 2]
 }

@@ -1,4 +1,4 @@
-//! A pass solved together with its wear, so that the pressures are those at its end.
+//! A pass solved together with its removal, so that the pressures are those at its end.
 
 use std::ops::Range;
 
@@ -16,9 +16,9 @@ use crate::operator::{Boundary, Operator, Operators};
 use crate::solver::{Bounds, Control, Device, Method, Params, Solution, solve_normal_watched};
 
 impl Solver<'_> {
-    /// Solves again a pass with too much wear for an explicit step. Each cell of the bodies is lowered by the depth lost at
+    /// Solves again a pass with too much removal for an explicit step. Each cell of the bodies is lowered by the depth lost at
     /// the end of the pass, which is `compliance`, m/Pa, times the sum of its pressures over all positions. All positions
-    /// form one problem, which starts from the pressures of the `outcome`. This is backward Euler, stable for any wear, as
+    /// form one problem, which starts from the pressures of the `outcome`. This is backward Euler, stable for any removal, as
     /// in sliding in place.
     ///
     /// # Errors
@@ -32,19 +32,19 @@ impl Solver<'_> {
     ) -> Result<Vec<Contact>> {
         let pair = &outcome.pair;
         if !pair.interface().is_hard() {
-            return Err(Error::Unsupported(TOO_MUCH_WEAR));
+            return Err(Error::Unsupported(TOO_MUCH_REMOVAL));
         }
         let positions = self.positions.len();
         let control = match (self.motion.control, self.motion.load_control) {
             (Control::Load(_), LoadControl::Step) if positions > 1 => {
-                return Err(Error::Unsupported(TOO_MUCH_WEAR));
+                return Err(Error::Unsupported(TOO_MUCH_REMOVAL));
             }
             (Control::Load(load), _) => Control::Load(load * positions as f64),
             (approach, _) => approach,
         };
         let sliding = self.motion.sliding(Stroke::Forth);
         if sliding.is_some_and(|sliding| sliding.shear_displaces_normally(pair.couples())) {
-            return Err(Error::Unsupported(TOO_MUCH_WEAR));
+            return Err(Error::Unsupported(TOO_MUCH_REMOVAL));
         }
         let friction = sliding.as_ref().map(|sliding| &sliding.friction);
         let grid = pair.grid(self.positions.iter().map(|position| position.columns).sum());
@@ -77,7 +77,7 @@ impl Solver<'_> {
                 let sliding = self.motion.sliding(position.stroke);
                 let contact = Contact::new(*position, sliding.as_ref(), &at_position)
                     .with_gap(&at_position, before.gap.is_some());
-                // The displacement of the solution includes the wear.
+                // The displacement of the solution includes the removal.
                 Contact { max_displacement: None, ..contact }
             };
         Ok(contacts.map(contact).collect())
@@ -99,8 +99,8 @@ impl Solver<'_> {
     }
 }
 
-/// Message for a pass with too much wear for an explicit step that cannot be solved implicitly.
-const TOO_MUCH_WEAR: &str = "a single pass wears so much that the pressures of single cells would oscillate: give a smaller wear coefficient, larger \
+/// Message for a pass with too much removal for an explicit step that cannot be solved implicitly.
+const TOO_MUCH_REMOVAL: &str = "a single pass removes so much that the pressures of single cells would oscillate: give a smaller coefficient, larger \
      cells or a shorter pass; the implicit solution needs one approach for the whole pass, no attraction and no coupling of \
      shear to normal displacements";
 
@@ -153,7 +153,7 @@ impl Operator for WornPass<'_> {
         &self.grid
     }
 
-    /// Free for every boundary of the positions: once all cells wear, no mean displacement is undetermined.
+    /// Free for every boundary of the positions: once all cells lose height, no mean displacement is undetermined.
     fn boundary(&self) -> Boundary {
         Boundary::FREE
     }

@@ -6,12 +6,12 @@ use crate::math::gathered;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
-use crate::motion::record::{HeatRecord, LostVolume};
+use crate::motion::record::{HeatRecord, LawsInCycles, LawsInPass, LawsInUpdate, LostVolume};
 use crate::motion::rim::Interior;
 use crate::solver::{FrictionalSolution, Sliding};
 use crate::units::{Kelvin, Metre, Pascal, PerPascal, Second, WattPerSquareMetre};
 
-/// A law by which the contacts of a pass change the bodies: plastic flow, wear, a film.
+/// A law by which the contacts of a pass change the bodies: plastic flow, removal of material, growth of a film.
 ///
 /// A law is called in two steps. [`Law::add`] reads the contact at each position, in order, and adds its effect to sums
 /// over the pass. [`Law::advance`] then changes the bodies by these sums. A law stores data between passes in
@@ -36,9 +36,15 @@ pub trait Law: Send + Sync {
     /// beginning of the pass.
     fn add(&self, pair: &Pair, contact_cells: &ContactCells, sums: &mut [Vec<Field>; 2]);
 
-    /// Whether the law acts again in each extrapolated pass: wear does, plastic flow does not.
+    /// Whether the law acts again in each extrapolated pass: removal does, plastic flow does not.
     fn repeats(&self) -> bool {
         true
+    }
+
+    /// Whether the depths that the law takes uncover the material below, which memories of whole passes keep: removal of a body does, a film that
+    /// grows on it does not.
+    fn uncovers(&self) -> bool {
+        false
     }
 
     /// Largest depth that the law removes from each body per pressure and distance slid, 1/Pa, with shear equal to
@@ -59,6 +65,28 @@ pub trait Law: Send + Sync {
     /// Changes the state of the bodies by `passes` passes with these sums. Returns the height that each cell of the lower
     /// and of the upper body loses to the law, m, below 0 if a cell grows. The caller lowers the heights.
     fn advance(&self, pair: &mut Pair, sums: &[Vec<Field>; 2], passes: f64) -> [Field; 2];
+
+    /// Largest depth by which the law has lowered or raised a cell of the lower and of the upper body since the beginning, m; 0 if the law does
+    /// not store it.
+    fn deepest(&self, pair: &Pair) -> [Metre; 2] {
+        let _ = pair;
+        [0.0; 2]
+    }
+
+    /// Fills the columns of the law in the row of a pass, from the bodies after it and the depths `taken` from them.
+    fn record_pass(&self, pair: &Pair, taken: &[Field; 2], columns: &mut LawsInPass) {
+        let _ = (pair, taken, columns);
+    }
+
+    /// Fills the columns of the law in the row of an update, from the bodies after it and their `contact`.
+    fn record_update(&self, pair: &Pair, contact: &Contact, columns: &mut LawsInUpdate) {
+        let _ = (pair, contact, columns);
+    }
+
+    /// Fills the columns of the law in the row of an increment, from the bodies after it.
+    fn record_cycles(&self, pair: &Pair, columns: &mut LawsInCycles) {
+        let _ = (pair, columns);
+    }
 }
 
 /// The cells in contact at one position.
@@ -336,8 +364,13 @@ pub(super) fn tried(laws: &[Box<dyn Law>], pair: &Pair, sums: &[Sums], passes: u
 
 /// Returns the largest depth removed from a cell of each body by all laws together.
 pub(super) fn deepest(depths: &[[Field; 2]]) -> [Metre; 2] {
-    let most = |field: &Field| field.iter().fold(0.0, |most: f64, value| most.max(*value));
-    depths.iter().fold([0.0; 2], |sum: [f64; 2], depth| [sum[0] + most(&depth[0]), sum[1] + most(&depth[1])])
+    let of_law = |depth: &[Field; 2]| [0, 1].map(|body| largest(&depth[body]));
+    depths.iter().map(of_law).fold([0.0; 2], |sum: [f64; 2], most| [sum[0] + most[0], sum[1] + most[1]])
+}
+
+/// Returns the largest value of a field, at least 0.
+pub(crate) fn largest(field: &Field) -> f64 {
+    field.iter().fold(0.0, |most: f64, value| most.max(*value))
 }
 
 /// Returns the largest difference between two sets of depths at a cell, summed over all laws.

@@ -54,7 +54,7 @@ pub fn load_in_stages(
     loading.run(under_way, watch, outputs)
 }
 
-/// Two bodies that are loaded at full overlap, stage after stage, see [`load_in_stages`], and that may wear and grow films where they slip.
+/// Two bodies that are loaded at full overlap, stage after stage, see [`load_in_stages`], and that laws may change where they slip.
 pub struct StagedLoading {
     pair: Pair,
     /// Initial gap of the undeformed bodies.
@@ -146,7 +146,7 @@ impl StagedLoading {
             laws if laws.is_empty() => None,
             _ if matches!(self.solver, Solver::Frictionless(_)) => {
                 return Err(Error::Unsupported(
-                    "bodies wear and grow films in a loading by slip, which needs friction",
+                    "laws change the bodies of a loading by slip, which needs friction",
                 ));
             }
             laws => {

@@ -46,6 +46,7 @@ pub use elasto_plastic::{ElastoPlasticContact, PlasticPath, PlasticResult, press
 pub use extrapolation::{Acceleration, LastExtrapolation};
 pub use fretting::{ChangedBodies, LastCycle};
 pub use heat::FLASH;
+pub(crate) use law::largest;
 pub use law::{ContactCells, Law, Sums};
 pub use loading::{StagedLoading, load_in_stages, roll};
 pub use memory::{Memory, WholePass};
@@ -57,11 +58,11 @@ pub use path::{OffsetY, Path, Position, Stroke, overlap_positions, shift_positio
 pub use plastic_volume::PlasticVolume;
 pub use record::lost_volumes::{ENDINGS, is_volume_of_law};
 pub use record::{
-    CreepRecord, DragRecord, FrettingRecord, HeatRecord, IncrementRecord, LostVolume, PassDragRecord,
-    PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Regime, ResidualRecord, RunningRecord,
-    ShearRecord, StaticRecord, SteadyRecord, StepRecord, SweepRecord, UpdateRecord,
+    CreepRecord, DragRecord, FrettingRecord, HeatRecord, IncrementRecord, LawsInCycles, LawsInPass,
+    LawsInUpdate, LostVolume, PassDragRecord, PassPlasticRecord, PassRecord, PlasticRecord,
+    PlasticStepRecord, Regime, ResidualRecord, RunningRecord, ShearRecord, StaticRecord, SteadyRecord,
+    StepRecord, SweepRecord, UpdateRecord,
 };
-pub use record::{FILM, WEAR};
 pub use report::PassReport;
 pub use rim::Interior;
 pub use simulation::{Simulation, SolvedPass};

@@ -8,20 +8,20 @@ use crate::motion::course::{self, Course, Output, Step, StepRow};
 use crate::motion::law::{self, Heat, Law, PositionData, Sums};
 use crate::motion::pair::{Pair, opposing_values};
 use crate::motion::path::Position;
-use crate::motion::record::{FILM, LostVolume, StaticRecord, UpdateRecord, WEAR};
+use crate::motion::record::{LawsInUpdate, LostVolume, StaticRecord, UpdateRecord};
 use crate::motion::rim::Interior;
 use crate::motion::spot::largest_spot;
 use crate::motion::state::SlidingState;
 use crate::motion::truncation::Truncation;
 use crate::motion::watch::{StaticWatch, Watch};
-use crate::motion::{Body, Strategy};
+use crate::motion::{Strategy, worn_away};
 use crate::operator::{Boundary, Compliant, Operator};
 use crate::solver::{Control, Friction, Params, Sliding, Solution, Stats, solve_normal_watched};
 use crate::temperature::{FlashStep, SteadyTemperature, Thermal};
 use crate::units::{Dimension, Kelvin, Metre, MetrePerSecond, Second};
 
 /// Sliding in place. The upper body slides towards +x, while the cells of the lower body stay under
-/// the same cells of the upper one. Examples are a pin on a disc, and a body that wears uniformly along its path.
+/// the same cells of the upper one. Examples are a pin on a disc, and a body that is worn uniformly along its path.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Slide {
@@ -39,7 +39,7 @@ pub struct Slide {
 
 impl Slide {
     /// Slides over a `distance`, > 0, in `updates` updates, ≥ 1. The i-th ends at distance · (i/updates)², because a
-    /// wearing contact changes ever more slowly. An update is a step of backward Euler. The error of depths is of first
+    /// worn contact changes ever more slowly. An update is a step of backward Euler. The error of depths is of first
     /// order in the number of updates; worn volumes have none.
     pub fn graded(distance: Metre, updates: usize, control: Control) -> Self {
         let end = |update: usize| distance * (update as f64 / updates as f64).powi(2);
@@ -311,6 +311,7 @@ impl SlidingContact {
         let mut lost = before.lost.clone();
         let work = before.friction_work + contact.tangential_force.abs() * position_data.distance;
         law::advance(&self.laws, &mut state.pair, &sums, 1.0, &self.interiors, &mut lost);
+        worn_away::check_cells(&state.pair, &self.laws)?;
         let distance = self.slide.ends[index];
         state.updates.push(UpdateRecord {
             update: index + 1,
@@ -389,17 +390,8 @@ impl SlidingContact {
     /// Creates the record of an update from its contact.
     fn record(&self, pair: &Pair, contact: &Contact, flash: Option<&FlashStep>) -> UpdateRecord {
         let cells = || contact.pressure.iter().map(|(cell, _)| *cell as usize);
-        let film = |body: &Body| match body.state.get(FILM) {
-            Some(film) if !contact.pressure.is_empty() => {
-                let film = film.values.as_slice().expect("standard layout");
-                cells().map(|cell| film[cell]).sum::<f64>() / contact.pressure.len() as f64
-            }
-            _ => 0.0,
-        };
-        let worn = |body: &Body| {
-            let depths = body.state.get(WEAR).into_iter().flat_map(|wear| &wear.values);
-            depths.copied().fold(0.0, f64::max)
-        };
+        let mut laws = LawsInUpdate::default();
+        self.laws.iter().for_each(|law| law.record_update(pair, contact, &mut laws));
         let bulk = self.slide.bulk.map_or(f64::NAN, |bulk| bulk[0].max(bulk[1]));
         UpdateRecord {
             update: 0,
@@ -413,10 +405,7 @@ impl SlidingContact {
             max_pressure: contact.max_pressure(),
             plastic_cells: contact.plastic.len(),
             lost: Vec::new(),
-            max_wear_lower: worn(&pair.lower),
-            max_wear_upper: worn(&pair.upper),
-            mean_film_lower: film(&pair.lower),
-            mean_film_upper: film(&pair.upper),
+            laws,
             friction_power: contact.tangential_force.abs() * self.slide.speed.unwrap_or(f64::NAN),
             friction_work: 0.0,
             max_temperature: flash.and_then(FlashStep::max_temperature).unwrap_or(bulk),

@@ -8,7 +8,7 @@ use crate::motion::creeping;
 use crate::motion::extrapolation::LastExtrapolation;
 use crate::motion::fretting::{ChangedBodies, LastCycle};
 use crate::motion::pair::Pair;
-use crate::motion::record::{IncrementRecord, StaticRecord, UpdateRecord};
+use crate::motion::record::{HEIGHT_ERROR, IncrementRecord, StaticRecord, UpdateRecord};
 use crate::motion::stage::{Origin, Progress};
 use crate::motion::store::{
     CourseState, StateReader, StateWriter, restore_both, restore_if, restore_sums, store_both, store_sums,
@@ -271,7 +271,7 @@ impl ChangedBodies {
         }
         to.number("friction_work", *work);
         to.number("cycle_work", *cycle_work);
-        to.number("wear_error", *error);
+        to.number(HEIGHT_ERROR, *error);
         to.count("cycles_done", *cycles);
     }
 
@@ -293,7 +293,7 @@ impl ChangedBodies {
             last,
             work: from.number("friction_work")?,
             cycle_work: from.number("cycle_work")?,
-            error: from.number("wear_error")?,
+            error: from.number(HEIGHT_ERROR)?,
             cycles: from.number("cycles_done")? as usize,
         })
     }

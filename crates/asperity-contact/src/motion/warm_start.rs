@@ -1,6 +1,6 @@
 //! Warm start that a pass leaves to the next, besides the bodies.
 //!
-//! Wear changes the pressures at a position by about the same amount in each pass. A pass begins with the extrapolated
+//! Removal changes the pressures at a position by about the same amount in each pass. A pass begins with the extrapolated
 //! pressures: the change of the last pass, scaled by how well that pass repeated the change before it.
 
 use crate::error::Result;
@@ -22,7 +22,7 @@ pub struct WarmStart {
     /// The loaded cells at each solved position of the last pass; empty before the first pass, or if the next pass has
     /// other positions.
     pub positions: Vec<LoadedCells>,
-    /// The last extrapolation; `None` before the first pass, or if nothing wears.
+    /// The last extrapolation; `None` before the first pass, or if nothing is removed.
     pub extrapolation: Option<LastExtrapolation>,
     /// Finished passes of the motion.
     pub represented: usize,

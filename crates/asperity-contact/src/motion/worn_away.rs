@@ -2,8 +2,8 @@
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
+use crate::motion::law::Law;
 use crate::motion::pair::Pair;
-use crate::motion::record::WEAR;
 use crate::motion::record::{LostVolume, PassRecord, UpdateRecord};
 use crate::units::Metre;
 
@@ -12,8 +12,7 @@ use crate::units::Metre;
 /// # Errors
 /// [`Error::WornAway`].
 pub(super) fn check_pass(pair: &Pair, pass: &PassRecord) -> Result<()> {
-    let deepest = pass.running.map_or([0.0; 2], |running| [running.max_wear_lower, running.max_wear_upper]);
-    check(pair, |body| lost(pair, body, &pass.lost).max(deepest[body]).max(worn(pair, body)))
+    check(pair, |body| lost(pair, body, &pass.lost))
 }
 
 /// Checks the bodies after an update of a contact that slides in place.
@@ -21,7 +20,15 @@ pub(super) fn check_pass(pair: &Pair, pass: &PassRecord) -> Result<()> {
 /// # Errors
 /// [`Error::WornAway`].
 pub(super) fn check_update(pair: &Pair, update: &UpdateRecord) -> Result<()> {
-    check(pair, |body| lost(pair, body, &update.lost).max(worn(pair, body)))
+    check(pair, |body| lost(pair, body, &update.lost))
+}
+
+/// Checks the cells of the bodies after `laws` have changed them.
+///
+/// # Errors
+/// [`Error::WornAway`].
+pub(super) fn check_cells(pair: &Pair, laws: &[Box<dyn Law>]) -> Result<()> {
+    check(pair, |body| laws.iter().map(|law| law.deepest(pair)[body]).fold(0.0, f64::max))
 }
 
 /// Checks the bodies after losses of these depths, by law, with their mean over the cells. The mean follows from the load and the
@@ -55,10 +62,4 @@ fn check(pair: &Pair, depth: impl Fn(usize) -> Metre) -> Result<()> {
 fn lost(pair: &Pair, body: usize, lost: &[LostVolume]) -> Metre {
     let area = [pair.lower_grid(), pair.upper_grid()][body].area();
     lost.iter().map(|lost| lost.whole[body].abs() / area).fold(0.0, f64::max)
-}
-
-/// Deepest wear of a cell since the beginning.
-fn worn(pair: &Pair, body: usize) -> Metre {
-    let depths = [&pair.lower, &pair.upper][body].state.get(WEAR);
-    depths.into_iter().flat_map(|wear| &wear.values).copied().fold(0.0, f64::max)
 }

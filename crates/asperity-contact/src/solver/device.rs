@@ -100,7 +100,7 @@ pub(super) fn solve(
     }
     let Some(definition) = definition else {
         return Err(Error::Unsupported(
-            "a device does not solve contacts whose cells wear or creep while they are pressed",
+            "a device does not solve contacts whose cells lose height or creep while they are pressed",
         ));
     };
     let contact = contact(problem.initial_gap, problem.bounds, start)?;

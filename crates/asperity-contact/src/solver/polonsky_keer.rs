@@ -18,7 +18,7 @@ const DAMPING: f64 = 0.5;
 /// alone.
 const FIRST_PRESSURE: f64 = 0.3;
 
-/// Solves by the method of Wear 231, 206 (1999), with two operator calls per iteration. Cells at their upper bound
+/// Solves by the method of Polonsky and Keer (1999), with two operator calls per iteration. Cells at their upper bound
 /// leave the conjugate directions in the same way as cells at their lower bound.
 pub(super) fn solve(
     operator: &mut dyn Operator,

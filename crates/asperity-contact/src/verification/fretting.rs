@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::material::Material;
 use crate::motion::{
-    Acceleration, ChangedBodies, Cycles, IncrementRecord, LoadedContact, Pair, Stage, StagedLoading, WEAR,
+    Acceleration, ChangedBodies, Cycles, IncrementRecord, LoadedContact, Pair, Stage, StagedLoading,
 };
 use crate::operator::Boundary;
 use crate::reference::cattaneo::tangential_modulus;
@@ -13,7 +13,7 @@ use crate::reference::{CattaneoMindlin, HertzSphere};
 use crate::solver::{Control, Friction, Loading, Tangential};
 use crate::surface::Form;
 use crate::units::{Newton, PerPascal};
-use crate::wear::{Wear, WearCoefficient};
+use crate::wear::{WEAR, Wear, WearCoefficient};
 
 /// A ball under a force that goes to and fro wears in the annulus that slips, by k/μ times the energy of a cycle.
 pub(super) const CYCLE: Case = Case {
@@ -102,7 +102,7 @@ fn cycle() -> Result<Vec<Check>> {
         let contact = ball.fret(COEFFICIENT, 2, 1, Acceleration::NONE)?;
         // The push before the cycle wears, too.
         let volume = |record: &IncrementRecord| {
-            record.fretting.map_or(f64::NAN, |fretting| fretting.worn_volume_lower)
+            record.fretting.map_or(f64::NAN, |fretting| fretting.laws.worn_volume_lower)
         };
         let of_cycle = |record: &&IncrementRecord| record.stage == 3;
         let before =

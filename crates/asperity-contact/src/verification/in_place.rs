@@ -191,7 +191,7 @@ fn worn_ball(stations: &[usize]) -> Result<Vec<[f64; 3]>> {
         let depth = a * a / (2.0 * radius) - (2.0 - 4.0 / PI) * load / (PI * a * modulus);
         let found = (update.contact_area / PI).sqrt();
         [
-            relative(update.max_wear_upper, depth),
+            relative(update.laws.max_wear_upper, depth),
             (found - a) / grid.pitch[0],
             relative(update.lost("wear")[1], volume),
         ]

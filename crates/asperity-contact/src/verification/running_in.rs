@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 
 use super::{Case, Check, Expected, study};
 use crate::error::Result;
-use crate::film::{Film, FilmLaw, FilmStress, Films};
+use crate::film::{FILM, Film, FilmLaw, FilmStress, Films};
 use crate::grid::Grid;
 use crate::material::Material;
-use crate::motion::{Acceleration, FILM, LoadControl, Motion, Pair, Simulation, Strategy};
+use crate::motion::{Acceleration, LoadControl, Motion, Pair, Simulation, Strategy};
 use crate::operator::Boundary;
 use crate::solver::{Control, Params};
 use crate::surface::Form;

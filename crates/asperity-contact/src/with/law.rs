@@ -8,13 +8,17 @@ use super::BodyLaws;
 use super::views::{Answer, Kept, OfBodies, PassCell};
 use crate::error::Result;
 use crate::motion::{FrettingRecord, Law, Pair, PassRecord, UpdateRecord};
-use crate::units::{Pascal, PerPascal};
+use crate::units::{Metre, Pascal, PerPascal, SquareMetre};
 use asperity_base::table::{self, Source, Table};
 
-/// Something that contacts do to a body, such as wear. Its struct is the table `[lower.NAME]` and `[upper.NAME]` of a case.
+/// Something that contacts do to a body, such as a film. Its struct is the table `[lower.NAME]` and `[upper.NAME]` of a case.
 pub trait BodyLaw: Table + Serialize + Clone + PartialEq + Debug + Send + Sync + 'static {
     /// Name of its table, and of the law in results.
     const NAME: &'static str;
+    /// The law in words, after "a body with": "a film".
+    const WITH: &'static str;
+    /// An example of its table on the lower body, as written above the tables of a case file.
+    const EXAMPLE: &'static str;
     /// Its meaning in the list of the keys of a body.
     const MEANING: &'static str;
     /// Combinations that exclude it, and what it requires.
@@ -57,6 +61,18 @@ pub trait BodyLaw: Table + Serialize + Clone + PartialEq + Debug + Send + Sync +
     /// Describes the law, for `asperity check`.
     fn describe(&self) -> String;
 
+    /// Returns a result of a pass on the lower and on the upper body, each with the bound up to which the model holds for it.
+    fn limit_in_pass(pass: &PassRecord, surfaces: &ChangedSurfaces) -> [[Metre; 2]; 2];
+
+    /// Returns a result of an update with its bound, as [`BodyLaw::limit_in_pass`] does.
+    fn limit_in_update(update: &UpdateRecord, surfaces: &ChangedSurfaces) -> [[Metre; 2]; 2] {
+        let _ = (update, surfaces);
+        [[0.0; 2]; 2]
+    }
+
+    /// Returns the warning about a result beyond its bound on the body of this name.
+    fn beyond_limit(body: &str, value: Metre, bound: Metre) -> String;
+
     /// Returns what these passes have done, if it answers a question of the user.
     fn after_passes(passes: &[PassRecord]) -> Option<Answer> {
         let _ = passes;
@@ -76,6 +92,17 @@ pub trait BodyLaw: Table + Serialize + Clone + PartialEq + Debug + Send + Sync +
     }
 }
 
+/// Surfaces that laws have changed in a step.
+#[derive(Debug, Clone, Copy)]
+pub struct ChangedSurfaces {
+    /// Area of the lower and of the upper body.
+    pub area: [SquareMetre; 2],
+    /// Rms height of the lower and of the upper body after the step.
+    pub sq: [Metre; 2],
+    /// Depth that a cell may lose in one pass.
+    pub removal: Metre,
+}
+
 /// A body that has a law, in its case.
 #[derive(Debug, Clone, Copy)]
 pub struct Circumstances<'a> {
@@ -87,6 +114,8 @@ pub struct Circumstances<'a> {
     pub has_friction: bool,
     /// Whether the temperatures of the bodies are known.
     pub has_temperature: bool,
+    /// Whether one of the bodies relaxes.
+    pub relaxes: bool,
     /// How the bodies slip on each other.
     pub slip: Slip,
     /// The quantity that is missing to know the time of the steps; `None` if the time is known.

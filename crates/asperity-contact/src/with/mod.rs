@@ -51,7 +51,7 @@ pub use capability::{
     Surroundings, answering,
 };
 pub use interface::InterfaceNumbers;
-pub use law::{BodyLaw, Circumstances, LawRule, Slip, Timeless};
+pub use law::{BodyLaw, ChangedSurfaces, Circumstances, LawRule, Slip, Timeless};
 pub use property::BodyProperty;
 
 use serde::{Deserialize, Serialize};

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::motion::{PassRecord, SweepRecord};
-use crate::units::{Metre, Pascal};
+use crate::units::{Metre, Pascal, format_number};
 
 /// A number, or a few that belong together, in words.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +26,11 @@ impl Line {
     pub fn detail(name: impl Into<Cow<'static, str>>, value: impl Into<String>) -> Self {
         Self { is_detail: true, ..Self::new(name, value) }
     }
+}
+
+/// Writes a share in per cent, with one digit behind the point.
+pub fn percent(share: f64) -> String {
+    format!("{} %", format_number((1000.0 * share).round() / 10.0))
 }
 
 /// Curves of one quantity over the mean pressure, over the contacts, or over the passes.
@@ -153,11 +158,11 @@ pub struct Kept {
 /// The map of a field that a law keeps.
 #[derive(Debug, Clone, Copy)]
 pub struct KeptMap {
-    /// Title of the figure: "wear since the beginning".
+    /// Title of the figure: "tribofilm".
     pub title: &'static str,
     /// Title for an upper body that is fresh in each pass.
     pub of_fresh: &'static str,
-    /// Title before the name of the body: "Depth of wear of".
+    /// Title before the name of the body: "Thickness of the film on".
     pub of_body: &'static str,
     /// The quantity, a length.
     pub quantity: &'static str,

@@ -2,16 +2,15 @@
 
 use asperity_base::grid::CellValues;
 use asperity_base::{Error, Field, Grid, Result};
-use asperity_contact::film::{Film, FilmLaw, FilmStress, Films};
+use asperity_contact::film::{FILM, Film, FilmLaw, FilmStress, Films};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    ContactCells, FILM, Law, Output, Pair, Slide, SlidingContact, SlidingOutcome, SlidingState, State, Step,
-    WEAR, press,
+    ContactCells, Law, Output, Pair, Slide, SlidingContact, SlidingOutcome, SlidingState, State, Step, press,
 };
 use asperity_contact::operator::{Boundary, Compliant, DirectSum, FreeFft, Operator, PeriodicFft};
 use asperity_contact::solver::{Bounds, Control, Coupling, Friction, Method, Params, Solution, solve_normal};
 use asperity_contact::temperature::Thermal;
-use asperity_contact::wear::{Wear, WearCoefficient};
+use asperity_contact::wear::{WEAR, Wear, WearCoefficient};
 use asperity_surface::{Amplitude, Form, SelfAffine};
 
 const PITCH: f64 = 1e-6;
@@ -318,11 +317,11 @@ fn the_ledger_balances_and_friction_works() {
         );
         let worn = &[&state.pair.lower, &state.pair.upper][body].state[WEAR].values;
         assert!((worn.sum() * before.cell_area() / last.lost("wear")[body] - 1.0).abs() < 1e-9);
-        assert_eq!(largest(worn), [last.max_wear_lower, last.max_wear_upper][body]);
+        assert_eq!(largest(worn), [last.laws.max_wear_lower, last.laws.max_wear_upper][body]);
     }
     assert!((last.friction_work / (0.1 * 0.08 * 2.0) - 1.0).abs() < 1e-9);
     assert!((last.friction_power / (0.1 * 0.08 * 0.5) - 1.0).abs() < 1e-9);
-    assert!(last.max_temperature > 373.15 && last.mean_film_lower > 1e-9);
+    assert!(last.max_temperature > 373.15 && last.laws.mean_film_lower > 1e-9);
     let temperature = temperature.unwrap();
     let warm = temperature.iter().filter(|t| t.is_finite()).count();
     assert_eq!(warm, solution.contact_cells());

@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use asperity_base::{Field, Grid, Result};
-use asperity_contact::film::{Film, FilmLaw, FilmStress, Films};
+use asperity_contact::film::{FILM, Film, FilmLaw, FilmStress, Films};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    Acceleration, ContactCells, FILM, Law, LoadControl, Motion, Output, Pair, PassRecord, Simulation, Step,
+    Acceleration, ContactCells, Law, LoadControl, Motion, Output, Pair, PassRecord, Simulation, Step,
     Strategy,
 };
 use asperity_contact::operator::Boundary;
@@ -464,7 +464,7 @@ fn friction_heats_the_cells_and_films_see_it() {
         assert!((work / (0.1 * kept.work[0] * 4.0 * PITCH) - 1.0).abs() < 1e-12);
     }
     // In the same time a warm film grows more.
-    let grown = |kept: &Kept| kept.passes[1].running.unwrap().mean_film_lower;
+    let grown = |kept: &Kept| kept.passes[1].running.unwrap().laws.mean_film_lower;
     assert!(grown(&slow) > 1.001 * grown(&cold), "{:e} {:e}", grown(&slow), grown(&cold));
 }
 
@@ -472,7 +472,7 @@ fn friction_heats_the_cells_and_films_see_it() {
 #[test]
 fn what_is_heated_in_some_passes_grows_films_in_all() {
     let [never, each, third] = [0, 1, 3].map(|every| heated(5.0, 7, every));
-    let grown = |kept: &Kept| kept.passes[6].running.unwrap().mean_film_lower;
+    let grown = |kept: &Kept| kept.passes[6].running.unwrap().laws.mean_film_lower;
     let [cold, all, some] = [&never, &each, &third].map(grown);
     assert!(
         all > 1.05 * cold && (some / all - 1.0).abs() < 0.1 * (all / cold - 1.0),

@@ -23,7 +23,7 @@ pub(super) struct Quantity {
 
 /// The quantities of a study in the order of `shown`: columns that say something, without those that repeat an axis, and the contact
 /// fraction.
-pub(super) fn quantities(table: &Table, shown: &[&str]) -> Vec<Quantity> {
+pub(super) fn quantities(table: &Table, shown: &[String]) -> Vec<Quantity> {
     let of_column = |name: &str| -> Option<Vec<f64>> {
         let at = table.columns().iter().position(|column| column == name)?;
         let value = |row: &Row| if row.failure.is_none() { row.numbers[at] } else { f64::NAN };
@@ -31,7 +31,7 @@ pub(super) fn quantities(table: &Table, shown: &[&str]) -> Vec<Quantity> {
     };
     let mut all: Vec<Quantity> = shown
         .iter()
-        .filter_map(|name| Some(Quantity { name: (*name).to_owned(), values: of_column(name)? }))
+        .filter_map(|name| Some(Quantity { name: name.clone(), values: of_column(name)? }))
         .filter(|quantity| quantity.values.iter().any(|value| value.abs() > 0.0))
         .filter(|quantity| !table.axes().iter().any(|axis| repeats(axis, quantity, table)))
         .collect();

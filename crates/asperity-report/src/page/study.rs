@@ -4,6 +4,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use asperity_base::units::format_time;
+use asperity_contact::each_law;
+use asperity_contact::with::BodyLaw;
 use asperity_study::column;
 use asperity_study::io;
 use asperity_study::many::{Axis, Row, Study, Table};
@@ -18,8 +20,8 @@ use crate::draw::{Colours, palette};
 /// Cases that have a row on the page, at most.
 const MAX_ROWS: usize = 20_000;
 
-/// Columns of a study's table that the page shows, the most telling ones first.
-const SHOWN: [&str; 29] = [
+/// Columns of a study's table that the page shows before the volumes that laws remove, the most telling ones first.
+const BEFORE: [&str; 14] = [
     "contact_area",
     "mean_contact_area",
     "approach",
@@ -34,8 +36,10 @@ const SHOWN: [&str; 29] = [
     "plastic_volume",
     "plastic_volume_lower",
     "plastic_volume_upper",
-    "wear_volume_lower",
-    "wear_volume_upper",
+];
+
+/// Columns that it shows after them.
+const AFTER: [&str; 13] = [
     "max_flash_temperature",
     "max_plastic_strain",
     "plastic_work",
@@ -51,6 +55,17 @@ const SHOWN: [&str; 29] = [
     "residual",
 ];
 
+/// Returns the columns of a study's table that the page shows.
+fn shown() -> Vec<String> {
+    let mut shown: Vec<String> = BEFORE.map(str::to_owned).to_vec();
+    each_law!(L => for volume in L::OF_PASSES.iter().filter(|of_bodies| of_bodies.adds_up) {
+        let name = volume.column.trim_end_matches("_lower");
+        shown.extend(["lower", "upper"].map(|body| format!("{name}_{body}")));
+    });
+    shown.extend(AFTER.map(str::to_owned));
+    shown
+}
+
 /// Writes the page of a study whose cases are in `table` to `path`; where that fails the one that is there stays.
 pub fn write_study(study: &Study, table: &Table, path: &Path) -> asperity_base::Result<()> {
     let directory = path.parent().unwrap_or(Path::new(""));
@@ -58,7 +73,7 @@ pub fn write_study(study: &Study, table: &Table, path: &Path) -> asperity_base::
 }
 
 fn page(study: &Study, table: &Table, directory: &Path) -> String {
-    let quantities = explorer::quantities(table, &SHOWN);
+    let quantities = explorer::quantities(table, &shown());
     let has_chart = !quantities.is_empty() && table.axes().iter().any(|axis| measure(axis).is_some());
     let sections: [Section; 3] = [
         ("curves", "Chart", has_chart.then(|| "<div id=\"explorer\"></div>".to_owned())),
@@ -199,8 +214,8 @@ mod tests {
 
     #[test]
     fn columns_that_are_shown_are_columns_of_records() {
-        for name in SHOWN {
-            assert!(asperity_study::column(name).is_some(), "{name}");
+        for name in shown() {
+            assert!(asperity_study::column(&name).is_some(), "{name}");
         }
     }
 }

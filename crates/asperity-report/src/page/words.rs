@@ -25,7 +25,7 @@ pub(super) fn of_key(key: &str) -> String {
     }
 }
 
-/// The words for a column of the results: `wear volume of the upper body`.
+/// The words for a column of the results: `mean film of the upper body`.
 pub(super) fn of_column(column: &str) -> String {
     let body = ["lower", "upper"]
         .into_iter()

@@ -322,9 +322,9 @@ impl Sizes<'_> {
         self.case.friction.is_some() && (rests || self.case.shear_displaces_normally())
     }
 
-    /// Estimates the number of computed passes from the stability limit and the largest wear of an extrapolation.
+    /// Estimates the number of computed passes from the stability limit and the largest depth of an extrapolation.
     fn computed_passes(&self, passes: usize) -> f64 {
-        /// Wear depth of the most worn cell over the mean.
+        /// Depth lost by the most worn cell over the mean.
         const DEEPEST: f64 = 8.0;
         let (case, passes) = (self.case, passes as f64);
         let (Some(acceleration), Some(compliances)) = (case.acceleration, self.compliances()) else {
@@ -342,7 +342,7 @@ impl Sizes<'_> {
         };
         let stable =
             0.45 * self.lower.pitch[0].min(self.lower.pitch[1]) / (compliances.modulus() * worn * slid);
-        let shallow = acceleration.max_wear / (DEEPEST * worn * mean * slid);
+        let shallow = acceleration.max_depth() / (DEEPEST * worn * mean * slid);
         let jump = stable.min(shallow).min(acceleration.max_jump as f64).min(passes).max(1.0);
         passes.min(passes / jump + jump.log2())
     }

@@ -26,9 +26,9 @@ pub(super) const LARGE_DISPLACEMENT: f64 = 0.1;
 pub(super) struct Bounds {
     /// Up to [`STEEP`] tan and sin of a slope agree.
     pub(super) slope: f64,
-    /// The width of a cell, or the depth d at which a wave of the mean length λ = 2π Sq/Sdq of the gap that wears on its summits alone
+    /// The width of a cell, or the depth d at which a wave of the mean length λ = 2π Sq/Sdq of the gap that loses its summits alone
     /// becomes steep by itself: its rms slope is πd/√2λ.
-    pub(super) wear: Metre,
+    pub(super) removal: Metre,
     /// [`STRENGTH`] times E*, for bodies without a coating.
     pub(super) pressure: Pascal,
     /// [`NEAR_PLASTIC_LIMIT`].
@@ -58,7 +58,7 @@ impl Bounds {
         let heights = bodies.map(range).iter().sum::<f64>();
         Self {
             slope: unless(estimate.gap_slope > STEEP, STEEP),
-            wear: if steep > 0.0 { steep.min(dx).min(dy) } else { dx.min(dy) },
+            removal: if steep > 0.0 { steep.min(dx).min(dy) } else { dx.min(dy) },
             pressure: unless(case.is_coated() || too_hard || modulus < RUBBER, strength),
             hardness: unless(near, NEAR_PLASTIC_LIMIT),
             temperature: MELTING,

@@ -1,10 +1,9 @@
 //! The quantities of a step that the limits bound.
 
 use crate::case::Side;
-use asperity_base::grid::Grid;
 use asperity_base::units::{Kelvin, Metre, Pascal};
 use asperity_contact::motion::{
-    Contact, Pair, PassRecord, PassReport, Step, StepRecord, StepRow, UpdateRecord, WEAR,
+    Contact, Pair, PassRecord, PassReport, Step, StepRecord, StepRow, UpdateRecord,
 };
 use asperity_contact::solver::Solution;
 
@@ -25,12 +24,18 @@ pub(super) struct Findings<'a> {
     pub(super) contacts: Vec<ContactFindings>,
     /// The bodies after the step, if it may have changed them.
     pub(super) changed: Option<&'a Pair>,
-    /// Deepest wear of the lower and of the upper body in one pass.
-    pub(super) wear: [Metre; 2],
-    /// Mean thickness of the film, and Sq, of the lower and of the upper body.
-    pub(super) films: [[Metre; 2]; 2],
+    /// The row of a step after which laws have changed the bodies.
+    pub(super) row: Option<ChangingRow<'a>>,
+    /// Sq of the lower and of the upper body after it.
+    pub(super) sq: [Metre; 2],
     /// Largest temperature, and where.
     pub(super) temperature: Option<(usize, Kelvin)>,
+}
+
+/// A row of a step that laws change the bodies after.
+pub(super) enum ChangingRow<'a> {
+    Pass(&'a PassRecord),
+    Update(&'a UpdateRecord),
 }
 
 /// Quantities of a contact.
@@ -83,17 +88,18 @@ impl<'a> Findings<'a> {
         }
     }
 
-    /// Adds the films and the temperature of an update.
-    fn of_update(mut self, update: &UpdateRecord) -> Self {
-        // The displacement of an update includes its wear.
+    /// Adds the row and the temperature of an update.
+    fn of_update(mut self, update: &'a UpdateRecord) -> Self {
+        // The displacement of an update includes its removal.
         if update.update > 0 {
             self.contacts.iter_mut().for_each(|contact| contact.displacement = None);
         }
-        let [lower, upper] = self
+        let sq = self
             .changed
             .map_or([0.0; 2], |pair| [&pair.lower, &pair.upper].map(|body| body.heights.std(0.0)));
         Self {
-            films: [[update.mean_film_lower, lower], [update.mean_film_upper, upper]],
+            row: Some(ChangingRow::Update(update)),
+            sq,
             temperature: Some((update.update, update.max_temperature)),
             ..self
         }
@@ -110,10 +116,8 @@ impl<'a> Findings<'a> {
                 .map(|(index, each)| ContactFindings::at_position(index + 1, each, width))
                 .collect(),
             changed: Some(pair),
-            wear: worn(record, [pair.lower_grid(), pair.upper_grid()]),
-            films: record.running.map_or([[0.0; 2]; 2], |running| {
-                [[running.mean_film_lower, record.sq_lower], [running.mean_film_upper, record.sq_upper]]
-            }),
+            row: Some(ChangingRow::Pass(record)),
+            sq: [record.sq_lower, record.sq_upper],
             temperature: steps
                 .iter()
                 .filter_map(hot)
@@ -143,11 +147,4 @@ impl<'a> Findings<'a> {
         let step = self.contacts.first().map(|contact| contact.step).filter(|_| self.pass.is_none());
         (value > bound).then_some(Finding { step, body, value, bound })
     }
-}
-
-/// Returns the deepest wear of each body in one pass; that of a law in Python is known only as a mean.
-fn worn(record: &PassRecord, grids: [Grid; 2]) -> [Metre; 2] {
-    let deepest = record.running.map_or([0.0; 2], |running| [running.max_wear_lower, running.max_wear_upper]);
-    let mean = record.lost(WEAR);
-    [0, 1].map(|body| deepest[body].max(mean[body] / grids[body].area()) / record.represents() as f64)
 }

@@ -1,6 +1,6 @@
 //! The limits of the model, compared with results while they come.
 //!
-//! A limit is a row of [`LIMITS`]: the quantity that it bounds and the sentence that says how it was exceeded. Its bound, with the
+//! A limit is a row of [`table::limits`]: the quantity that it bounds and the sentence that says how it was exceeded. Its bound, with the
 //! reason, is a field of [`Bounds`]. The first step that exceeds a limit is a row of `limits.csv`, which is written before the row of
 //! the step itself, and the sentence goes to the watch at once. A limit is reported once. A body that is no longer a surface at all
 //! is an error of `motion::worn_away`.
@@ -20,12 +20,13 @@ use asperity_contact::solver::Solution;
 
 use bounds::Bounds;
 use findings::{ContactFindings, Finding, Findings};
-use table::{LIMITS, Row};
+use table::Row;
 
 impl BrokenLimit {
     /// Returns the warning about it, for a result of `case`.
     pub fn sentence(&self, case: &Case) -> String {
-        let row = LIMITS.iter().find(|row| row.limit == self.limit).expect("a row for each limit");
+        let limits = table::limits();
+        let row = limits.iter().find(|row| row.limit == self.limit).expect("a row for each limit");
         self.place(case) + &(row.says)(case, self)
     }
 
@@ -101,7 +102,7 @@ impl Limits {
             let Finding { step, body, value, bound } = (row.exceeds)(&self.bounds, findings)?;
             Some(BrokenLimit { pass: findings.pass, step, limit: row.limit, body, value, bound })
         };
-        let new: Vec<BrokenLimit> = LIMITS.iter().filter(is_new).filter_map(broken).collect();
+        let new: Vec<BrokenLimit> = table::limits().iter().filter(is_new).filter_map(broken).collect();
         if let (Some(table), false) = (&mut self.table, new.is_empty()) {
             table.add(&new)?;
         }

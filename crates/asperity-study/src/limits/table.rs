@@ -1,12 +1,15 @@
 //! The table of the limits.
 
 use super::bounds::{Bounds, LARGE_DISPLACEMENT};
-use super::findings::{Finding, Findings};
+use super::findings::{ChangingRow, Finding, Findings};
 use crate::case::{Case, Side};
 use crate::estimate::STEEP;
 use crate::limit::{BrokenLimit, Limit};
 use asperity_base::choice::Choice;
 use asperity_base::units::{self, Dimension, Metre};
+use asperity_contact::each_law;
+use asperity_contact::motion::Pair;
+use asperity_contact::with::{BodyLaw, ChangedSurfaces};
 use asperity_surface::Topography;
 
 /// A row of the table of limits.
@@ -18,14 +21,19 @@ pub(super) struct Row {
     pub(super) says: fn(&Case, &BrokenLimit) -> String,
 }
 
-/// All limits.
-pub(super) const LIMITS: [Row; 8] = [
-    Row { limit: Limit::Slope, exceeds: slope, says: says_slope },
-    Row { limit: Limit::Wear, exceeds: wear, says: says_wear },
+/// Returns all limits.
+pub(super) fn limits() -> Vec<Row> {
+    let mut limits = vec![Row { limit: Limit::Slope, exceeds: slope, says: says_slope }];
+    each_law!(L => limits.push(Row { limit: Limit::Law(L::NAME), exceeds: law::<L>, says: says_law::<L> }));
+    limits.extend(OF_CONTACTS);
+    limits
+}
+
+/// Limits of every contact, which come after those of the laws.
+const OF_CONTACTS: [Row; 5] = [
     Row { limit: Limit::Pressure, exceeds: pressure, says: says_pressure },
     Row { limit: Limit::Hardness, exceeds: hardness, says: says_hardness },
     Row { limit: Limit::Temperature, exceeds: temperature, says: says_temperature },
-    Row { limit: Limit::Film, exceeds: film, says: says_film },
     Row { limit: Limit::Displacement, exceeds: displacement, says: says_displacement },
     Row { limit: Limit::Interference, exceeds: interference, says: says_interference },
 ];
@@ -39,8 +47,17 @@ fn slope(bounds: &Bounds, findings: &Findings<'_>) -> Option<Finding> {
     findings.as_a_whole(None, slopes.fold(0.0, f64::hypot), bounds.slope)
 }
 
-fn wear(bounds: &Bounds, findings: &Findings<'_>) -> Option<Finding> {
-    findings.of_bodies(findings.wear.map(|depth| [depth, bounds.wear]))
+fn law<L: BodyLaw>(bounds: &Bounds, findings: &Findings<'_>) -> Option<Finding> {
+    let area = |pair: &Pair| [pair.lower_grid(), pair.upper_grid()].map(|grid| grid.area());
+    let surfaces = ChangedSurfaces {
+        area: findings.changed.map_or([f64::INFINITY; 2], area),
+        sq: findings.sq,
+        removal: bounds.removal,
+    };
+    findings.of_bodies(match findings.row.as_ref()? {
+        ChangingRow::Pass(pass) => L::limit_in_pass(pass, &surfaces),
+        ChangingRow::Update(update) => L::limit_in_update(update, &surfaces),
+    })
 }
 
 fn pressure(bounds: &Bounds, findings: &Findings<'_>) -> Option<Finding> {
@@ -61,10 +78,6 @@ fn temperature(bounds: &Bounds, findings: &Findings<'_>) -> Option<Finding> {
     (value > bound).then_some(Finding { step: Some(step), body: None, value, bound })
 }
 
-fn film(_: &Bounds, findings: &Findings<'_>) -> Option<Finding> {
-    findings.of_bodies(findings.films)
-}
-
 fn displacement(bounds: &Bounds, findings: &Findings<'_>) -> Option<Finding> {
     findings.largest(bounds.displacement, |contact| contact.displacement.unwrap_or(0.0))
 }
@@ -76,19 +89,13 @@ fn interference(bounds: &Bounds, findings: &Findings<'_>) -> Option<Finding> {
 fn says_slope(_: &Case, broken: &BrokenLimit) -> String {
     format!(
         "the worn surfaces are steep for a half-space theory of small slopes: the rms slope of the gap is {:.4}, up to {STEEP} tan and \
-         sin agree; check the wear `coefficient`, or end the run before",
+         sin agree; check the `coefficient` of the law that does it, or end the run before",
         broken.value
     )
 }
 
-fn says_wear(_: &Case, broken: &BrokenLimit) -> String {
-    format!(
-        "the {} body wears {} deep in one pass, and the contacts of a pass describe it up to {}, the width of a cell or what makes its \
-         waves steep: check the wear `coefficient`, or wear less in a pass",
-        name(broken),
-        length(broken.value),
-        length(broken.bound)
-    )
+fn says_law<L: BodyLaw>(_: &Case, broken: &BrokenLimit) -> String {
+    L::beyond_limit(name(broken), broken.value, broken.bound)
 }
 
 fn says_pressure(case: &Case, broken: &BrokenLimit) -> String {
@@ -117,16 +124,6 @@ fn says_temperature(_: &Case, broken: &BrokenLimit) -> String {
     format!(
         "the surfaces reach {value}, and steel melts at {bound}: the model neither softens nor melts; check `coefficient` in \
          [friction], the speed and the thermal constants"
-    )
-}
-
-fn says_film(_: &Case, broken: &BrokenLimit) -> String {
-    format!(
-        "the film on the {} body is {} thick, and the body has an Sq of {}: the contact takes the film to be as stiff as the body, \
-         which holds for films thinner than the roughness",
-        name(broken),
-        length(broken.value),
-        length(broken.bound)
     )
 }
 

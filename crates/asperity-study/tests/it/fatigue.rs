@@ -57,7 +57,9 @@ fn bodies_of_a_motion_tire_pass_after_pass_and_go_on_to_the_same_bits() {
     let places: Vec<_> = rows.iter().map(|row| (row.pass, row.body)).collect();
     let expected: Vec<_> = (1..=3).flat_map(|pass| [(pass, OnBody::Lower), (pass, OnBody::Upper)]).collect();
     assert_eq!(places, expected);
-    assert!(rows.iter().all(|row| row.over_limit > 0.1 && row.critical_wear >= 0.0 && row.depth <= 4e-6));
+    assert!(
+        rows.iter().all(|row| row.over_limit > 0.1 && row.critical.critical_wear >= 0.0 && row.depth <= 4e-6)
+    );
     // The same stress, with a limit that is larger by more than the weight of the hydrostatic stress makes up for.
     assert!(rows[0].over_limit > rows[1].over_limit);
     // The summary has the last pass.
@@ -127,11 +129,12 @@ fn damage_adds_up_over_passes_as_miner_has_it() {
         let expected = pass as f64 + (1.0 - row.damage) / row.damage_of_pass;
         assert!((life / expected - 1.0).abs() < 1e-3, "{life} {expected}");
         assert!(
-            row.unsaved_share.is_some_and(|share| share <= row.critical_share) && row.pitted_share.is_none()
+            row.critical.unsaved_share.is_some_and(|share| share <= row.critical.critical_share)
+                && row.pitted_share.is_none()
         );
     }
     // The upper body does not wear.
-    assert!(rows[1].unsaved_share.is_none());
+    assert!(rows[1].critical.unsaved_share.is_none());
 }
 
 #[test]

@@ -99,11 +99,11 @@ fn rough_bodies_fret_and_go_on_after_interruptions_with_the_same_bits_on_any_num
     let last = result.increments.last().unwrap();
     let fretting = last.fretting.unwrap();
     assert!(fretting.cycles == 400 && result.increments.len() < 4 * 400, "{fretting:?}");
-    assert!(fretting.worn_volume_lower > 0.0 && fretting.worn_volume_upper > 0.0, "{fretting:?}");
-    assert!(fretting.max_film_lower > 0.0 && fretting.max_film_upper == 0.0, "{fretting:?}");
+    assert!(fretting.laws.worn_volume_lower > 0.0 && fretting.laws.worn_volume_upper > 0.0, "{fretting:?}");
+    assert!(fretting.laws.max_film_lower > 0.0 && fretting.laws.max_film_upper == 0.0, "{fretting:?}");
     // The worn bodies are those of the fields.
     let worn = result.fields.grid.cell_area() * field(&result, "wear_upper").sum();
-    assert!((worn / fretting.worn_volume_upper - 1.0).abs() < 1e-12);
+    assert!((worn / fretting.laws.worn_volume_upper - 1.0).abs() < 1e-12);
 }
 
 #[test]
@@ -122,7 +122,7 @@ fn partial_slip_wears_the_annulus_alone_and_gross_slip_everywhere() {
     assert!(last.max_pressure < 0.9 * first.max_pressure && last.contact_area > 1.1 * first.contact_area);
     let of_energy = |record: &IncrementRecord| {
         let fretting = record.fretting.unwrap();
-        1e-14 / 0.5 * fretting.friction_work / fretting.worn_volume_lower
+        1e-14 / 0.5 * fretting.friction_work / fretting.laws.worn_volume_lower
     };
     assert!((of_energy(last) - 1.0).abs() < 5e-3, "{}", of_energy(last));
 }

@@ -1,6 +1,6 @@
 //! Relative positions of the bodies in a motion: between columns, on forward and return strokes, with offsets along y.
 
-use asperity_contact::motion::FILM;
+use asperity_contact::film::FILM;
 use asperity_study::{Case, Existing, Results, SurfaceInput};
 use asperity_surface::Topography;
 

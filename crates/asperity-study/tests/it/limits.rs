@@ -85,7 +85,7 @@ fn a_pass_that_wears_more_than_a_cell_is_wide_ends_the_run_at_once() {
     let folder = tempfile::tempdir().unwrap();
     let error = run(&flank("coefficient = 1e-9", 0.1, 3), folder.path(), Existing::Keep, &()).unwrap_err();
     assert!(
-        error.to_string().starts_with("pass 1: a single pass wears more than the width of a cell"),
+        error.to_string().starts_with("pass 1: a single pass removes more than the width of a cell"),
         "{error}"
     );
 }
@@ -118,7 +118,10 @@ fn finished_passes_are_kept_when_a_body_has_worn_away() {
     assert_eq!((results.passes().unwrap().len(), results.steps().unwrap().len()), (2, 8));
     assert!(results.surfaces_after(2).is_ok() && results.summary().is_err());
     let broken = results.broken_limits().unwrap();
-    assert!(broken.iter().any(|broken| broken.limit == Limit::Wear && broken.pass == Some(1)), "{broken:?}");
+    assert!(
+        broken.iter().any(|broken| broken.limit == Limit::Law("wear") && broken.pass == Some(1)),
+        "{broken:?}"
+    );
     let (error, lines) = worn(Existing::Resume);
     assert!(says(&error) && lines.is_empty(), "{error:?} {lines:?}");
 }

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use asperity_contact::each_capability;
-use asperity_contact::with::Capability;
+use asperity_contact::with::{BodyLaw, BodyProperty, Capability};
+use asperity_contact::{each_capability, each_law, each_property};
 use asperity_study::case::schema::{Fallback, Key, Kind};
 use asperity_study::keys;
 
@@ -62,8 +62,6 @@ const CLASSES: &[Class] = &[
         "Keys of ``acceleration``: the extrapolation over several passes.",
     ),
     ("Temperature", &["temperature"], &[], "Keys of ``temperature``."),
-    ("Wear", &["lower.wear"], &[], "Keys of ``wear`` of a body. Exactly one of the first three is given."),
-    ("Film", &["lower.film"], &[], "Keys of ``film`` of a body: its tribofilm."),
     (
         "Viscoelastic",
         &["lower.viscoelastic"],
@@ -135,7 +133,7 @@ const KEYWORDS: &[Keywords] = &[
     (
         "Sliding",
         "TypedDict",
-        "Keywords of wear in place.",
+        "Keywords of sliding in place.",
         &[("sliding", Which::All), ("", Which::Only(&["temperature"]))],
     ),
     (
@@ -182,6 +180,15 @@ fn file() -> String {
         let text = format!("{}: {}.", capitalised(C::MEANING), keys.join(", "));
         let _ = writeln!(capabilities, "    {}: Annotated[{name} | None, \"\",\n        {}]", C::NAME, quoted(&text));
     });
+    let mut of_body = String::new();
+    each_law!(L => {
+        let name: &'static str = capitalised(L::NAME).leak();
+        let tables: &'static [&'static str] = vec![format!("lower.{}", L::NAME).leak() as &str].leak();
+        let about: &'static str = format!("Keys of ``{}`` of a body: {}.", L::NAME, without_place(L::MEANING)).leak();
+        classes.push((name, tables, &[], about));
+        of_body += &keyword_of_body(&classes, L::NAME, L::MEANING);
+    });
+    each_property!(P => of_body += &keyword_of_body(&classes, P::NAME, P::MEANING));
     let mut names: Vec<&str> = classes.iter().map(|(name, ..)| *name).collect();
     names.sort_unstable();
     let names: Vec<String> = names.iter().map(|name| format!("    \"{name}\",\n")).collect();
@@ -193,10 +200,28 @@ fn file() -> String {
         file,
         "\n\nclass Capabilities(TypedDict, total=False):\n    \"\"\"Keywords of the capabilities.\"\"\"\n\n{capabilities}"
     );
+    let _ = write!(
+        file,
+        "\n\nclass OfBody(TypedDict, total=False):\n    \"\"\"Keywords of a body: what contacts do to it, and how it responds.\"\"\"\n\n{of_body}"
+    );
     for each in KEYWORDS {
         file += &keywords(each);
     }
     file + "\n\ndef __dir__() -> list[str]:\n    return __all__\n"
+}
+
+/// A keyword of a body: one of its tables, with the class that has its keys.
+fn keyword_of_body(classes: &[Class], name: &str, meaning: &str) -> String {
+    let table = format!("lower.{name}");
+    let class = classes.iter().find(|(_, tables, ..)| tables.contains(&table.as_str())).expect("a class");
+    let keys: Vec<String> = of_class(class).iter().map(|(key, _)| format!("`{}`", key.name)).collect();
+    let text = format!("{}: {}.", capitalised(without_place(meaning)), keys.join(", "));
+    format!("    {name}: Annotated[{} | None, \"\",\n        {}]\n", class.0, quoted(&text))
+}
+
+/// A meaning without the place of the documents where there is more about it.
+fn without_place(meaning: &str) -> &str {
+    meaning.split(", see [").next().unwrap_or(meaning)
 }
 
 /// A class with keywords, each with its type, its table and its meaning. Those that a call must have are in a base class.

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::creep::CreepRecord;
-use super::fretting::FrettingRecord;
+use super::laws::FrettingRecord;
 use super::plastic::PlasticStepRecord;
 use crate::solver::InterfaceRecord;
 use crate::units::{CubicMetre, Joule, Metre, Newton, Pascal, SquareMetre};
@@ -57,7 +57,7 @@ columns! {
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PlasticStepRecord>,
-        /// Wear and films; none of bodies that do not change.
+        /// Changes by laws; none of bodies that do not change.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub fretting: Option<FrettingRecord>,
         /// Time of viscoelastic bodies; none of others.

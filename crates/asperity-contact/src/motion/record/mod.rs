@@ -5,25 +5,26 @@
 
 mod creep;
 mod plastic;
-mod fretting;
+mod heat;
 mod increment;
+mod laws;
 pub(crate) mod lost_volumes;
 mod pass;
 mod rest;
-mod running;
 mod steady;
 mod step;
 mod sweep;
 mod update;
 
 pub use creep::{CreepRecord, DragRecord, PassDragRecord};
-pub use fretting::FrettingRecord;
+pub use heat::HeatRecord;
 pub use increment::IncrementRecord;
+pub(super) use laws::HEIGHT_ERROR;
+pub use laws::{FrettingRecord, LawsInCycles, LawsInPass, LawsInUpdate, RunningRecord};
 pub use lost_volumes::LostVolume;
 pub use pass::PassRecord;
 pub use plastic::{PassPlasticRecord, PlasticRecord, PlasticStepRecord, Regime, ResidualRecord};
 pub use rest::{ShearRecord, StaticRecord};
-pub use running::{FILM, HeatRecord, RunningRecord, WEAR};
 pub use steady::SteadyRecord;
 pub use step::StepRecord;
 pub use sweep::SweepRecord;

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::creep::PassDragRecord;
+use super::laws::RunningRecord;
 use super::lost_volumes::{self, LostVolume};
 use super::plastic::PassPlasticRecord;
-use super::running::RunningRecord;
 use crate::solver::InterfacePassRecord;
 use crate::units::{CubicMetre, Metre, Newton, Pascal, Second, SquareMetre};
 use asperity_base::record::columns;
@@ -44,7 +44,7 @@ columns! {
         /// `plastic_volume_upper`, `plastic_volume_lower_interior`, `plastic_volume_upper_interior`.
         #[serde(flatten, with = "lost_volumes")]
         pub lost: Vec<LostVolume>,
-        /// Wear, films and heat; none without wear and films.
+        /// Changes by laws, and heat; none of bodies that only yield.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub running: Option<RunningRecord>,
         /// Tension across the gap; none between hard walls.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::fretting::FrettingRecord;
+use super::laws::FrettingRecord;
 use super::plastic::PlasticRecord;
 use crate::solver::InterfaceRecord;
 use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonMetre, Pascal, PerMetre, SquareMetre};
@@ -45,7 +45,7 @@ columns! {
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PlasticRecord>,
-        /// Wear and films by slip in the stages of a loading; none of bodies that do not change.
+        /// Changes by slip in the stages of a loading; none of bodies that do not change.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub fretting: Option<FrettingRecord>,
     }

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::creep::DragRecord;
+use super::heat::HeatRecord;
 use super::plastic::PlasticStepRecord;
-use super::running::HeatRecord;
 use crate::solver::InterfaceRecord;
 use crate::units::{CubicMetre, Metre, Newton, Pascal, SquareMetre};
 use asperity_base::record::columns;

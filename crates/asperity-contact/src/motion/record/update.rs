@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::laws::LawsInUpdate;
 use super::lost_volumes::{self, LostVolume};
 use crate::units::{CubicMetre, Joule, Kelvin, Metre, Newton, Pascal, Second, SquareMetre, Watt};
 use asperity_base::record::columns;
@@ -32,17 +33,12 @@ columns! {
         pub max_pressure: Pascal,
         /// Number of cells at the hardness.
         pub plastic_cells: usize,
-        /// Volumes that the bodies have lost to each law so far. Wear has the columns `wear_volume_lower` and `wear_volume_upper`.
+        /// Volumes that the bodies have lost to each law so far, in the columns `NAME_volume_lower` and `NAME_volume_upper`.
         #[serde(flatten, with = "lost_volumes::whole")]
         pub lost: Vec<LostVolume>,
-        /// Deepest wear of a cell of the lower body so far.
-        pub max_wear_lower: Metre,
-        /// Deepest wear of a cell of the upper body so far.
-        pub max_wear_upper: Metre,
-        /// Mean thickness of the film on the cells in contact of the lower body; 0 without a film.
-        pub mean_film_lower: Metre,
-        /// Mean thickness of the film on the cells in contact of the upper body; 0 without a film.
-        pub mean_film_upper: Metre,
+        /// Columns of the laws.
+        #[serde(flatten)]
+        pub laws: LawsInUpdate,
         /// Frictional power; unknown without a speed.
         #[serde(deserialize_with = "number_or_none")]
         pub friction_power: Watt,
@@ -52,7 +48,7 @@ columns! {
         /// unknown.
         #[serde(deserialize_with = "number_or_none")]
         pub max_temperature: Kelvin,
-        /// Number of contacts solved to find the wear coefficients under the films.
+        /// Number of contacts solved to find the rates of removal under the films.
         pub solutions: usize,
         /// Iterations of the solver.
         pub iterations: usize,

@@ -3,7 +3,6 @@
 use super::Simulation;
 use crate::error::{Error, Result};
 use crate::grid::Field;
-use crate::motion::body::Body;
 use crate::motion::extrapolation::{
     self, Acceleration, Bounds, Extrapolation, GridCompliance, LastExtrapolation,
 };
@@ -11,7 +10,7 @@ use crate::motion::heat::PassHeat;
 use crate::motion::law::{self, FrictionHeat, Heat, Law, Sums};
 use crate::motion::memory::Memory;
 use crate::motion::pass::Pass;
-use crate::motion::record::{FILM, RunningRecord, StepRecord, WEAR};
+use crate::motion::record::{LawsInPass, RunningRecord, StepRecord};
 use crate::motion::truncation::Truncation;
 use crate::motion::watch::Watch;
 use crate::motion::worn_away;
@@ -70,27 +69,31 @@ impl Changes {
     }
 }
 
-/// Message for a pass whose wear is beyond what can be solved with it.
-const DEEP_WEAR: &str = "a single pass wears more than the width of a cell off a whole body, far beyond the model: check the wear coefficient, \
+/// Message for a pass whose removal is beyond what can be solved with it.
+const DEEP_REMOVAL: &str = "a single pass removes more than the width of a cell from a whole body, far beyond the model: check its coefficient, \
      a volume over load and distance, or give a shorter pass";
 
-/// Message for a pass that wears viscoelastic bodies more than explicit steps allow.
-const FAST_WEAR: &str = "a single pass wears viscoelastic bodies so much that their pressures change with it: check the wear coefficient, or give \
-     a shorter pass";
+/// Message for a pass that removes more from viscoelastic bodies than explicit steps allow.
+const FAST_REMOVAL: &str = "a single pass removes so much from viscoelastic bodies that their pressures change with it: check the coefficient, a \
+     volume over load and distance, or give a shorter pass";
 
-/// Wear in a pass by the laws that repeat.
-pub(super) struct PassWear {
+/// Removal in a pass by the laws that repeat.
+pub(super) struct PassRemoval {
     compliance_of_grid: GridCompliance,
-    /// Number of passes of such wear at which a checkerboard mode of the pressures would not decay with explicit steps.
+    /// Number of passes of such removal at which a checkerboard mode of the pressures would not decay with explicit steps.
     stable: f64,
     /// The depths that an explicit step would have removed, if the pass was solved implicitly.
     explicit: Option<Vec<[Field; 2]>>,
 }
 
 impl Simulation {
-    /// Solves a pass again, with its wear, if it wears too much for an explicit step. The new contacts replace those of the
+    /// Solves a pass again, with its removal, if that is too much for an explicit step. The new contacts replace those of the
     /// `outcome`. Returns `None` if no law repeats.
-    pub(super) fn solve_with_wear(&self, outcome: &mut Pass, watch: &dyn Watch) -> Result<Option<PassWear>> {
+    pub(super) fn solve_with_removal(
+        &self,
+        outcome: &mut Pass,
+        watch: &dyn Watch,
+    ) -> Result<Option<PassRemoval>> {
         let Some(compliance_of_grid) = self.changes.compliance_of_grid.filter(|_| !outcome.has_changed)
         else {
             return Ok(None);
@@ -99,7 +102,7 @@ impl Simulation {
         let friction = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
         let laws = &self.changes.laws[self.changes.once()..];
         if laws.is_empty() {
-            return Ok(Some(PassWear { compliance_of_grid, stable: f64::INFINITY, explicit: None }));
+            return Ok(Some(PassRemoval { compliance_of_grid, stable: f64::INFINITY, explicit: None }));
         }
         let relaxation = extrapolation::relaxation(
             &outcome.pair,
@@ -110,26 +113,26 @@ impl Simulation {
         );
         let stable = compliance_of_grid.checkerboard / relaxation;
         if stable > 0.5 {
-            return Ok(Some(PassWear { compliance_of_grid, stable, explicit: None }));
+            return Ok(Some(PassRemoval { compliance_of_grid, stable, explicit: None }));
         }
         if outcome.pair.creep().is_some() {
-            let source = Box::new(Error::Unsupported(FAST_WEAR));
+            let source = Box::new(Error::Unsupported(FAST_REMOVAL));
             return Err(Error::AtPass { pass: self.passes_done + 1, source });
         }
         let (sums, _) = law::sums(laws, &outcome.pair, &outcome.contacts, &position_data, None)?;
-        // The return stroke wears as much again at the same pressures.
+        // The return stroke removes as much again at the same pressures.
         let distance = position_data.distance * (self.positions.len() / self.distinct) as f64;
         let compliance = law::compliance(laws, &outcome.pair, &sums, friction, distance);
         let explicit = law::tried(laws, &outcome.pair, &sums, 1);
         worn_away::check_losses(&outcome.pair, &explicit)?;
         if worn_away::is_deep(&outcome.pair, &explicit) {
-            let source = Box::new(Error::Unsupported(DEEP_WEAR));
+            let source = Box::new(Error::Unsupported(DEEP_REMOVAL));
             return Err(Error::AtPass { pass: self.passes_done + 1, source });
         }
         outcome.contacts.truncate(self.distinct);
         outcome.contacts = self.solver(watch).solve_implicitly(outcome, compliance, &self.params)?;
         self.come_back(&mut outcome.contacts);
-        Ok(Some(PassWear { compliance_of_grid, stable, explicit: Some(explicit) }))
+        Ok(Some(PassRemoval { compliance_of_grid, stable, explicit: Some(explicit) }))
     }
 
     /// Lets the laws change the bodies after a solved pass, by the number of passes of its extrapolation.
@@ -137,7 +140,7 @@ impl Simulation {
         &self,
         pass: &mut Pass,
         steps: &mut [StepRecord],
-        wear: Option<&PassWear>,
+        removal: Option<&PassRemoval>,
     ) -> Result<(Option<RunningRecord>, Option<LastExtrapolation>)> {
         let position_data = self.motion.position_data(self.pair.pitch()[0]);
         let mut heat = self
@@ -170,23 +173,25 @@ impl Simulation {
             return Ok((None, None));
         }
         let flown = lost.iter().flat_map(|lost| lost.whole).sum();
-        let Extrapolation { passes, mean, error } = match wear {
+        let Extrapolation { passes, mean, error } = match removal {
             // Implicit and explicit Euler steps have equal errors of opposite sign.
-            Some(PassWear { explicit: Some(explicit), .. }) => {
+            Some(PassRemoval { explicit: Some(explicit), .. }) => {
                 let taken = law::tried(laws, &pass.pair, &repeated, 1);
                 Extrapolation { error: 0.5 * law::difference(explicit, &taken), ..Extrapolation::ONE }
             }
-            Some(wear) => self.extrapolate(pass, laws, &repeated, flown, wear),
+            Some(removal) => self.extrapolate(pass, laws, &repeated, flown, removal),
             None => Extrapolation::ONE,
         };
         let mean = mean.as_deref().unwrap_or(&repeated);
         let taken =
             law::advance(laws, &mut pass.pair, mean, passes as f64, &self.interiors, &mut lost[once..]);
         pass.lost = lost;
-        let wear = laws.iter().position(|law| law.name() == WEAR).map(|index| &taken[index..=index]);
-        self.remember(pass, passes, wear.map(|worn| &worn[0]));
-        let [max_wear_lower, max_wear_upper] = wear.map(law::deepest).unwrap_or_default();
-        let film = |body: &Body| body.state.get(FILM).map_or(0.0, |film| film.values.mean().unwrap_or(0.0));
+        worn_away::check_cells(&pass.pair, laws)?;
+        let uncovered =
+            laws.iter().zip(&taken).filter(|(law, _)| law.uncovers()).map(|(_, taken)| taken.clone());
+        self.remember(pass, passes, uncovered.reduce(|[a, b], [c, d]| [a + c, b + d]).as_ref());
+        let mut of_laws = LawsInPass::default();
+        laws.iter().zip(&taken).for_each(|(law, taken)| law.record_pass(&pass.pair, taken, &mut of_laws));
         let positions = self.positions.len() as f64;
         let done = (self.represented() + passes) as f64;
         let rubbed = pass.contacts.iter().map(|contact| contact.tangential_force.abs()).sum::<f64>();
@@ -194,10 +199,7 @@ impl Simulation {
             represents: passes,
             time: done * positions * position_data.time,
             distance: done * positions * position_data.distance,
-            max_wear_lower,
-            max_wear_upper,
-            mean_film_lower: film(&pass.pair.lower),
-            mean_film_upper: film(&pass.pair.upper),
+            laws: of_laws,
             friction_work: passes as f64 * rubbed * position_data.distance,
             max_flash_temperature: match steps
                 .iter()
@@ -222,7 +224,7 @@ impl Simulation {
         laws: &[Box<dyn Law>],
         sums: &[Sums],
         flown: CubicMetre,
-        wear: &PassWear,
+        removal: &PassRemoval,
     ) -> Extrapolation {
         let Some(before) =
             self.warm.extrapolation.as_ref().filter(|_| self.changes.acceleration.max_jump > 1)
@@ -235,13 +237,13 @@ impl Simulation {
             left: self.motion.passes - self.represented(),
             volumes: [flown, self.pair.cell_area() * worn.sum::<f64>()],
             deepest: law::deepest(&one).into_iter().fold(0.0, f64::max),
-            stable: wear.stable,
+            stable: removal.stable,
         };
         let mut passes =
             self.changes.acceleration.most(&bounds, before).min(self.most_remembered(pass)).max(1);
         let pressures = pass.contacts.iter().flat_map(|contact| &contact.pressure);
         let highest = pressures.fold(0.0, |most: f64, (_, p)| most.max(*p));
-        let allowed = self.changes.acceleration.tolerance * wear.compliance_of_grid.single * highest;
+        let allowed = self.changes.acceleration.tolerance * removal.compliance_of_grid.single * highest;
         while passes > 1 {
             let mean = extrapolation::extrapolated(sums, before, passes);
             let error = law::difference(
@@ -251,7 +253,7 @@ impl Simulation {
             if error <= allowed {
                 return Extrapolation { passes, mean: Some(mean), error };
             }
-            // The error of wear grows as the square.
+            // The error of the removal grows as the square.
             let fewer = (passes as f64 * (allowed / error).sqrt()) as usize;
             passes = fewer.clamp(1, passes - 1);
         }

@@ -37,7 +37,8 @@ impl Simulation {
         most.fold(f64::INFINITY, f64::min) as usize
     }
 
-    /// Lets the memories go on by a number of passes in which wear has taken the depth `worn` from both bodies, none without wear.
+    /// Lets the memories go on by a number of passes in which laws that uncover material have taken the depth `worn` from both bodies, none
+    /// without such laws.
     pub(super) fn remember(&self, pass: &mut Pass, passes: usize, worn: Option<&[Field; 2]>) {
         let unworn;
         let worn = match worn {

@@ -262,7 +262,7 @@ impl Simulation {
         } else if self.pair.yields() {
             "elasto-plastic bodies do not take a hardness"
         } else if self.changes.laws.len() > 1 {
-            "elasto-plastic bodies do not support wear and films yet"
+            "elasto-plastic bodies do not support laws that change them yet"
         } else if self.changes.memories.iter().any(|memory| memory.takes().is_some()) {
             "nothing breaks out of elasto-plastic bodies"
         } else if self.changes.heat.is_some() {
@@ -391,7 +391,7 @@ impl Simulation {
         let began = Instant::now();
         let pass = self.passes_done + 1;
         if self.volumes.is_some() && self.changes.laws.len() > 1 {
-            return Err(Error::Unsupported("elasto-plastic bodies do not support wear and films yet"));
+            return Err(Error::Unsupported("elasto-plastic bodies do not support laws that change them yet"));
         }
         let before = self.next_pair()?;
         let (mut outcome, guess, trials) = self.solve_pass(&before, watch)?;
@@ -399,7 +399,7 @@ impl Simulation {
         drop(before);
         let history_difference = self.history_difference(&outcome, watch)?;
         self.come_back(&mut outcome.contacts);
-        let wear = self.solve_with_wear(&mut outcome, watch)?;
+        let removal = self.solve_with_removal(&mut outcome, watch)?;
         let displaced = self.motion.offset_y != OffsetY::NONE;
         let offset_y = |across: usize| displaced.then_some(across as f64 * self.pair.pitch()[1]);
         let step = |(k, contact): (usize, &Contact)| {
@@ -421,7 +421,7 @@ impl Simulation {
                 self.remember(&mut outcome, 1, None);
                 (None, None)
             }
-            false => self.advance(&mut outcome, &mut steps, wear.as_ref())?,
+            false => self.advance(&mut outcome, &mut steps, removal.as_ref())?,
         };
         let represented = self.represented() + running.map_or(1, |running: RunningRecord| running.represents);
         let interiors = self.interiors.clone();
@@ -575,7 +575,7 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
     if let Some(friction) = motion.friction {
         friction.checked()?;
         if motion.strategy.direction() == 0.0 {
-            return Err(Error::Unsupported("friction and wear need surfaces with different speeds"));
+            return Err(Error::Unsupported("friction needs surfaces with different speeds"));
         }
     }
     if let Control::Approach(approach) = motion.control {

@@ -62,14 +62,10 @@ pub(super) const RULES: &[Rule<Attraction>] = &[
     Rule {
         this: "[adhesion]",
         with: "[sliding]",
-        message: "[adhesion] does not apply to wear in place",
+        message: "[adhesion] does not apply to sliding in place",
         hint: "leave [adhesion] or [sliding] out",
         at: "adhesion",
-        example: &[
-            STICKS,
-            r#"lower.wear = { coefficient = "1e-7 mm3/(N m)" }"#,
-            r#"sliding = { distance = "1 m" }"#,
-        ],
+        example: &[STICKS, "{law example}", r#"sliding = { distance = "1 m" }"#],
         broken: |_, surroundings| surroundings.slides_in_place,
     },
     Rule {

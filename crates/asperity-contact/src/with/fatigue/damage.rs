@@ -1,4 +1,4 @@
-//! Damage of passes, and the wear that is faster.
+//! Damage of passes, and its way to the surface of a body that loses height.
 
 use crate::error::{Result, check};
 use crate::units::Metre;
@@ -32,26 +32,14 @@ impl Basquin {
     }
 }
 
-/// Returns the depth that a column must lose in a pass for it not to pit, m: ∫ d dz, from the damage of a pass at ascending `depths`. The damage
-/// at the first depth reaches to the surface.
-///
-/// # Panics
-/// If there is not a damage for each depth.
-pub fn critical_wear(depths: &[Metre], damage: &[f64]) -> Metre {
-    assert_eq!(depths.len(), damage.len(), "a damage for each depth");
-    let Some((first, most)) = depths.first().zip(damage.first()) else { return 0.0 };
-    let below = depths.windows(2).zip(damage.windows(2));
-    first * most + below.map(|(z, d)| 0.5 * (z[1] - z[0]) * (d[0] + d[1])).sum::<f64>()
-}
-
-/// Advances the damage of a column at ascending `depths` over `passes` in each of which it suffers the damage `each` and loses the depth `wear`.
+/// Advances the damage of a column at ascending `depths` over `passes` in each of which it suffers the damage `each` and loses the depth `removed`.
 /// Depths count from the surface as it is: worn material uncovers what lies below. Below the last depth nothing has suffered.
 ///
 /// # Panics
 /// If there is not a damage for each depth.
-pub fn advance_damage(depths: &[Metre], damage: &mut [f64], each: &[f64], passes: f64, wear: Metre) {
+pub fn advance_damage(depths: &[Metre], damage: &mut [f64], each: &[f64], passes: f64, removed: Metre) {
     assert!(depths.len() == damage.len() && depths.len() == each.len(), "a damage for each depth");
-    let worn = passes * wear;
+    let worn = passes * removed;
     let before = damage.to_vec();
     let at = |values: &[f64], depth: Metre| {
         let above = depths.partition_point(|z| *z <= depth);
@@ -101,6 +89,7 @@ pub fn risk(depths: &[Metre], amplitudes: &[f64], limit: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::critical_depth;
     use super::*;
 
     #[test]
@@ -121,7 +110,7 @@ mod tests {
         let errors = [20, 40, 80].map(|layers| {
             let depths: Vec<f64> = (0..layers).map(|k| (k as f64 + 0.5) / layers as f64 * 4.0).collect();
             let each: Vec<f64> = depths.iter().map(|z| damage(*z)).collect();
-            let critical = critical_wear(&depths, &each);
+            let critical = critical_depth(&depths, &each);
             let mut suffered = vec![0.0; layers];
             let (wear, step) = (1e-3, 20.0);
             (0..400).for_each(|_| advance_damage(&depths, &mut suffered, &each, step, wear));

@@ -2,11 +2,11 @@
 
 use ndarray::Axis;
 
-use super::advance_damage;
 use super::below::{Below, Limited};
+use super::{advance_damage, critical};
 use crate::error::Result;
 use crate::grid::Field;
-use crate::motion::{Body, Memory, Pair, PlasticVolume, State, WEAR, WholePass};
+use crate::motion::{Body, Memory, Pair, PlasticVolume, State, WholePass};
 use crate::stress::Component;
 use crate::units::Metre;
 
@@ -29,8 +29,6 @@ pub(super) mod states {
         format!("damage_{:02}", depth + 1)
     }
 
-    /// Wear of the last pass.
-    pub(in super::super) const WEAR_OF_PASS: &str = "wear_of_pass";
     /// Depth that has broken out so far.
     pub(in super::super) const PITTED: &str = "pitted";
 }
@@ -54,8 +52,8 @@ impl Damage {
         for (k, values) in damage.into_iter().enumerate() {
             body.state.insert(states::damage(k), State { unit: "1".to_owned(), values });
         }
-        if let Some(wear) = body.state.get_mut(states::WEAR_OF_PASS) {
-            wear.values = worn / passes;
+        if let Some(of_pass) = body.state.get_mut(critical::OF_PASS) {
+            of_pass.values = worn / passes;
         }
         if let Some(pitted) = body.state.get_mut(states::PITTED) {
             pitted.values += &lost;
@@ -108,11 +106,7 @@ impl Memory for Damage {
             if limited.pitting > 0 {
                 add(states::PITTED.to_owned(), "m");
             }
-            if body.state.contains_key(WEAR) {
-                let values = Field::zeros(body.heights.raw_dim());
-                let state = State { unit: "m".to_owned(), values };
-                body.state.entry(states::WEAR_OF_PASS.to_owned()).or_insert(state);
-            }
+            critical::prepare(body);
         }
     }
 

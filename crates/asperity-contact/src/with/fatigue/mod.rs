@@ -29,8 +29,10 @@
 
 mod ball;
 mod criterion;
+mod critical;
 mod damage;
 mod history;
+mod maps;
 mod below;
 mod memory;
 mod record;
@@ -41,7 +43,8 @@ mod table;
 mod views;
 
 pub use criterion::DangVan;
-pub use damage::{Basquin, advance_damage, critical_wear, risk};
+pub use critical::{Critical, critical_depth, critical_depths};
+pub use damage::{Basquin, advance_damage, risk};
 pub use history::{AtDepth, StressHistory};
 pub use observer::FatigueObserver;
 pub use record::{FatigueRecord, OnBody};

@@ -5,7 +5,7 @@ use ndarray::{Array3, Axis};
 use super::below::{Below, Limited};
 use super::memory::states;
 use super::smooth::Smooth;
-use super::{Fatigue, FatigueRecord, OnBody, critical_wear};
+use super::{Fatigue, FatigueRecord, OnBody, critical, critical_depths};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::motion::{Body, ObservedContact, PassReport};
@@ -18,9 +18,6 @@ pub struct FatigueObserver {
     /// The bodies without roughness, if the risk over theirs is asked for.
     smooth: Option<Smooth>,
 }
-
-/// Part of the largest critical wear from which on a column counts as one that needs much.
-const MUCH: f64 = 0.1;
 
 impl FatigueObserver {
     pub(super) fn new(fatigue: &Fatigue, given: &Given<'_>) -> Result<Self> {
@@ -47,7 +44,7 @@ impl FatigueObserver {
             |fields: &[&Field]| Array3::from_shape_fn((depths.len(), nx, ny), |(k, i, j)| fields[k][[i, j]]);
         let (over, suffered) = (all(&of_pass), all(&so_far));
         let each = over.mapv(|over| limited.damage.damage(over));
-        let needed = each.map_axis(Axis(0), |column| critical_wear(depths, &column.to_vec()));
+        let (critical, of_critical) = critical::of_body(body, critical_depths(depths, &each));
         let most = |values: &Array3<f64>| {
             values.fold_axis(Axis(0), f64::NEG_INFINITY, |most, value| most.max(*value))
         };
@@ -56,13 +53,7 @@ impl FatigueObserver {
                 if *over > best.1 { (at, *over) } else { best }
             });
         let largest = |values: &mut dyn Iterator<Item = &f64>| values.copied().fold(0.0, f64::max);
-        let most_wear = largest(&mut needed.iter());
-        let is_much = |wear: f64| wear > MUCH * most_wear;
         let share = |count: usize| count as f64 / grid.cells() as f64;
-        let unsaved = body.state.get(states::WEAR_OF_PASS).map(|wear| {
-            let columns = needed.iter().zip(&wear.values);
-            share(columns.filter(|(needed, wear)| is_much(**needed) && wear < needed).count())
-        });
         let left = suffered.iter().zip(&each).map(|(damage, each)| (1.0 - damage).max(0.0) / each);
         let left = left.filter(|left| left.is_finite()).reduce(f64::min);
         let flows = report.plastic_volumes.iter().any(|volume| volume.body == index);
@@ -91,13 +82,7 @@ impl FatigueObserver {
             damage_of_pass: largest(&mut each.iter()),
             damage: largest(&mut suffered.iter()),
             life: left.map(|left| report.warm.represented as f64 + left),
-            critical_wear: most_wear,
-            critical_share: if most_wear > 0.0 {
-                share(needed.iter().filter(|wear| is_much(**wear)).count())
-            } else {
-                0.0
-            },
-            unsaved_share: unsaved,
+            critical,
             pitted_share: body
                 .state
                 .get(states::PITTED)
@@ -120,15 +105,7 @@ impl FatigueObserver {
             field("over_limit_section", "1", in_depth, section),
             field("damage", "1", grid, most(&suffered)),
         ];
-        if let Some(wear) = body.state.get(states::WEAR_OF_PASS) {
-            fields.push(field(
-                "lacking_wear",
-                "m",
-                grid,
-                (&needed - &wear.values).mapv(|wear| wear.max(0.0)),
-            ));
-        }
-        fields.push(field("critical_wear", "m", grid, needed));
+        fields.extend(of_critical.into_iter().map(|(what, values)| field(what, "m", grid, values)));
         Ok((row, fields))
     }
 

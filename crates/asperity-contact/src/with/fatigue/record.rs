@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::critical::Critical;
 use crate::error::Error;
 use crate::units::{Joule, Metre, Pascal};
 use crate::with::Row;
@@ -47,14 +48,11 @@ columns! {
         pub damage_of_pass: f64,
         /// Largest damage after the pass and its extrapolation, less what has worn away or broken out.
         pub damage: f64,
-        /// Pass of the motion in which a point first fails if all go on like this one and nothing wears; unknown without damage.
+        /// Pass of the motion in which a point first fails if all go on like this one and nothing is removed; unknown without damage.
         pub life: Option<f64>,
-        /// Largest wear of a pass below which a column pits.
-        pub critical_wear: Metre,
-        /// Share of the columns that pit unless they wear by more than a tenth of this.
-        pub critical_share: f64,
-        /// Share of the columns that are among these and wear by less than they need; unknown without wear.
-        pub unsaved_share: Option<f64>,
+        /// The removal that is faster.
+        #[serde(flatten)]
+        pub critical: Critical,
         /// Share of the columns that have broken out so far; unknown without `pit_depth`.
         pub pitted_share: Option<f64>,
         /// Life over that of the bodies without their roughness, by the risk of Ioannides and Harris; unknown without `risk`, and for flat bodies.
@@ -75,7 +73,7 @@ impl Record for FatigueRecord {
 }
 
 impl Row for FatigueRecord {
-    const GROUPS: &'static [(&'static str, &'static [Column])] = &[("FatigueRecord", Self::OWN_COLUMNS)];
+    const GROUPS: &'static [(&'static str, &'static [Column])] = &[("FatigueRecord", Self::COLUMNS)];
 
     fn pass(&self) -> Option<usize> {
         Some(self.pass)

@@ -1,9 +1,10 @@
 //! Fatigue in words, curves and maps.
 
-use super::{Fatigue, FatigueRecord, OnBody};
+use super::maps::{logarithmic, map};
+use super::{Fatigue, FatigueRecord, OnBody, critical};
 use crate::units::{Dimension, format, format_number};
 use crate::with::Surroundings;
-use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Scale, Series};
+use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Series, percent};
 use asperity_base::Choice;
 
 /// f over its limit, and the damage so far, of both bodies.
@@ -21,7 +22,7 @@ pub(super) const CURVES: &[Curve<FatigueRecord>] = &[
     Curve {
         names: ["damage", "damage_bodies"],
         title: "largest damage so far",
-        caption: "A point fails at 1. Wear and pits take damaged material away.",
+        caption: "A point fails at 1. Removal and pits take damaged material away.",
         column: |_| "damage",
         series: &[
             of_body("lower body", OnBody::Lower, |row| Some(row.damage)),
@@ -45,43 +46,20 @@ const fn of_body(
 const F: &str = "The largest f over the depths, over its limit: where it is below 1, nothing fails in the end. The cross marks the largest.";
 const SECTION: &str = "f over its limit below the row of cells with the largest f, which the cross marks. z points into the body.";
 const DAMAGE: &str = "The largest damage over the depths after this pass. A point fails at 1.";
-const NEEDED: &str = "A column pits unless it loses more than this in each pass.";
-const LACKING: &str = "Where a column wears by less than it needs in order not to pit, and by how much. Where nothing is lacking, wear is faster than fatigue.";
 
-/// f, the damage, and the wear that is faster, of both bodies.
+/// f, the damage, and the removal that is faster, of both bodies.
 pub(super) const MAPS: &[Map<FatigueRecord>] = &[
     over_limit("over_limit_lower", "Dang Van's f over its limit in the lower body"),
     over_limit("over_limit_upper", "Dang Van's f over its limit in the upper body"),
     logarithmic("damage_lower", "largest damage so far in the lower body", DAMAGE, "damage", |_| "1"),
     logarithmic("damage_upper", "largest damage so far in the upper body", DAMAGE, "damage", |_| "1"),
-    logarithmic("critical_wear_lower", "wear of a pass that saves the lower body", NEEDED, PASS, |_| "m"),
-    logarithmic("critical_wear_upper", "wear of a pass that saves the upper body", NEEDED, PASS, |_| "m"),
-    logarithmic("lacking_wear_lower", "wear of a pass that the lower body lacks", LACKING, PASS, |_| "m"),
-    logarithmic("lacking_wear_upper", "wear of a pass that the upper body lacks", LACKING, PASS, |_| "m"),
+    critical::needed(0),
+    critical::needed(1),
+    critical::lacking(0),
+    critical::lacking(1),
     section("over_limit_section_lower", "section through the largest f of the lower body"),
     section("over_limit_section_upper", "section through the largest f of the upper body"),
 ];
-
-const PASS: &str = "wear of a pass";
-
-const fn map(
-    field: &'static str,
-    title: &'static str,
-    caption: &'static str,
-    quantity: &'static str,
-) -> Map<FatigueRecord> {
-    Map {
-        field,
-        title,
-        caption,
-        quantity,
-        unit: |_| "1",
-        scale: Scale::FromZeroOrLogarithmic,
-        is_section: false,
-        mark: |_, _| None,
-        marked: "largest f",
-    }
-}
 
 const fn over_limit(field: &'static str, title: &'static str) -> Map<FatigueRecord> {
     Map { mark: most, ..map(field, title, F, "f/b") }
@@ -89,16 +67,6 @@ const fn over_limit(field: &'static str, title: &'static str) -> Map<FatigueReco
 
 const fn section(field: &'static str, title: &'static str) -> Map<FatigueRecord> {
     Map { is_section: true, mark: deepest, ..map(field, title, SECTION, "f/b") }
-}
-
-const fn logarithmic(
-    field: &'static str,
-    title: &'static str,
-    caption: &'static str,
-    quantity: &'static str,
-    unit: fn(&FatigueRecord) -> &'static str,
-) -> Map<FatigueRecord> {
-    Map { unit, scale: Scale::Logarithmic(1e-4), ..map(field, title, caption, quantity) }
 }
 
 /// The place of the largest f on a section of its body.
@@ -136,20 +104,10 @@ fn answer(row: &FatigueRecord) -> Answer {
     let depth = format(row.depth, Dimension::Length);
     let within = if row.over_limit < 1.0 && row.life.is_some() { ", within the limit" } else { "" };
     let found = format!("In the {body} body the largest f/b is {value}, {depth} deep{within}");
-    let percent = |share: f64| format!("{} %", format_number((1000.0 * share).round() / 10.0));
-    let sentence = match (row.pitted_share.filter(|share| *share > 0.0), row.life, row.unsaved_share) {
-        (Some(pitted), _, _) => format!("{found}: {} of its surface has pitted.", percent(pitted)),
-        (None, Some(life), unsaved) => {
-            let wear = format(row.critical_wear, Dimension::Length);
-            let life = format_number(life.max(1.0).round());
-            let saved = match unsaved {
-                Some(0.0) => " Everywhere it wears faster.".to_owned(),
-                Some(share) => format!(" On {} of the surface it is.", percent(share)),
-                None => String::new(),
-            };
-            format!("{found}: it pits from pass {life} on where wear is below {wear} a pass.{saved}")
-        }
-        (None, None, _) => format!("{found}: no fatigue within the limit."),
+    let sentence = match (row.pitted_share.filter(|share| *share > 0.0), row.life) {
+        (Some(pitted), _) => format!("{found}: {} of its surface has pitted.", percent(pitted)),
+        (None, Some(life)) => format!("{found}: {}", row.critical.outlook(life)),
+        (None, None) => format!("{found}: no fatigue within the limit."),
     };
     Answer {
         name: format!("f/b of the {body} body").into(),
@@ -165,7 +123,6 @@ pub(super) fn numbers(row: &FatigueRecord) -> Vec<Line> {
     let body = row.body.word();
     let length = |value| format(value, Dimension::Length);
     let place = format!("{} deep at x = {}, y = {}", length(row.depth), length(row.x), length(row.y));
-    let percent = |share: f64| format!("{} %", format_number((1000.0 * share).round() / 10.0));
     let mut lines = vec![
         Line::new(format!("f/b of the {body} body"), format!("{}, {place}", format_number(row.over_limit))),
         Line::new(
@@ -176,16 +133,7 @@ pub(super) fn numbers(row: &FatigueRecord) -> Vec<Line> {
                 format_number(row.damage_of_pass)
             ),
         ),
-        Line::new(
-            format!("wear that saves it, {body}"),
-            format!(
-                "{} a pass; {} of the area needs a tenth of it or more{}",
-                length(row.critical_wear),
-                percent(row.critical_share),
-                row.unsaved_share
-                    .map_or(String::new(), |share| format!(", {} has less than it needs", percent(share)))
-            ),
-        ),
+        row.critical.line(body),
     ];
     lines.extend(
         row.pitted_share

@@ -1,6 +1,7 @@
 //! Tribofilms: films that grow on a rubbed surface and are removed by rubbing.
 
 mod balance;
+mod limit;
 mod rules;
 mod table;
 mod views;
@@ -10,10 +11,13 @@ pub use table::{Film, FilmLaw, FilmStress};
 use self::balance::{Balance, at_least_0, mean_decay};
 use self::rules::RULES;
 use super::views::{Kept, OfBodies, PassCell};
-use super::{BodyLaw, BodyLaws, LawRule};
+use super::{BodyLaw, BodyLaws, ChangedSurfaces, LawRule};
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field};
-use crate::motion::{Body, ContactCells, FILM, FrettingRecord, Law, Pair, PassRecord, State, UpdateRecord};
+use crate::motion::{
+    Body, Contact, ContactCells, FrettingRecord, Law, LawsInCycles, LawsInPass, LawsInUpdate, Pair,
+    PassRecord, State, UpdateRecord, largest,
+};
 use crate::units::{Dimension, Metre, Pascal, format};
 use asperity_base::table::Source;
 
@@ -22,6 +26,8 @@ const BOLTZMANN: f64 = 1.380_649e-23;
 /// Planck's constant, J s.
 const PLANCK: f64 = 6.626_070_15e-34;
 
+/// Name of the law, and of the body state that stores the thickness of the film, m.
+pub const FILM: &str = "film";
 /// Name of the body state that stores the growth by the mechano-chemical law, m.
 const GROWN: &str = "film_grown";
 
@@ -31,6 +37,8 @@ const MAX_EXPONENT: f64 = 500.0;
 
 impl BodyLaw for Film {
     const NAME: &'static str = FILM;
+    const WITH: &'static str = "a film";
+    const EXAMPLE: &'static str = rules::GROWS;
     const MEANING: &'static str = "growing tribofilm, see [below](#running-in)";
     const RULES: &'static [LawRule<Self>] = RULES;
     const EFFORT: f64 = 380.0;
@@ -50,6 +58,18 @@ impl BodyLaw for Film {
             true => Ok(None),
             false => Ok(Some(Box::new(Films::new(films, pair)?))),
         }
+    }
+
+    fn limit_in_pass(pass: &PassRecord, surfaces: &ChangedSurfaces) -> [[Metre; 2]; 2] {
+        limit::in_pass(pass, surfaces)
+    }
+
+    fn limit_in_update(update: &UpdateRecord, surfaces: &ChangedSurfaces) -> [[Metre; 2]; 2] {
+        limit::in_update(update, surfaces)
+    }
+
+    fn beyond_limit(body: &str, value: Metre, bound: Metre) -> String {
+        limit::beyond(body, value, bound)
     }
 
     fn describe(&self) -> String {
@@ -104,9 +124,10 @@ impl Film {
                 });
                 contact_cells.add(body, removed, |_| c4 * contact_cells.time);
             }
-            FilmLaw::SolidLubricant { wear } => {
+            FilmLaw::SolidLubricant { .. } => {
+                let rate = self.law.per_pressure();
                 contact_cells.add(body, removed, |index| {
-                    wear * contact_cells.pressure[index] * contact_cells.sliding_distance(index)
+                    rate * contact_cells.pressure[index] * contact_cells.sliding_distance(index)
                 });
             }
         }
@@ -296,4 +317,33 @@ impl Law for Films {
             depth
         })
     }
+
+    fn deepest(&self, pair: &Pair) -> [Metre; 2] {
+        of_bodies(pair, largest)
+    }
+
+    fn record_pass(&self, pair: &Pair, _: &[Field; 2], columns: &mut LawsInPass) {
+        let means = of_bodies(pair, |film| film.mean().unwrap_or(0.0));
+        [columns.mean_film_lower, columns.mean_film_upper] = means;
+    }
+
+    fn record_update(&self, pair: &Pair, contact: &Contact, columns: &mut LawsInUpdate) {
+        let cells = contact.pressure.len() as f64;
+        if cells > 0.0 {
+            let in_contact = of_bodies(pair, |film| {
+                let film = film.as_slice().expect("standard layout");
+                contact.pressure.iter().map(|(cell, _)| film[*cell as usize]).sum::<f64>() / cells
+            });
+            [columns.mean_film_lower, columns.mean_film_upper] = in_contact;
+        }
+    }
+
+    fn record_cycles(&self, pair: &Pair, columns: &mut LawsInCycles) {
+        [columns.max_film_lower, columns.max_film_upper] = self.deepest(pair);
+    }
+}
+
+/// Evaluates the films of the lower and of the upper body; 0 for a body without one.
+fn of_bodies(pair: &Pair, value: impl Fn(&Field) -> f64) -> [f64; 2] {
+    [&pair.lower, &pair.upper].map(|body| body.state.get(FILM).map_or(0.0, |film| value(&film.values)))
 }

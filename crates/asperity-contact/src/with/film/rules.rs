@@ -3,13 +3,22 @@
 use super::{Film, FilmLaw, FilmStress};
 use crate::with::{Circumstances, LawRule, Slip, Timeless};
 
-const GROWS: &str =
+pub(super) const GROWS: &str =
     r#"lower.film = { law = "mechano-chemical", max_thickness = "150 nm", x = 1e-16, c3 = 0, c4 = 0 }"#;
 const WARM: &str = r#"temperature = { bulk = "100 °C" }"#;
 const MOVES: &str = r#"motion = { speed = "0.5 m/s" }"#;
 const RUBS: &str = "friction = { coefficient = 0.3 }";
 
 pub(super) const RULES: &[LawRule<Film>] = &[
+    LawRule {
+        this: "a film",
+        with: "[lower.viscoelastic], [upper.viscoelastic]",
+        message: "viscoelastic bodies do not support '{key}'",
+        hint: "leave the film out",
+        at: "lower.film",
+        example: &[r#"lower.viscoelastic = { moduli = ["1 GPa"], times = ["1 s"] }"#, GROWS, MOVES],
+        broken: |_, case| case.relaxes,
+    },
     LawRule {
         this: "a film",
         with: "a static contact",

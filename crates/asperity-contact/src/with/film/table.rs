@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::error::{Result, check_in};
 use crate::units::{CubicMetre, Dimension, Joule, Kelvin, Metre, MetrePerSecond, Pascal, PerPascal, Range};
 use asperity_base::choice::choice;
-use asperity_base::exists::{HARDNESS, WEAR};
+use asperity_base::exists::{HARDNESS, VOLUME_PER_WORK};
 use asperity_base::table::{Exists, Source, Table as _, require};
 use asperity_derive::{Part, Table};
 
@@ -83,10 +83,10 @@ pub enum FilmLaw {
         #[key(number = "a number", range = Within(RATES, true), example = "0.01")]
         c4: f64,
     },
-    /// A solid lubricant, such as bonded MoS₂, which begins at its largest thickness and only wears: df = −k p |ds| while f > 0.
+    /// A solid lubricant, such as bonded MoS₂, which begins at its largest thickness and is only worn off: df = −k p |ds| while f > 0.
     SolidLubricant {
         /// Film volume lost per load and sliding distance, until the film is worn off; the heights of the surface include the film.
-        #[key(quantity = WearCoefficient, range = AboveZero, example = "\"1e-6 mm3/(N m)\"", exists = WEAR)]
+        #[key(quantity = VolumePerWork, range = AboveZero, example = "\"1e-6 mm3/(N m)\"", exists = VOLUME_PER_WORK)]
         wear: PerPascal,
     },
 }
@@ -174,6 +174,14 @@ impl Film {
 }
 
 impl FilmLaw {
+    /// Depth that a film of this law loses per pressure and distance slid, 1/Pa, if it loses any without growing.
+    pub(super) fn per_pressure(&self) -> PerPascal {
+        match self {
+            Self::SolidLubricant { wear } => *wear,
+            Self::Arrhenius { .. } | Self::MechanoChemical { .. } => 0.0,
+        }
+    }
+
     /// Whether the film changes with time. A solid lubricant changes only with the distance slid.
     pub fn takes_time(&self) -> bool {
         !matches!(self, Self::SolidLubricant { .. })

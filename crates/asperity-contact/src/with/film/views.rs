@@ -1,7 +1,7 @@
 //! Films in numbers, curves and maps.
 
-use super::GROWN;
-use crate::motion::{FILM, FrettingRecord, PassRecord, UpdateRecord};
+use super::{FILM, GROWN};
+use crate::motion::{FrettingRecord, PassRecord, UpdateRecord};
 use crate::with::views::{Kept, KeptMap, OfBodies, PassCell};
 
 pub(super) const KEPT: &[Kept] = &[
@@ -23,7 +23,9 @@ pub(super) const CELL: PassCell = PassCell {
     head: "film",
     column: "mean_film_lower",
     least: 1e-9,
-    value: |pass| pass.running.map_or(0.0, |running| running.mean_film_lower.max(running.mean_film_upper)),
+    value: |pass| {
+        pass.running.map_or(0.0, |running| running.laws.mean_film_lower.max(running.laws.mean_film_upper))
+    },
     adds_up: false,
     is_inside: false,
     about: "film: mean of the thicker",
@@ -33,7 +35,7 @@ pub(super) const OF_PASSES: &[OfBodies<PassRecord>] = &[OfBodies {
     name: "mean film",
     column: "mean_film_lower",
     values: |pass| {
-        pass.running.map_or([0.0; 2], |running| [running.mean_film_lower, running.mean_film_upper])
+        pass.running.map_or([0.0; 2], |running| [running.laws.mean_film_lower, running.laws.mean_film_upper])
     },
     adds_up: false,
 }];
@@ -41,13 +43,13 @@ pub(super) const OF_PASSES: &[OfBodies<PassRecord>] = &[OfBodies {
 pub(super) const OF_UPDATES: &[OfBodies<UpdateRecord>] = &[OfBodies {
     name: "mean film in contact",
     column: "mean_film_lower",
-    values: |update| [update.mean_film_lower, update.mean_film_upper],
+    values: |update| [update.laws.mean_film_lower, update.laws.mean_film_upper],
     adds_up: false,
 }];
 
 pub(super) const OF_CYCLES: &[OfBodies<FrettingRecord>] = &[OfBodies {
     name: "thickest film",
     column: "max_film_lower",
-    values: |cycle| [cycle.max_film_lower, cycle.max_film_upper],
+    values: |cycle| [cycle.laws.max_film_lower, cycle.laws.max_film_upper],
     adds_up: false,
 }];

@@ -1,5 +1,6 @@
 //! Wear: material removed from a body by sliding.
 
+mod limit;
 mod rules;
 mod table;
 mod views;
@@ -9,15 +10,23 @@ pub use table::{WearCoefficient, WearRate};
 use self::rules::RULES;
 use super::film::{Film, GrowthSums};
 use super::views::{Answer, Kept, OfBodies, PassCell};
-use super::{BodyLaw, BodyLaws, LawRule};
+use super::{BodyLaw, BodyLaws, ChangedSurfaces, LawRule};
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field};
-use crate::motion::{ContactCells, FrettingRecord, Law, Pair, PassRecord, State, UpdateRecord, WEAR};
-use crate::units::{Dimension, Pascal, PerPascal, format};
+use crate::motion::{
+    Body, Contact, ContactCells, FrettingRecord, Law, LawsInCycles, LawsInPass, LawsInUpdate, Pair,
+    PassRecord, State, UpdateRecord, largest,
+};
+use crate::units::{Dimension, Metre, Pascal, PerPascal, format};
 use asperity_base::table::Source;
+
+/// Name of the law, and of the body state that stores the depth worn since the beginning, m.
+pub const WEAR: &str = "wear";
 
 impl BodyLaw for WearCoefficient {
     const NAME: &'static str = WEAR;
+    const WITH: &'static str = "wear";
+    const EXAMPLE: &'static str = rules::WEARS;
     const MEANING: &'static str = "wear law, see [below](#running-in)";
     const RULES: &'static [LawRule<Self>] = RULES;
     const EFFORT: f64 = 0.0;
@@ -44,6 +53,14 @@ impl BodyLaw for WearCoefficient {
         self.rate.per_pressure(friction)
     }
 
+    fn limit_in_pass(pass: &PassRecord, surfaces: &ChangedSurfaces) -> [[Metre; 2]; 2] {
+        limit::in_pass(pass, surfaces)
+    }
+
+    fn beyond_limit(body: &str, value: Metre, bound: Metre) -> String {
+        limit::beyond(body, value, bound)
+    }
+
     fn after_passes(passes: &[PassRecord]) -> Option<Answer> {
         views::after_passes(passes)
     }
@@ -57,7 +74,7 @@ impl BodyLaw for WearCoefficient {
     }
 
     fn describe(&self) -> String {
-        let coefficient = |value| format(value, Dimension::WearCoefficient);
+        let coefficient = |value| format(value, Dimension::VolumePerWork);
         let driver = match self.rate {
             WearRate::Energy(_) => "per energy of friction",
             _ => "per load and distance",
@@ -149,6 +166,10 @@ impl Law for Wear {
         }
     }
 
+    fn uncovers(&self) -> bool {
+        true
+    }
+
     fn per_pressure(&self, friction: f64) -> [PerPascal; 2] {
         self.coefficients
             .map(|coefficient| coefficient.map_or(0.0, |coefficient| coefficient.rate.per_pressure(friction)))
@@ -181,4 +202,27 @@ impl Law for Wear {
         }
         depths
     }
+
+    fn deepest(&self, pair: &Pair) -> [Metre; 2] {
+        of_bodies(pair, largest)
+    }
+
+    fn record_pass(&self, _: &Pair, taken: &[Field; 2], columns: &mut LawsInPass) {
+        [columns.max_wear_lower, columns.max_wear_upper] = [largest(&taken[0]), largest(&taken[1])];
+    }
+
+    fn record_update(&self, pair: &Pair, _: &Contact, columns: &mut LawsInUpdate) {
+        [columns.max_wear_lower, columns.max_wear_upper] = self.deepest(pair);
+    }
+
+    fn record_cycles(&self, pair: &Pair, columns: &mut LawsInCycles) {
+        let volumes = of_bodies(pair, |worn| pair.cell_area() * worn.sum());
+        [columns.worn_volume_lower, columns.worn_volume_upper] = volumes;
+        [columns.max_wear_lower, columns.max_wear_upper] = self.deepest(pair);
+    }
+}
+
+/// Evaluates the depths worn since the beginning of the lower and of the upper body; 0 for a body that does not store them.
+fn of_bodies(pair: &Pair, value: impl Fn(&Field) -> f64) -> [f64; 2] {
+    [&pair.lower, &pair.upper].map(|body: &Body| body.state.get(WEAR).map_or(0.0, |worn| value(&worn.values)))
 }

@@ -3,9 +3,22 @@
 use super::{WearCoefficient, WearRate};
 use crate::with::{LawRule, Slip};
 
-const WEARS: &str = r#"lower.wear = { coefficient = "1e-7 mm3/(N m)" }"#;
+pub(super) const WEARS: &str = r#"lower.wear = { coefficient = "1e-7 mm3/(N m)" }"#;
 
 pub(super) const RULES: &[LawRule<WearCoefficient>] = &[
+    LawRule {
+        this: "wear without [motion]",
+        with: "[lower.viscoelastic], [upper.viscoelastic]",
+        message: "viscoelastic bodies do not support '{key}' without [motion]",
+        hint: "leave the wear out, or let the bodies pass over each other in a [motion]",
+        at: "lower.wear",
+        example: &[
+            r#"lower.viscoelastic = { moduli = ["1 GPa"], times = ["1 s"] }"#,
+            WEARS,
+            r#"history = [{ load = "1 N", duration = "1 s" }]"#,
+        ],
+        broken: |_, case| case.relaxes && !matches!(case.slip, Slip::InPasses | Slip::Rolling),
+    },
     LawRule {
         this: "wear",
         with: "a static contact",

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::error::{Error, Result, check_in};
 use crate::units::{Dimension, Pascal, PerPascal};
-use asperity_base::exists::WEAR;
+use asperity_base::exists::VOLUME_PER_WORK;
 use asperity_base::table::{Exists, Source, Table as _, require};
 use asperity_derive::{Part, Table};
 
@@ -20,11 +20,11 @@ pub struct WearCoefficient {
     /// Coefficient under the thickest film, in the unit of `coefficient` or `energy`, also with `dimensionless`, at most the coefficient of
     /// the bare body; it decreases linearly with the thickness; the body needs a film.
     #[key(
-        quantity = WearCoefficient,
+        quantity = VolumePerWork,
         range = AboveZero,
         absent = "the coefficient of the bare body",
         example = "\"1e-8 mm3/(N m)\"",
-        exists = WEAR
+        exists = VOLUME_PER_WORK
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub under_film: Option<PerPascal>,
@@ -38,7 +38,7 @@ pub enum WearRate {
     /// Wear volume per load and sliding distance (Archard).
     ///
     /// The depth is k p ds.
-    #[key(quantity = WearCoefficient, range = AboveZero, example = "\"1e-7 mm3/(N m)\"", exists = WEAR)]
+    #[key(quantity = VolumePerWork, range = AboveZero, example = "\"1e-7 mm3/(N m)\"", exists = VOLUME_PER_WORK)]
     Coefficient(PerPascal),
     /// `coefficient` times the `hardness` of the body, which must be a single number.
     ///
@@ -48,7 +48,7 @@ pub enum WearRate {
     /// Wear volume per frictional energy; requires \[friction\].
     ///
     /// The depth is α |q| ds, with α in 1/Pa, which is m³/J.
-    #[key(quantity = WearCoefficient, range = AboveZero, example = "\"1e-6 mm3/J\"", exists = OF_ENERGY)]
+    #[key(quantity = VolumePerWork, range = AboveZero, example = "\"1e-6 mm3/J\"", exists = OF_ENERGY)]
     Energy(PerPascal),
 }
 
@@ -107,7 +107,7 @@ impl WearCoefficient {
             ));
         }
         let under = self.under_film.unwrap_or(0.0);
-        check_in(Dimension::WearCoefficient, "under_film", under, self.is_lower_under_film(), LOWER)
+        check_in(Dimension::VolumePerWork, "under_film", under, self.is_lower_under_film(), LOWER)
     }
 
     /// Replaces a dimensionless coefficient on a body of this hardness, which is one finite number.

@@ -1,6 +1,7 @@
 //! Wear in numbers, curves and maps.
 
-use crate::motion::{FrettingRecord, PassRecord, UpdateRecord, WEAR};
+use super::WEAR;
+use crate::motion::{FrettingRecord, PassRecord, UpdateRecord};
 use crate::units::{Dimension, format, format_number};
 use crate::with::views::{Answer, Kept, KeptMap, OfBodies, PassCell};
 
@@ -36,7 +37,7 @@ pub(super) const OF_PASSES: &[OfBodies<PassRecord>] = &[OfBodies {
 pub(super) const OF_UPDATES: &[OfBodies<UpdateRecord>] = &[OfBodies {
     name: "deepest wear",
     column: "max_wear_lower",
-    values: |update| [update.max_wear_lower, update.max_wear_upper],
+    values: |update| [update.laws.max_wear_lower, update.laws.max_wear_upper],
     adds_up: false,
 }];
 
@@ -44,13 +45,13 @@ pub(super) const OF_CYCLES: &[OfBodies<FrettingRecord>] = &[
     OfBodies {
         name: "worn volume",
         column: "worn_volume_lower",
-        values: |cycle| [cycle.worn_volume_lower, cycle.worn_volume_upper],
+        values: |cycle| [cycle.laws.worn_volume_lower, cycle.laws.worn_volume_upper],
         adds_up: false,
     },
     OfBodies {
         name: "deepest wear",
         column: "max_wear_lower",
-        values: |cycle| [cycle.max_wear_lower, cycle.max_wear_upper],
+        values: |cycle| [cycle.laws.max_wear_lower, cycle.laws.max_wear_upper],
         adds_up: false,
     },
 ];
@@ -97,8 +98,8 @@ fn per_metre(rate: f64) -> String {
 }
 
 pub(super) fn after_cycles(cycles: &FrettingRecord) -> Option<Answer> {
-    let worn = cycles.worn_volume_lower + cycles.worn_volume_upper;
-    let deepest = cycles.max_wear_lower.max(cycles.max_wear_upper);
+    let worn = cycles.laws.worn_volume_lower + cycles.laws.worn_volume_upper;
+    let deepest = cycles.laws.max_wear_lower.max(cycles.laws.max_wear_upper);
     let (value, deepest) = (format(worn, Dimension::Volume), format(deepest, Dimension::Length));
     let count = cycles.cycles;
     (worn > 0.0).then(|| Answer {
@@ -110,7 +111,7 @@ pub(super) fn after_cycles(cycles: &FrettingRecord) -> Option<Answer> {
 }
 
 pub(super) fn after_sliding(update: &UpdateRecord) -> Option<Answer> {
-    let deepest = update.max_wear_lower.max(update.max_wear_upper);
+    let deepest = update.laws.max_wear_lower.max(update.laws.max_wear_upper);
     let value = format(deepest, Dimension::Length);
     let distance = format(update.distance, Dimension::Length);
     (deepest > 0.0).then(|| Answer {

@@ -2,7 +2,7 @@
 
 use asperity_contact::solver::{Device, Method};
 
-use super::examples::{AT_ANY_SPEED, FLOWS, MOVES, ON_DEVICE, RELAXES, RUBS, SLIDES, VOLUME, WEARS};
+use super::examples::{AT_ANY_SPEED, CHANGES, FLOWS, MOVES, ON_DEVICE, RELAXES, RUBS, SLIDES, VOLUME};
 use super::{Case, Entry, Rule, Tables};
 
 /// The hint of what only the processor solves.
@@ -67,10 +67,10 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[sliding]",
         with: "`device` in [contact]",
-        message: "a device does not solve wear in place",
+        message: "a device does not solve sliding in place",
         hint: ON_PROCESSOR,
         at: "sliding",
-        example: &[ON_DEVICE, WEARS, SLIDES],
+        example: &[ON_DEVICE, CHANGES, SLIDES],
         broken: |tables| tables.on_device("sliding", |_| true),
     },
 ];

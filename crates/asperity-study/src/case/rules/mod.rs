@@ -25,7 +25,30 @@ use asperity_contact::with::{
 use asperity_contact::{each_capability, each_interface, each_law};
 
 /// The description of a rule: two entries of a case file exclude each other, or one requires the other.
-pub type Exclusion = table::Rule<()>;
+#[derive(Debug, Clone)]
+pub struct Exclusion {
+    /// The excluded entry, in Markdown.
+    pub this: String,
+    /// The entry that excludes it, in Markdown.
+    pub with: String,
+    /// The message of the error. `{key}` stands for the key that it points to, `{path}` for its dotted name, `{value}` for its value.
+    pub message: String,
+    /// The hint; empty if the message is enough.
+    pub hint: String,
+    /// The dotted key that the error of the example points to.
+    pub at: String,
+    /// Keys that break the rule, as written above the tables of a case file.
+    pub example: Vec<String>,
+}
+
+impl Exclusion {
+    fn of<F>(rule: &table::Rule<F>) -> Self {
+        let [this, with, message, hint, at] =
+            [rule.this, rule.with, rule.message, rule.hint, rule.at].map(with_laws);
+        let example = rule.example.iter().map(|text| with_laws(text)).collect();
+        Self { this, with, message, hint, at, example }
+    }
+}
 
 /// A rule that the tables of a case break: it finds the entry that does.
 type Rule = table::Rule<for<'a> fn(&Tables<'a>) -> Option<Entry<'a>>>;
@@ -57,19 +80,36 @@ pub(super) fn check(root: &Table<'_>, case: &Case) -> Result<()> {
 
 /// Returns the rules of a case file, in the order in which a case is checked.
 pub fn rules() -> Vec<Exclusion> {
-    let mut exclusions: Vec<_> = OF_THE_CONTACT.into_iter().flatten().map(Rule::described).collect();
-    each_law!(L => exclusions.extend(L::RULES.iter().map(table::Rule::described)));
-    exclusions.extend(OF_THE_REST.into_iter().flatten().map(Rule::described));
-    each_interface!(I => exclusions.extend(I::RULES.iter().map(table::Rule::described)));
-    each_capability!(C => exclusions.extend(C::RULES.iter().map(table::Rule::described)));
+    let mut exclusions: Vec<_> = OF_THE_CONTACT.into_iter().flatten().map(Exclusion::of).collect();
+    each_law!(L => exclusions.extend(L::RULES.iter().map(Exclusion::of)));
+    exclusions.extend(OF_THE_REST.into_iter().flatten().map(Exclusion::of));
+    each_interface!(I => exclusions.extend(I::RULES.iter().map(Exclusion::of)));
+    each_capability!(C => exclusions.extend(C::RULES.iter().map(Exclusion::of)));
     exclusions
+}
+
+/// Puts the laws of a body into a text of a rule: `{a law}` are all of them in words, `{law tables}` their tables, `{law}` and
+/// `{law example}` the name and the example of the first one.
+fn with_laws(text: &str) -> String {
+    let (mut laws, mut tables, mut names, mut examples) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    each_law!(L => {
+        laws.push(L::WITH);
+        tables.push(format!("`[lower.{}]`", L::NAME));
+        names.push(L::NAME);
+        examples.push(L::EXAMPLE);
+    });
+    text.replace("{a law}", &laws.join(" or "))
+        .replace("{law tables}", &tables.join(" or "))
+        .replace("{law example}", examples[0])
+        .replace("{law}", names[0])
 }
 
 /// Returns the error for an entry that breaks a rule.
 fn refused<F>(rule: &table::Rule<F>, entry: &Entry<'_>) -> Error {
-    let message = rule.message.replace("{key}", entry.key()).replace("{path}", entry.path());
+    let [message, hint] = [rule.message, rule.hint].map(with_laws);
+    let message = message.replace("{key}", entry.key()).replace("{path}", entry.path());
     let message = message.replace("{value}", &entry.written());
-    entry.error(message, Some(rule.hint.to_owned()).filter(|hint| !hint.is_empty()))
+    entry.error(message, Some(hint).filter(|hint| !hint.is_empty()))
 }
 
 impl<'a> Tables<'a> {
@@ -130,6 +170,13 @@ impl<'a> Tables<'a> {
             .into_iter()
             .filter(|(_, body)| is(body))
             .find_map(|(name, _)| self.at(&format!("{name}.{key}")))
+    }
+
+    /// Returns the table of a law that changes a body.
+    fn law(&self) -> Option<Entry<'a>> {
+        let mut given = None;
+        each_law!(L => given = given.or(self.of_body(L::NAME, |_| true)));
+        given
     }
 
     /// Returns the key of a sweep in [contact].
@@ -195,6 +242,7 @@ impl<'a> Tables<'a> {
             yields: body.hardness.yields(),
             has_friction: self.friction().is_some(),
             has_temperature: self.case.temperature.is_some(),
+            relaxes: self.viscoelastic().is_some(),
             slip: self.slip(),
             timeless: self.timeless(),
         }

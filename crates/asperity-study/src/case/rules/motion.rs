@@ -2,7 +2,7 @@
 
 use super::super::{ControlKind, CounterBody, OffsetY, Prescribed, Source};
 use super::Rule;
-use super::examples::{AT_ANY_SPEED, JUMPS, MOVES, RUBS, SLIDES, SWEEP, WEARS};
+use super::examples::{AT_ANY_SPEED, CHANGES, JUMPS, MOVES, RUBS, SLIDES, SWEEP};
 
 pub(super) const RULES: &[Rule] = &[
     Rule {
@@ -110,7 +110,7 @@ pub(super) const RULES: &[Rule] = &[
         message: "[sliding] and [motion] are both given, expected one of them",
         hint: "in [sliding] the same cells stay opposite each other; in a [motion] one surface passes over the other",
         at: "sliding",
-        example: &[WEARS, SLIDES, MOVES],
+        example: &[CHANGES, SLIDES, MOVES],
         broken: |tables| tables.at("motion").and(tables.at("sliding")),
     },
     Rule {
@@ -119,7 +119,7 @@ pub(super) const RULES: &[Rule] = &[
         message: "[sliding] does not take a [[history]]",
         hint: "the load or approach in [contact] holds over the whole distance",
         at: "sliding",
-        example: &[WEARS, SLIDES, r#"history = [{ load = "1 N" }]"#],
+        example: &[CHANGES, SLIDES, r#"history = [{ load = "1 N" }]"#],
         broken: |tables| tables.at("history").and(tables.at("sliding")),
     },
     Rule {
@@ -128,7 +128,7 @@ pub(super) const RULES: &[Rule] = &[
         message: "[sliding] does not take '{key}'",
         hint: "give one `load`, `mean_pressure` or `approach`",
         at: "contact.loads",
-        example: &[WEARS, SWEEP, SLIDES],
+        example: &[CHANGES, SWEEP, SLIDES],
         broken: |tables| tables.at("sliding").and(tables.sweep()),
     },
     Rule {
@@ -137,7 +137,7 @@ pub(super) const RULES: &[Rule] = &[
         message: "[acceleration] needs [motion]",
         hint: "set `updates` in [sliding], or leave [acceleration] out",
         at: "acceleration",
-        example: &[WEARS, SLIDES, JUMPS],
+        example: &[CHANGES, SLIDES, JUMPS],
         broken: |tables| tables.at("sliding").and(tables.at("acceleration")),
     },
     Rule {
@@ -146,14 +146,14 @@ pub(super) const RULES: &[Rule] = &[
         message: "[sliding] needs a friction that does not displace the bodies normally",
         hint: "set `coupling = \"goodman\"` or `\"none\"` in [friction]",
         at: "sliding",
-        example: &[r#"lower.young = "70 GPa""#, WEARS, RUBS, SLIDES],
+        example: &[r#"lower.young = "70 GPa""#, CHANGES, RUBS, SLIDES],
         broken: |tables| tables.at("sliding").filter(|_| tables.case.shear_displaces_normally()),
     },
     Rule {
         this: "[sliding]",
-        with: "bodies without wear and film",
-        message: "[sliding] needs a body with wear or a film",
-        hint: "give a body `[lower.wear]` or `[lower.film]`, or leave [sliding] out",
+        with: "bodies without {a law}",
+        message: "[sliding] needs a body with {a law}",
+        hint: "give a body {law tables}, or leave [sliding] out",
         at: "sliding",
         example: &[SLIDES],
         broken: |tables| tables.at("sliding").filter(|_| !tables.case.runs_in()),

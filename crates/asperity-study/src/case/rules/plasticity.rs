@@ -3,7 +3,7 @@
 use super::super::CounterBody;
 use super::Rule;
 use super::examples::{
-    AT_ANY_SPEED, COATED, FLOWS, GENERATED, LINE, MOVES, ROLLS, SWEEP, VOLUME, WARM, WEARS,
+    AT_ANY_SPEED, CHANGES, COATED, FLOWS, GENERATED, LINE, MOVES, ROLLS, SWEEP, VOLUME, WARM,
 };
 
 pub(super) const RULES: &[Rule] = &[
@@ -78,15 +78,12 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "a body's plasticity",
-        with: "wear, a film",
+        with: "{a law}",
         message: "elasto-plastic bodies do not support {key} yet",
         hint: "leave the plasticity out, and give the bodies a `hardness`",
-        at: "lower.wear",
-        example: &[FLOWS, WEARS, VOLUME, MOVES],
-        broken: |tables| {
-            let given = tables.of_body("wear", |_| true).or(tables.of_body("film", |_| true));
-            given.filter(|_| tables.flows())
-        },
+        at: "lower.{law}",
+        example: &[FLOWS, CHANGES, VOLUME, MOVES],
+        broken: |tables| tables.law().filter(|_| tables.flows()),
     },
     Rule {
         this: "a body's plasticity",

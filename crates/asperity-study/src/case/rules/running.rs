@@ -2,7 +2,7 @@
 
 use super::super::{CounterBody, OffsetY};
 use super::Rule;
-use super::examples::{GENERATED, JUMPS, LINE, MOVES, RUBS, WEARS};
+use super::examples::{CHANGES, GENERATED, JUMPS, LINE, MOVES, RUBS};
 use asperity_contact::motion::PlasticUpdate;
 
 pub(super) const RULES: &[Rule] = &[
@@ -19,12 +19,12 @@ pub(super) const RULES: &[Rule] = &[
         },
     },
     Rule {
-        this: "wear, a film",
+        this: "{a law}",
         with: "`plastic_update = \"step\"`",
-        message: "'plastic_update' is {value}, expected \"pass\" with wear or films",
+        message: "'plastic_update' is {value}, expected \"pass\" with {a law}",
         hint: "",
         at: "motion.plastic_update",
-        example: &[WEARS, r#"motion = { speed = "0.5 m/s", plastic_update = "step" }"#],
+        example: &[CHANGES, r#"motion = { speed = "0.5 m/s", plastic_update = "step" }"#],
         broken: |tables| {
             let step = tables.motion().is_some_and(|motion| motion.plastic_update == PlasticUpdate::Step);
             tables.at("motion.plastic_update").filter(|_| step && tables.case.runs_in())
@@ -34,7 +34,7 @@ pub(super) const RULES: &[Rule] = &[
         this: "[acceleration]",
         with: "bodies that passes do not change",
         message: "[acceleration] needs a body that passes change",
-        hint: "give a body `[lower.wear]` or `[lower.film]`, or leave [acceleration] out",
+        hint: "give a body {law tables}, or leave [acceleration] out",
         at: "acceleration",
         example: &[MOVES, JUMPS],
         broken: |tables| tables.at("acceleration").filter(|_| !tables.case.is_changed_by_passes()),
@@ -45,7 +45,7 @@ pub(super) const RULES: &[Rule] = &[
         message: "extrapolation needs passes that repeat: counter = \"fresh\" changes the upper body",
         hint: "set `max_jump = 1`, or `counter = \"same\"`",
         at: "acceleration",
-        example: &[WEARS, GENERATED, r#"motion = { speed = "0.5 m/s", counter = "fresh" }"#, JUMPS],
+        example: &[CHANGES, GENERATED, r#"motion = { speed = "0.5 m/s", counter = "fresh" }"#, JUMPS],
         broken: |tables| {
             tables.motion().filter(|motion| motion.counter == CounterBody::Fresh && tables.jumps())?;
             tables.at("acceleration")
@@ -57,7 +57,7 @@ pub(super) const RULES: &[Rule] = &[
         message: "extrapolation needs passes that repeat: 'offset_y' moves the surfaces in each pass",
         hint: "set `max_jump = 1`, or `offset_y = 0`",
         at: "acceleration",
-        example: &[WEARS, LINE, r#"motion = { speed = "0.5 m/s", offset_y = "random" }"#, JUMPS],
+        example: &[CHANGES, LINE, r#"motion = { speed = "0.5 m/s", offset_y = "random" }"#, JUMPS],
         broken: |tables| {
             tables.motion().filter(|motion| motion.offset_y != OffsetY::NONE && tables.jumps())?;
             tables.at("acceleration")
@@ -70,7 +70,7 @@ pub(super) const RULES: &[Rule] = &[
         hint: "set `max_jump = 1`, one speed to 0, both speeds equal, or `path = \"reciprocating\"`; docs/models.md compares these",
         at: "acceleration",
         example: &[
-            WEARS,
+            CHANGES,
             r#"contact = { load = "2 N", boundary = "periodic" }"#,
             r#"motion = { strategy = "shift", speed_lower = 0.3, speed_upper = 1 }"#,
             JUMPS,

@@ -3,7 +3,7 @@
 use super::super::CounterBody;
 use super::Rule;
 use super::examples::{
-    AT_ANY_SPEED, CONDUCTS, GENERATED, LINE, MOVES, RUBS, SLIDES, UPPER_CONDUCTS, WARM, WEARS,
+    AT_ANY_SPEED, CHANGES, CONDUCTS, GENERATED, LINE, MOVES, RUBS, SLIDES, UPPER_CONDUCTS, WARM,
 };
 use asperity_contact::motion::PlasticUpdate;
 use asperity_contact::with::uses;
@@ -49,7 +49,7 @@ pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[temperature]",
         with: "a static contact",
-        message: "[temperature] needs [motion], [sliding], bodies that wear or grow films by slip, or viscoelastic ones with `wlf_c1`",
+        message: "[temperature] needs [motion], [sliding], bodies with {a law} that slip, or viscoelastic ones with `wlf_c1`",
         hint: "",
         at: "temperature",
         example: &[WARM],
@@ -64,7 +64,7 @@ pub(super) const RULES: &[Rule] = &[
         message: "the slip of a loading in stages has no flash temperature",
         hint: "set `every = 0`, or leave the thermal constants out",
         at: "temperature.every",
-        example: &[WEARS, RUBS, r#"temperature = { bulk = "100 °C", every = 1 }"#],
+        example: &[CHANGES, RUBS, r#"temperature = { bulk = "100 °C", every = 1 }"#],
         broken: |tables| tables.flash().filter(|_| !tables.slides()),
     },
     Rule {
@@ -73,7 +73,7 @@ pub(super) const RULES: &[Rule] = &[
         message: "'every' is {value}, expected 1 (a flash temperature at each update) or 0 (none)",
         hint: "",
         at: "temperature.every",
-        example: &[WEARS, SLIDES, r#"temperature = { bulk = "100 °C", every = 3 }"#],
+        example: &[CHANGES, SLIDES, r#"temperature = { bulk = "100 °C", every = 3 }"#],
         broken: |tables| tables.seldom().filter(|_| tables.case.sliding.is_some()),
     },
     Rule {
@@ -118,7 +118,7 @@ pub(super) const RULES: &[Rule] = &[
         at: "contact.boundary",
         example: &[
             CONDUCTS,
-            WEARS,
+            CHANGES,
             UPPER_CONDUCTS,
             RUBS,
             r#"sliding = { distance = "1 m", speed = "1 m/s" }"#,
@@ -133,7 +133,7 @@ pub(super) const RULES: &[Rule] = &[
         message: "a flash temperature needs a speed",
         hint: "for example `speed = \"10 mm/s\"` in [sliding]",
         at: "temperature",
-        example: &[CONDUCTS, WEARS, UPPER_CONDUCTS, RUBS, SLIDES, WARM],
+        example: &[CONDUCTS, CHANGES, UPPER_CONDUCTS, RUBS, SLIDES, WARM],
         broken: |tables| {
             tables.flash().filter(|_| tables.case.sliding.is_some_and(|sliding| sliding.speed.is_none()))
         },

@@ -15,13 +15,13 @@ section! { &[], "";
     SLIDING: Nested = table(
         "sliding",
         Absent("none"),
-        "static contact that slides and wears in place",
+        "static contact that slides in place while laws change its bodies",
     );
     STEADY: Nested = table("steady", Absent("none"), "steady sliding of viscoelastic bodies");
     ACCELERATION: Nested = table(
         "acceleration",
         Absent("none: every pass is computed"),
-        "extrapolation over passes of wearing bodies",
+        "extrapolation over passes of bodies that laws change",
     );
     TEMPERATURE: Nested = table("temperature", Absent("unknown"), "temperature of the bodies");
     PLASTICITY: Nested = table(
