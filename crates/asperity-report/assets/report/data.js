@@ -94,11 +94,13 @@ function pixel(text) {
   return ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0;
 }
 
-/** 256 colours of each table, as they are written and as pixels. */
-const palettes = Object.fromEntries(Object.entries(data.colours).map(([name, text]) => {
+/** The 256 colours of a table, as they are written and as pixels. */
+function palette(text) {
   const css = Array.from({ length: 256 }, (_, i) => `#${text.substr(6 * i, 6)}`);
-  return [name, { css, pixels: Uint32Array.from(css, pixel) }];
-}));
+  return { css, pixels: Uint32Array.from(css, pixel) };
+}
+
+const palettes = Object.fromEntries(Object.entries(data.colours).map(([name, text]) => [name, palette(text)]));
 const CLASSES = [null, "#0072b2", "#d55e00"];
 
 /** Colours of the page's own style, as long as they hold. */

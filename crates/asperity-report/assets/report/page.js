@@ -1,24 +1,5 @@
 "use strict";
-// The page as a whole: dark or light, the case to the clipboard, maps below the surface, what is unpacked ahead.
-
-const theme = document.getElementById("theme");
-const prefersDark = window.matchMedia("(prefers-color-scheme: dark)");
-const isDark = () => (document.documentElement.dataset.theme || (prefersDark.matches ? "dark" : "light")) === "dark";
-
-function themed() {
-  theme.textContent = isDark() ? "light" : "dark";
-  theme.setAttribute("aria-label", `colours: ${theme.textContent}`);
-  styles.clear();
-  redraws.forEach((redraw) => redraw());
-}
-
-theme.hidden = false;
-theme.addEventListener("click", () => {
-  document.documentElement.dataset.theme = isDark() ? "light" : "dark";
-  themed();
-});
-prefersDark.addEventListener("change", themed);
-theme.textContent = isDark() ? "light" : "dark";
+// The page as a whole: the case to the clipboard, maps below the surface, what is unpacked ahead.
 
 for (const button of document.querySelectorAll(".copy")) {
   button.hidden = false;

@@ -36,6 +36,8 @@ mod words;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use asperity_base::Field;
+use asperity_base::units::Metre;
 use asperity_study::Results;
 use asperity_study::io;
 use base64::Engine;
@@ -45,6 +47,7 @@ use serde_json::{Value, json};
 use crate::draw::{Colours, Paper, palette};
 use crate::figures::{self, FigureOptions};
 use found::PageData;
+use packed::QuantisedField;
 pub use live::LivePage;
 pub use study::write_study;
 use witness::{DPI, PICTURES};
@@ -62,6 +65,20 @@ pub fn make(directory: &Path, out: Option<&Path>) -> asperity_base::Result<PathB
     let path = out.map_or_else(|| of(&results), Path::to_owned);
     write(&results, &path)?;
     Ok(path)
+}
+
+/// The colours of maps by their kind, for the programs of a page.
+pub fn colours() -> Value {
+    json!({
+        "heights": palette(Colours::Heights),
+        "pressure": palette(Colours::Pressure),
+        "diverging": palette(Colours::Signed),
+    })
+}
+
+/// Heights as the programs of a page draw them.
+pub fn map_of_heights(heights: &Field, pitch: [Metre; 2]) -> Value {
+    json!(QuantisedField::even(heights, pitch))
 }
 
 /// Where the page of a results directory is.
@@ -90,11 +107,7 @@ type Section = (&'static str, &'static str, Option<String>);
 /// The page, and what is missing on it.
 fn page(results: &Results, seen: Option<Seen>) -> asperity_base::Result<(String, Vec<String>)> {
     let mut found = PageData::in_results(results, seen)?;
-    let mut data = json!({ "colours": {
-        "heights": palette(Colours::Heights),
-        "pressure": palette(Colours::Pressure),
-        "diverging": palette(Colours::Signed),
-    }});
+    let mut data = json!({ "colours": colours() });
     let mut charts = Vec::new();
     // What the case asks for comes first.
     let mut sections = capability::sections(&mut found, &mut data, &mut charts);
@@ -179,8 +192,9 @@ const CHARTS: &str = concat!(
 const CHART_STYLE: &str = include_str!("../../assets/report/uPlot.min.css");
 const STYLE: &str = include_str!("../../assets/report/page.css");
 /// The page's own programs, each after what it uses.
-const PROGRAMS: [&str; 8] = [
+const PROGRAMS: [&str; 9] = [
     include_str!("../../assets/report/data.js"),
+    include_str!("../../assets/report/theme.js"),
     include_str!("../../assets/report/maps.js"),
     include_str!("../../assets/report/curves.js"),
     include_str!("../../assets/report/profile.js"),
