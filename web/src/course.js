@@ -56,7 +56,7 @@ export class Course {
     const lines = [element("p", {}, `${cells[0] === cells[1] ? cells[0] : cells.join(" and ")} cells, ${bytes(memory)} of memory, ${seconds(time)} in this browser.`)];
     if (coarser) {
       lines.push(element("p", { class: "warning" }, `This needs ${bytes(memory)}, and a browser tab has 1.5 GB for sure. Cells of ${written(coarser.pitch[0], lengthUnit(coarser.pitch[0]))} need ${bytes(coarser.memory)}. `,
-        element("button", { type: "button", onclick: () => this.app.resample(coarser.pitch) }, "Take these cells")));
+        element("button", { type: "button", onclick: () => this.app.resample(shapes, pitch, coarser.pitch) }, "Take these cells")));
     }
     if (shapes.some((shape) => Math.max(...shape) > MANY)) {
       lines.push(element("p", { class: "warning" }, `Beyond ${MANY} × ${MANY} cells the command is the better place: it uses all cores of this machine. Its lines stand under `, element("a", { href: "#take" }, "Take away"), "."));

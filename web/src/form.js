@@ -34,10 +34,14 @@ export function refill(kase, place) {
   }
 }
 
+/** Returns the field of the key that a failure names, if there is one. */
+function fieldOf({ key }) {
+  return key ? document.querySelector(`[data-key="${CSS.escape(key)}"]`) : null;
+}
+
 /** Marks the field of the key that a failure names. */
 export function mark(failure) {
-  const input = failure.key && document.querySelector(`[data-key="${CSS.escape(failure.key)}"]`);
-  if (input) input.setAttribute("aria-invalid", "true");
+  fieldOf(failure)?.setAttribute("aria-invalid", "true");
 }
 
 function unmark() {
@@ -51,9 +55,10 @@ export function say(place, sentences = [], actions = []) {
   place.replaceChildren(...lines.map((line) => element("p", {}, ...coded(line))), ...(buttons.length ? [element("div", { class: "controls" }, ...buttons)] : []));
 }
 
-/** Returns the text of a failure. */
-export function told({ message, hint, key, line }) {
-  const place = line ? ` (line ${line})` : key ? ` (${key})` : "";
+/** Returns the text of a failure, with its line if no field of the page shows the place. */
+function told(failure) {
+  const { message, hint, line } = failure;
+  const place = line && !fieldOf(failure) ? ` (line ${line} of the case file)` : "";
   return [message + place, hint].filter(Boolean).map(sentenced).join(" ");
 }
 

@@ -70,8 +70,9 @@ class App {
       const text = await unpacked(part);
       this.kase.replace(await this.desk.call("read_case", text), text);
     } catch {
+      await this.example(FIRST);
       say(this.said, ["The case in the address of this page is not whole: it may have been cut. Here is an example instead."]);
-      return false;
+      return true;
     }
     const missing = this.kase.files().filter((name) => !this.files.has(name));
     if (missing.length) say(this.said, [`The case of this address reads ${missing.map((name) => `\`${name}\``).join(" and ")}: drop ${missing.length === 1 ? "that file" : "these files"} here.`]);
@@ -151,13 +152,14 @@ class App {
     return this.kase.files().filter((name) => this.files.has(name)).map((name) => [name, this.files.get(name)]);
   }
 
-  /** Sets the pitch of both bodies. */
-  resample(pitch) {
+  /** Brings both bodies, with these shapes and this pitch, to another pitch. */
+  resample(shapes, pitch, coarser) {
     const changes = {};
-    this.surface.bodies.forEach(({ side, topography, about }) => {
-      if (!about) return;
-      changes[`${side}.topography.pitch`] = pitch;
-      if (topography.shape) changes[`${side}.topography.shape`] = about.extent.map((extent, axis) => Math.max(1, Math.round(extent / pitch[axis])));
+    SIDES.forEach((side, n) => {
+      const { file, shape } = this.kase.get(`${side}.topography`) || {};
+      if (file === undefined && shape === undefined) return;
+      changes[`${side}.topography.pitch`] = coarser;
+      if (shape) changes[`${side}.topography.shape`] = shapes[n].map((cells, axis) => Math.max(1, Math.round((cells * pitch[axis]) / coarser[axis])));
     });
     this.kase.change(changes);
   }

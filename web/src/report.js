@@ -35,13 +35,12 @@ export class ReportFrame {
     this.place.append(frame);
   }
 
-  /** Offers a button for each section. The section that was open before opens again. */
+  /** Offers a button for each section. The section that was chosen before opens again. */
   #offer() {
     const links = [...this.frame.contentDocument.querySelectorAll(".bar nav a")].map((link) => [link.hash.slice(1), link.textContent]);
     const [first] = links.find(([id]) => id === this.section) || links[0];
-    const buttons = links.map(([id, title]) => element("button", { type: "button", "data-section": id, onclick: () => choose(id) }, title));
+    const buttons = links.map(([id, title]) => element("button", { type: "button", "data-section": id, onclick: () => { this.section = id; choose(id); } }, title));
     const choose = (id) => {
-      this.section = id;
       buttons.forEach((button) => button.setAttribute("aria-pressed", String(button.dataset.section === id)));
       links.forEach(([each]) => this.frame.contentDocument.getElementById(each).classList.toggle("shown", each === id));
     };

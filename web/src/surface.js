@@ -8,6 +8,10 @@ export const SIDES = ["lower", "upper"];
 /** Parameters that are always shown. */
 const MAIN = ["Sa", "Sq", "Sz", "Ssk", "Sku", "Sdq", "Sal", "Str", "Sk", "Spk", "Svk"];
 
+/** Largest number of cells of a surface that the page describes, and the side of the part that it proposes instead. */
+const MAX_CELLS = 2048 * 2048;
+const PART = 1024;
+
 /** Source, preparation, map and profiles of one body. */
 class BodyView {
   constructor(app, side) {
@@ -81,7 +85,7 @@ class BodyView {
     refill(this.app.kase, this.place);
   }
 
-  /** Shows the surface, if it has changed. `grid` is that of the other body. */
+  /** Shows the surface, if it has changed, and returns its `shape` and `pitch` if they are known. `grid` is that of the other body. */
   async describe(grid) {
     const { topography } = this;
     if (topography.form === "flat" && !topography.plus) return this.plane({ ...grid, ...topography });
@@ -92,6 +96,8 @@ class BodyView {
     Object.assign(this, { asked, version });
     try {
       if (topography.file !== undefined) await this.read(topography);
+      const shape = topography.window || topography.resample ? [] : topography.file === undefined ? whole.shape : this.scan.shape;
+      if (shape.length && shape[0] * shape[1] > MAX_CELLS) return this.refuse(shape);
       const { about, map } = await this.app.desk.call("surface", whole);
       await unpack(map);
       if (asked !== this.asked) return this.about;
@@ -100,10 +106,7 @@ class BodyView {
       this.draw(about, map);
     } catch (failure) {
       if (asked !== this.asked) return this.about;
-      this.about = null;
-      this.maps.hidden = this.charts.hidden = true;
-      this.summary.textContent = "";
-      this.found.replaceChildren();
+      this.blank("");
       // The module names keys of the topography without the body.
       if (failure.key && !failure.key.startsWith(this.key)) failure.key = `${this.key}.${failure.key}`;
       say(this.said, [failure]);
@@ -132,13 +135,29 @@ class BodyView {
   }
 
   plane(whole) {
-    this.whole = whole;
-    this.asked = this.about = null;
+    Object.assign(this, { whole, asked: null });
     say(this.said);
-    this.summary.textContent = "A smooth plane.";
-    this.found.replaceChildren();
-    this.maps.hidden = this.charts.hidden = true;
+    this.blank("A smooth plane.");
+    return whole.shape ? whole : null;
+  }
+
+  /** Says that a surface is too large, and proposes a part of it. */
+  refuse(shape) {
+    const [nx, ny] = shape.map((cells) => Math.min(cells, PART));
+    const isFile = this.topography.file !== undefined;
+    const take = () => this.app.kase.set(`${this.key}.${isFile ? "window" : "shape"}`, isFile ? [Math.floor((shape[0] - nx) / 2), Math.floor((shape[1] - ny) / 2), nx, ny] : [nx, ny]);
+    this.blank(`${shape[0]} × ${shape[1]} cells`);
+    say(this.said, [`This surface has ${shape[0]} × ${shape[1]} cells. The page describes up to ${Math.sqrt(MAX_CELLS)} × ${Math.sqrt(MAX_CELLS)}.`],
+      [[`Take ${nx} × ${ny} cells${isFile ? " in the middle" : ""}`, take]]);
     return null;
+  }
+
+  /** Removes map, profiles and numbers. */
+  blank(summary) {
+    this.about = null;
+    this.maps.hidden = this.charts.hidden = true;
+    this.summary.textContent = summary;
+    this.found.replaceChildren();
   }
 
   draw(about, packed) {
