@@ -4,6 +4,8 @@
 //!
 //! | module | content |
 //! |---|---|
+//! | [`check`] | a case in words before it is computed |
+//! | [`describe`] | a topography in numbers |
 //! | [`draw`] | maps, curves, reliefs and animations as PNG, SVG and PDF |
 //! | [`figures`] | the figures of results |
 //! | [`page`] | `report.html` |
@@ -14,5 +16,7 @@ pub mod draw;
 mod error;
 pub mod figures;
 pub mod page;
+pub mod check;
+pub mod describe;
 
 pub use error::{Error, Result};

@@ -1,18 +1,18 @@
 //! `asperity surface`: generates, describes, draws and converts topographies.
 
 mod convert;
-mod description;
 mod generate;
 mod info;
 mod output;
 mod plot;
-mod table;
 
 use std::path::Path;
 
 use asperity::grid::Grid;
-use asperity::surface::{Axis, Findings, LengthUnit, Level, Scan, Topography};
+use asperity::surface::{LengthUnit, Scan, Topography};
 use asperity::units::{self, Dimension, Metre};
+
+use asperity_report::describe::{findings_in_words, prevailing_form};
 
 use crate::args::{Input, ReadingArguments, Surface};
 use crate::report::{Failure, Outcome, note};
@@ -53,7 +53,7 @@ pub(crate) fn read_prepared(input: &Input) -> Outcome<ReadSurface> {
         return Err(without_pitch(message));
     }
     let (topography, findings) = input.preparing.preparation().apply(read.topography)?;
-    report(&findings, &topography);
+    findings_in_words(&findings, &topography).iter().for_each(|finding| note(finding));
     Ok(ReadSurface { pitch: read.pitch.map(|_| topography.grid().pitch), topography, scan: read.scan })
 }
 
@@ -65,15 +65,6 @@ pub(crate) fn read_beside(path: &Path, input: &Input, pitch: [Metre; 2]) -> Outc
     let topography = Topography::new(Grid::new([heights.nrows(), heights.ncols()], pitch)?, heights)?;
     let (topography, _) = input.preparing.preparation().apply(topography)?;
     Ok(ReadSurface { pitch: Some(topography.grid().pitch), topography, scan })
-}
-
-/// Returns the axis of a single line of heights; none for several lines.
-fn line_of(topography: &Topography) -> Option<Axis> {
-    match topography.grid().shape {
-        [nx, 1] if nx > 1 => Some(Axis::X),
-        [1, ny] if ny > 1 => Some(Axis::Y),
-        _ => None,
-    }
 }
 
 /// Returns the failure for a pitch if the file has its own.
@@ -96,38 +87,7 @@ pub(crate) fn without_pitch(message: impl Into<String>) -> Failure {
 
 /// Writes a note if most of the variance of the heights is tilt or form.
 fn suggest_level(topography: &Topography) {
-    let left = |level| topography.clone().level(level).map_or(f64::NAN, |left| left.sq().powi(2));
-    let all = left(Level::Mean);
-    for (what, level) in [("tilt makes", Level::Plane), ("tilt and form make", Level::Quadratic)] {
-        let share = 1.0 - left(level) / all;
-        if share > 0.5 {
-            note(&format!("note: {what} {:.1} % of Sq²; `--level {level}` removes it", 100.0 * share));
-            return;
-        }
-    }
-}
-
-fn report(findings: &Findings, topography: &Topography) {
-    if findings.spikes > 0 {
-        note(&format!("{} samples removed as spikes", findings.spikes));
-    }
-    if let Some(form) = &findings.form {
-        let [x, y] = topography.grid().extent();
-        let diagonal = x.hypot(y);
-        // Its rise over the field is less than a thousandth of the roughness, or only round-off.
-        let rise = diagonal * diagonal / (8.0 * form.radius.abs());
-        if rise <= (1e-3 * topography.sq()).max(1e-9 * diagonal) {
-            note("the surface is flat: it has no curvature to subtract");
-            return;
-        }
-        let radius = units::format(form.radius.abs(), Dimension::Length);
-        let side = if form.radius > 0.0 { "convex" } else { "concave" };
-        note(&match form.axis {
-            None => format!("{side} sphere of radius {radius} subtracted"),
-            Some(axis) => {
-                let angle = axis.to_degrees();
-                format!("{side} cylinder of radius {radius} subtracted, its axis at {angle:.2}° from x")
-            }
-        });
+    if let Some((cause, share, level)) = prevailing_form(topography) {
+        note(&format!("note: {cause} {:.1} % of Sq²; `--level {level}` removes it", 100.0 * share));
     }
 }

@@ -12,10 +12,10 @@ use asperity::surface::{
 use asperity::units::Metre;
 use serde_json::{Value, json};
 
-use super::description::Law;
-use super::{line_of, read_prepared, suggest_level, without_pitch};
+use super::{read_prepared, suggest_level, without_pitch};
 use crate::args::PlotSurface;
 use crate::report::{Failure, Outcome, note};
+use asperity_report::describe::{Law, line_of};
 use asperity_report::draw::{
     self, Axis, Caption, Chart, Charts, Colours, Figure, Map, Maps, Mark, Paper, Quantity, Relief, Series,
     Unit,

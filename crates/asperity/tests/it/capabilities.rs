@@ -37,7 +37,7 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 5] = [
             "asperity-contact/src/lib.rs",
             "asperity/src/lib.rs",
             // A case that shows it.
-            "asperity-cli/src/example.rs",
+            "asperity-cli/src/example/kits.rs",
             "asperity-cli/src/from_map/flow.rs",
             "asperity-derive/src/lib.rs",
             "asperity-python/src/maps.rs",

@@ -1,40 +1,59 @@
-//! The table of `asperity surface info`.
+//! Rows in sections, aligned as text.
 
 use std::fmt::Write as _;
 
-use asperity::units::Multiple;
+use asperity_base::units::Multiple;
+use serde::Serialize;
 
-use asperity_report::words::numbers::in_column;
+use crate::words::numbers::in_column;
 
 /// Rows in sections: a name, one or two numbers aligned at their decimal points, the unit, a remark.
 #[derive(Default)]
-pub(super) struct Table {
+pub struct Table {
     rows: Vec<Row>,
 }
 
-enum Row {
+/// A row of a table.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Row {
+    /// The head of a section.
     Title(String),
-    Words { name: String, value: String, remark: String },
-    Numbers { name: String, numbers: Vec<String>, unit: String, remark: String },
+    /// A name and words.
+    Words {
+        /// Name of the row.
+        name: String,
+        /// Its text.
+        value: String,
+        /// A remark, which may be empty.
+        remark: String,
+    },
+    /// A name and numbers in one unit.
+    Numbers {
+        /// Name of the row.
+        name: String,
+        /// Its numbers, written with four digits.
+        numbers: Vec<String>,
+        /// Their unit.
+        unit: String,
+        /// A remark, which may be empty.
+        remark: String,
+    },
 }
 
 impl Table {
     /// Adds the head of a section.
-    pub(super) fn title(&mut self, title: impl Into<String>) {
+    pub fn title(&mut self, title: impl Into<String>) {
         self.rows.push(Row::Title(title.into()));
     }
 
-    pub(super) fn words(
-        &mut self,
-        name: impl Into<String>,
-        value: impl Into<String>,
-        remark: impl Into<String>,
-    ) {
+    /// Adds words.
+    pub fn words(&mut self, name: impl Into<String>, value: impl Into<String>, remark: impl Into<String>) {
         self.rows.push(Row::Words { name: name.into(), value: value.into(), remark: remark.into() });
     }
 
     /// Adds values in SI, printed in `unit`.
-    pub(super) fn numbers(
+    pub fn numbers(
         &mut self,
         name: impl Into<String>,
         values: impl IntoIterator<Item = f64>,
@@ -46,8 +65,13 @@ impl Table {
         self.rows.push(Row::Numbers { name, numbers, unit, remark });
     }
 
+    /// The rows in turn.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
     /// Writes the rows in columns, with an empty line between sections.
-    pub(super) fn text(&self) -> String {
+    pub fn text(&self) -> String {
         let width = |pick: fn(&Row) -> usize| self.rows.iter().map(pick).max().unwrap_or(0);
         let names = width(|row| match row {
             Row::Title(_) => 0,
