@@ -11,6 +11,7 @@ use crate::case::Case;
 use crate::fields::NamedField;
 use crate::finish::params;
 use crate::io::fields::FieldFile;
+use crate::io::fs;
 use crate::results::{Results, Writer, is_nth};
 use crate::tables::{self, GrowingTable};
 use asperity_base::error::{Error, Result};
@@ -73,7 +74,7 @@ impl<C: Reported> Observed<C> {
         let column = if is_motion { "pass" } else { "step" };
         let rows = match done {
             None => 0,
-            Some(_) if !path.exists() && self.every > 0 => {
+            Some(_) if !fs::exists(&path) && self.every > 0 => {
                 return Err(Error::NotResumable { path, reason: "is missing" });
             }
             Some(done) => tables::rows_up_to(&path, column, done)?,

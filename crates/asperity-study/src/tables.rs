@@ -4,7 +4,6 @@
 //! A table grows by the rows of each finished step. Only rows with a line end count, so that half a row left by a power cut
 //! is ignored. Numbers read back to the same bits.
 
-use std::fs::File;
 use std::io::{BufRead, BufReader, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::{fmt, io};
@@ -12,6 +11,7 @@ use std::{fmt, io};
 use serde::de::{DeserializeOwned, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
+use crate::io::fs::{self, File};
 use crate::io::{atomic, regular, sha256};
 use crate::json;
 use asperity_base::error::{Error, Result};
@@ -85,7 +85,7 @@ impl GrowingTable {
 /// # Errors
 /// [`Error::File`].
 pub(super) fn rows_there(path: &Path) -> Result<usize> {
-    if !path.exists() {
+    if !fs::exists(path) {
         return Ok(0);
     }
     let text = regular::read(path, TABLE, u64::MAX).map_err(failed(path))?;

@@ -1,7 +1,16 @@
-//! Files: reading of regular files, atomic writing.
+//! Files: reading of regular files, atomic writing. They are on the disk, or in memory where there is no disk: in a browser, and with the
+//! feature `memory`.
 
-pub mod atomic;
+#[cfg(not(any(feature = "memory", all(target_arch = "wasm32", target_os = "unknown"))))]
+mod disk;
+#[cfg(any(feature = "memory", all(target_arch = "wasm32", target_os = "unknown")))]
+mod memory;
 pub mod regular;
+
+#[cfg(not(any(feature = "memory", all(target_arch = "wasm32", target_os = "unknown"))))]
+pub use disk::{atomic, fs};
+#[cfg(any(feature = "memory", all(target_arch = "wasm32", target_os = "unknown")))]
+pub use memory::{atomic, fs};
 
 pub use atomic::{replace, sweep};
 pub use regular::read as read_regular;

@@ -1,8 +1,9 @@
 //! Reading of regular files with a limit on their size.
 
-use std::fs::{File, FileType, Metadata};
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
+
+use super::fs::{self, File};
 
 /// Reads the file at `path`, of at most `most` bytes. `expected` describes it: "a case file".
 ///
@@ -36,31 +37,10 @@ pub fn open(path: &Path, expected: &str) -> io::Result<File> {
 /// # Errors
 /// The errors of [`read`].
 pub fn check(path: &Path, expected: &str) -> io::Result<()> {
-    let about = std::fs::metadata(path)?;
+    let about = fs::metadata(path)?;
     if about.is_file() {
         return Ok(());
     }
     let kind = if about.is_dir() { ErrorKind::IsADirectory } else { ErrorKind::InvalidInput };
-    Err(io::Error::new(kind, format!("is {}, expected {expected}", noun(&about))))
-}
-
-fn noun(about: &Metadata) -> &'static str {
-    if about.is_dir() { "a directory" } else { special(about.file_type()) }
-}
-
-#[cfg(unix)]
-fn special(kind: FileType) -> &'static str {
-    use std::os::unix::fs::FileTypeExt;
-    if kind.is_fifo() {
-        "a pipe (FIFO)"
-    } else if kind.is_socket() {
-        "a socket"
-    } else {
-        "a device"
-    }
-}
-
-#[cfg(not(unix))]
-fn special(_: FileType) -> &'static str {
-    "no regular file"
+    Err(io::Error::new(kind, format!("is {}, expected {expected}", fs::noun(&about))))
 }

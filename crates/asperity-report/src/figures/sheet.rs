@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use asperity_study::Results;
-use asperity_study::io;
+use asperity_study::io::{self, fs};
 use rayon::prelude::*;
 
 use super::{Curves, FigureOptions};
@@ -135,6 +135,11 @@ impl<'a> Sheet<'a> {
         Ok(())
     }
 
+    /// Names of all figures of the results, whether they are wanted or not.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
     /// All that do not move as PNG files, with their names.
     pub fn pictures(self) -> Result<Vec<(String, Vec<u8>)>> {
         let dpi = self.wanted.paper.dpi;
@@ -156,14 +161,14 @@ impl<'a> Sheet<'a> {
             let hint = format!("there are {}", self.names.join(", "));
             return Err(Error::missing(format!("no figure `{unknown}` of these results"), Some(&hint)));
         }
-        let existing = self.drawings.iter().map(|(path, _)| path).find(|path| path.exists());
+        let existing = self.drawings.iter().map(|(path, _)| path).find(|path| fs::exists(path));
         if let Some(path) = existing.filter(|_| self.wanted.keep) {
             return Err(Error::missing(
                 format!("`{}` exists", path.display()),
                 Some("--overwrite replaces the figures that are there"),
             ));
         }
-        let made = std::fs::create_dir_all(&self.folder);
+        let made = fs::create_dir_all(&self.folder);
         made.map_err(|source| asperity_base::Error::File { path: self.folder.clone(), source })?;
         io::sweep(&self.folder);
         let paper = &self.wanted.paper;

@@ -2,6 +2,7 @@
 
 use asperity_base::units::{Dimension, format};
 use asperity_study::io::fields::{Attribute, Fields};
+use asperity_study::io::fs;
 use serde_json::Value;
 
 use super::curves;
@@ -20,7 +21,7 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     let pass = found.passes.last().map(|pass| pass.pass);
     let there = match found.moves() {
         true => pass.is_some(),
-        false => found.is_finished() || found.directory().join("subsurface.h5").exists(),
+        false => found.is_finished() || fs::exists(found.directory().join("subsurface.h5")),
     };
     if !there {
         return None;

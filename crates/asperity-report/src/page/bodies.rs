@@ -4,6 +4,7 @@ use asperity_base::units::{Dimension, format};
 use asperity_contact::with;
 use asperity_study::Results;
 use asperity_study::case::{Source, TopographySpec};
+use asperity_study::io::fs;
 use asperity_surface::{Parameter, Parameters, Topography};
 use serde_json::{Value, json};
 
@@ -108,7 +109,7 @@ fn of_rest(found: &mut PageData) -> Option<Pair> {
 
 /// Whether the fields of a static contact are there.
 pub(super) fn has_rest(results: &Results) -> bool {
-    results.directory().join("fields.h5").exists()
+    fs::exists(results.directory().join("fields.h5"))
 }
 
 /// One body, its heights before and their change since, and what is to be said of it.

@@ -4,6 +4,7 @@ use asperity_base::Field;
 use asperity_base::units::{Dimension, format};
 use asperity_contact::motion::{IncrementRecord, StepRecord, Strategy, SweepRecord};
 use asperity_study::io::fields::Fields;
+use asperity_study::io::fs;
 use asperity_study::{cap_name, pressure_name, temperature_name};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
@@ -303,7 +304,7 @@ fn of_sweep(found: &mut PageData) -> Vec<Frame> {
     let mut frames = Vec::new();
     let points: Vec<SweepRecord> = found.points.clone();
     let path = |point: usize| found.directory().join(format!("fields/point-{point:04}.h5"));
-    let kept: Vec<&SweepRecord> = points.iter().filter(|point| path(point.point).exists()).collect();
+    let kept: Vec<&SweepRecord> = points.iter().filter(|point| fs::exists(path(point.point))).collect();
     for index in evenly(kept.len(), MAX_BYTES >> 16) {
         let point = kept[index];
         let Some(fields) = found.fields(found.results.point_fields(point.point)) else { continue };
@@ -337,7 +338,7 @@ fn of_increments(found: &mut PageData) -> Option<Vec<Frame>> {
     (!found.case.interface.is_empty()).then_some(())?;
     let increments = found.increments.clone();
     let kept: Vec<&IncrementRecord> =
-        increments.iter().filter(|each| found.results.increment_path(each.increment).exists()).collect();
+        increments.iter().filter(|each| fs::exists(found.results.increment_path(each.increment))).collect();
     let mut frames = Vec::new();
     for index in evenly(kept.len(), MAX_BYTES >> 16) {
         let increment = kept[index];

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use asperity_study::io::fs;
 use asperity_study::many::{Axis, Row, Table};
 use asperity_study::{column, dimension_of_column};
 use serde_json::{Value, json};
@@ -94,7 +95,7 @@ pub(super) fn data(table: &Table, quantities: &[Quantity], directory: &Path) -> 
             json!({
                 "case": format!("{:04}", row.case),
                 "failure": row.failure,
-                "page": Some(&page).filter(|page| directory.join(page).exists()),
+                "page": Some(&page).filter(|page| fs::exists(directory.join(page))),
             })
         })
         .collect();

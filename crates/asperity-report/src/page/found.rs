@@ -4,6 +4,7 @@ use std::path::Path;
 
 use asperity_contact::motion::{IncrementRecord, PassRecord, StepRecord, SweepRecord, UpdateRecord};
 use asperity_study::io::fields::Fields;
+use asperity_study::io::fs;
 use asperity_study::{Case, Results, Summary};
 use serde_json::Value;
 
@@ -41,7 +42,7 @@ impl<'a> PageData<'a> {
     pub(super) fn in_results(results: &'a Results, seen: Option<Seen>) -> asperity_base::Result<Self> {
         let mut missing = Vec::new();
         let (case, resolved) = (results.case()?, results.case_json()?);
-        let finished = results.directory().join("summary.json").exists();
+        let finished = fs::exists(results.directory().join("summary.json"));
         let summary = if finished { kept(results.summary(), &mut missing) } else { None };
         let passes = kept(results.passes(), &mut missing).unwrap_or_default();
         Ok(Self {

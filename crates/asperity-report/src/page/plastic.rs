@@ -1,6 +1,7 @@
 //! Plastic flow below the surfaces: strain and residual stress on a section, what it leaves of the surface, its course.
 
 use asperity_study::Outcome;
+use asperity_study::io::fs;
 use serde_json::{Map, Value};
 
 use super::curves;
@@ -20,7 +21,7 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     let pass = found.passes.last().map(|pass| pass.pass);
     let file = pass.map_or("plasticity.h5".to_owned(), |pass| format!("fields/plasticity-{pass:04}.h5"));
     let is_due = if found.moves() { pass.is_some() } else { found.is_finished() };
-    if is_due || found.directory().join(file).exists() {
+    if is_due || fs::exists(found.directory().join(file)) {
         let fields = found.fields(found.results.plastic_fields(pass));
         let bodies = fields.and_then(|fields| found.kept(figures::plastic_sections(&fields)));
         for body in bodies.into_iter().flatten() {

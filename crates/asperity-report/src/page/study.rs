@@ -7,7 +7,7 @@ use asperity_base::units::format_time;
 use asperity_contact::each_law;
 use asperity_contact::with::BodyLaw;
 use asperity_study::column;
-use asperity_study::io;
+use asperity_study::io::{self, fs};
 use asperity_study::many::{Axis, Row, Study, Table};
 use serde_json::json;
 
@@ -159,7 +159,7 @@ fn rows(table: &Table, quantities: &[Quantity], directory: &Path) -> String {
     for n in &listed {
         let row = &table.rows()[*n];
         let page = format!("cases/{:04}/{}", row.case, super::FILE);
-        let name = match directory.join(&page).exists() {
+        let name = match fs::exists(directory.join(&page)) {
             true => format!("<a href=\"{page}\">{:04}</a>", row.case),
             false => format!("{:04}", row.case),
         };

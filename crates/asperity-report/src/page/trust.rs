@@ -5,6 +5,7 @@ use std::path::Path;
 use asperity_base::units::{Dimension, bytes, format, format_time};
 use asperity_study::Outcome;
 use asperity_study::case::Prescribed;
+use asperity_study::io::fs;
 use serde_json::Value;
 
 use super::found::PageData;
@@ -69,8 +70,7 @@ fn cost(found: &PageData) -> Vec<(String, String)> {
     let version = found.summary.as_ref().map_or(env!("CARGO_PKG_VERSION"), |summary| &summary.version);
     add("computed by", format!("asperity {}", escaped(version)));
     let files = ["summary.json", "passes.csv", "sweep.csv", "updates.csv", "increments.csv", "case.json"];
-    let written =
-        |file: &&str| std::fs::metadata(found.directory().join(file)).and_then(|m| m.modified()).ok();
+    let written = |file: &&str| fs::metadata(found.directory().join(file)).and_then(|m| m.modified()).ok();
     if let Some(date) = files.iter().find_map(written) {
         add("date of the files", escaped(&httpdate::fmt_http_date(date)));
     }
@@ -121,7 +121,7 @@ fn files(directory: &Path) -> String {
 }
 
 fn list(folder: &Path, root: &Path, all: &mut Vec<(String, f64)>) {
-    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let path = entry.path();
         let name = entry.file_name().to_string_lossy().into_owned();
         let Ok(metadata) = entry.metadata() else { continue };

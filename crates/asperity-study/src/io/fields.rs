@@ -11,21 +11,20 @@
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::fmt::Write as _;
-use std::fs;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use hdf5_pure::{
-    AttrValue, Dataset, DatasetBuilder, Datatype, DatatypeByteOrder, File, FileAccessProperties,
-    FileCreateProperties, FileLocking, FormatError, MetadataCacheConfig, Source, SyncPolicy,
+    AttrValue, Dataset, Datatype, DatatypeByteOrder, File, FileAccessProperties, FileLocking, FormatError,
+    MetadataCacheConfig, Source,
 };
 use ndarray::{ArrayD, ArrayRef, Dimension, Ix2};
 use rayon::prelude::*;
 use sha2::{Digest as _, Sha256};
 
-use super::atomic::Draft;
-use super::{image, packing, regular, sha256};
+use super::draft::{FieldDraft, Packed, PackedArray};
+use super::{fs, packing, regular, sha256};
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::{Field, Grid, check_finite};
 use asperity_base::units::Metre;
@@ -76,7 +75,7 @@ impl FieldFile {
     /// [`FieldFile::write`] has succeeded, which also reports earlier errors.
     pub fn new(path: &Path) -> Self {
         let (attributes, arrays) = (BTreeMap::new(), BTreeMap::new());
-        Self { attributes, arrays, draft: FieldDraft::new(path), last: None, finite: false }
+        Self { attributes, arrays, draft: draft(path), last: None, finite: false }
     }
 
     /// Creates a file for `path` with the identity of a run. [`FieldFile::write`] rejects a value that is not finite with
@@ -210,7 +209,7 @@ impl FieldFile {
         if let Ok(draft) = &mut self.draft
             && let Err(error) = task(draft)
         {
-            self.draft = Err(file_error(&draft.path, error));
+            self.draft = Err(file_error(draft.path(), error));
         }
     }
 
@@ -222,136 +221,27 @@ impl FieldFile {
         self.write_last();
         let digest = content_digest(&self.attributes, &self.arrays);
         self.set(DIGEST, digest.as_str());
-        let FieldDraft { path, draft, file, .. } = self.draft?;
-        let end = || {
-            for (name, value) in self.attributes {
-                let value = match value {
-                    Attribute::Text(text) => AttrValue::VarLenString(text),
-                    Attribute::Number(number) => AttrValue::F64(number),
-                    Attribute::Integer(number) => AttrValue::I64(number),
-                    Attribute::Numbers(numbers) => AttrValue::F64Array(numbers),
-                };
-                file.root().set_attr(&name, value)?;
-            }
-            file.commit()?;
-            file.close()?;
-            draft.publish().map_err(hdf5_pure::Error::Io)
-        };
-        end().map_err(|error| file_error(&path, error))
+        let attributes = self.attributes.into_iter().map(|(name, value)| {
+            let value = match value {
+                Attribute::Text(text) => AttrValue::VarLenString(text),
+                Attribute::Number(number) => AttrValue::F64(number),
+                Attribute::Integer(number) => AttrValue::I64(number),
+                Attribute::Numbers(numbers) => AttrValue::F64Array(numbers),
+            };
+            (name, value)
+        });
+        let draft = self.draft?;
+        let path = draft.path().to_owned();
+        draft.publish(attributes).map_err(|error| file_error(&path, error))
     }
 }
 
-/// A field file under its temporary name.
-struct FieldDraft {
-    path: PathBuf,
-    file: File,
-    draft: Draft,
-    /// Bytes of the arrays waiting to be written.
-    waiting: usize,
-}
-
-impl FieldDraft {
-    fn new(path: &Path) -> Result<Self> {
-        if let Some(folder) = path.parent() {
-            let failed = |source| Error::File { path: folder.to_owned(), source };
-            std::fs::create_dir_all(folder).map_err(failed)?;
-        }
-        let open = || {
-            let draft = Draft::new(path)?;
-            let create = FileCreateProperties::new();
-            // No other process knows it, and it is synchronised to disk when it is published.
-            let access = without_lock().with_sync_policy(SyncPolicy::OnClose);
-            let file = File::create_with_options(draft.temporary_path(), create, access)?;
-            Ok(Self { path: path.to_owned(), file, draft, waiting: 0 })
-        };
-        open().map_err(|error| file_error(path, error))
+/// Creates the draft of the file at `path`, and its folder if it is missing.
+fn draft(path: &Path) -> Result<FieldDraft> {
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(|source| Error::File { path: folder.to_owned(), source })?;
     }
-
-    /// Adds an array with its attributes.
-    fn add(
-        &mut self,
-        name: &str,
-        values: &[f64],
-        shape: &[u64],
-        attributes: Attributes,
-    ) -> std::result::Result<(), hdf5_pure::Error> {
-        let chunk = chunk(shape);
-        self.file.root().create_dataset(name, |dataset: &mut DatasetBuilder| {
-            dataset.with_f64_data(values).with_shape(shape);
-            if values.len() >= MIN_COMPRESSED {
-                dataset.with_chunks(&chunk).with_shuffle().with_deflate(DEFLATE_LEVEL);
-            }
-            for (name, value) in attributes {
-                dataset.set_attr(name, value);
-            }
-        })?;
-        self.wait(size_of_val(values))
-    }
-
-    /// Adds a packed array with its attributes.
-    fn add_packed(&mut self, array: PackedArray) -> std::result::Result<(), hdf5_pure::Error> {
-        let PackedArray { name, shape, packed, attributes } = array;
-        let image = image::image(&shape, &packed.chunk, &packed.chunks, DEFLATE_LEVEL);
-        drop(packed);
-        let bytes = image.len();
-        let image = File::from_bytes(image)?;
-        self.file.copy_from(&image, image::NAME, &name)?;
-        drop(image);
-        // Attributes with texts do not come with a copy.
-        self.file.commit()?;
-        let mut dataset = self.file.dataset(&name)?;
-        for (name, value) in attributes {
-            dataset.set_attr(name, value)?;
-        }
-        self.waiting = 0;
-        self.wait(bytes)
-    }
-
-    /// Adds this number of bytes to those of the waiting arrays, and writes these if they are many.
-    fn wait(&mut self, bytes: usize) -> std::result::Result<(), hdf5_pure::Error> {
-        self.waiting += bytes;
-        if self.waiting >= MAX_WAITING {
-            self.file.commit()?;
-            self.waiting = 0;
-        }
-        Ok(())
-    }
-}
-
-/// The attributes of an array.
-type Attributes = [(&'static str, AttrValue); 4];
-
-/// A packed array with its attributes.
-struct PackedArray {
-    name: String,
-    shape: Vec<u64>,
-    packed: Packed,
-    attributes: Attributes,
-}
-
-/// Chunks of an array as they are in its file.
-struct Packed {
-    chunk: Vec<u64>,
-    chunks: Vec<Vec<u8>>,
-}
-
-impl Packed {
-    /// Packs an array whose chunks are whole rows; `None` for other arrays, and for small ones.
-    fn new(values: &[f64], shape: &[u64]) -> Option<Self> {
-        let chunk = chunk(shape);
-        let len: u64 = chunk.iter().product();
-        if values.len() < MIN_PACKED || chunk[1..] != shape[1..] || shape[0].div_ceil(chunk[0]) > MAX_CHUNKS {
-            return None;
-        }
-        let pack = |values: &[f64]| packing::packed(values, len as usize, DEFLATE_LEVEL);
-        let chunks = values.par_chunks(len as usize).map(pack).collect();
-        Some(Self { chunk, chunks })
-    }
-}
-
-/// Access without file locks, because files get their names when they are complete.
-fn without_lock() -> FileAccessProperties {
-    FileAccessProperties::new().with_locking(FileLocking::Disabled)
+    FieldDraft::new(path).map_err(|error| file_error(path, error))
 }
 
 /// Returns the values of an array in the order of its axes, the last one fastest.
@@ -403,40 +293,10 @@ fn content_digest(attributes: &BTreeMap<String, Attribute>, arrays: &BTreeMap<St
     sha256(text.as_bytes())
 }
 
-/// Fields with fewer values are not compressed.
-const MIN_COMPRESSED: usize = 1024;
-/// Bytes of arrays that are written together.
-const MAX_WAITING: usize = 1 << 24;
 /// Bytes of array descriptions kept while a file is read.
 const MAX_METADATA: usize = 1 << 24;
-/// Fields with fewer values are compressed by the library of the format, because a file of many fields should not be committed after
-/// each of them.
-const MIN_PACKED: usize = 1 << 19;
 /// Fields with fewer values are unpacked by the library of the format.
 const MIN_UNPACKED: usize = 1 << 16;
-/// Chunks that one node of the image of an array holds.
-const MAX_CHUNKS: u64 = 1 << 15;
-/// Level of the compression, 1 to 9. Higher levels gain less than 1 %.
-const DEFLATE_LEVEL: u32 = 2;
-
-/// Returns the chunk shape: whole rows, about 1 MiB of them; for very long rows a part.
-fn chunk(shape: &[u64]) -> Vec<u64> {
-    /// Number of values in a chunk.
-    const VALUES: u64 = 1 << 17;
-    // From 2¹⁶ on hdf5-pure 0.47 stores the sizes of a chunk in 4 bytes where 3 are enough, which HDF5 2 rejects.
-    const MAX_CHUNK_SIDE: u64 = 1 << 15;
-    match *shape {
-        [nx, ny] => vec![(VALUES / ny).clamp(1, nx.min(MAX_CHUNK_SIDE)), ny.min(MAX_CHUNK_SIDE)],
-        [nx, ny, nz] => {
-            let nz = nz.min(MAX_CHUNK_SIDE);
-            let [nx, ny] =
-                [(VALUES / (ny * nz)).clamp(1, nx.min(MAX_CHUNK_SIDE)), (VALUES / nz).clamp(1, ny)];
-            vec![nx, ny.min(MAX_CHUNK_SIDE), nz]
-        }
-        _ => vec![shape[0].min(MAX_CHUNK_SIDE)],
-    }
-}
-
 /// A field file, open for reading.
 pub struct Fields {
     path: PathBuf,
@@ -457,7 +317,9 @@ impl Fields {
     pub fn open(path: &Path) -> Result<Self> {
         let failed = |source| Error::File { path: path.to_owned(), source };
         regular::check(path, "a file of fields").map_err(failed)?;
-        let access = without_lock().with_metadata_cache(MetadataCacheConfig::new(MAX_METADATA));
+        // Files get their names when they are complete.
+        let access = FileAccessProperties::new().with_locking(FileLocking::Disabled);
+        let access = access.with_metadata_cache(MetadataCacheConfig::new(MAX_METADATA));
         let bytes = FileBytes::open(path).map_err(failed)?;
         let file = File::from_source_with_options(bytes.clone(), access);
         let file = file.map_err(|error| file_error(path, error))?;
@@ -836,28 +698,6 @@ mod tests {
         let grid = Grid::new([3, 2], [1e-6; 2]).unwrap();
         file.set("pass", 3).add_field("gap", "m", &grid, [0.0; 2], &field(&grid));
         assert!(matches!(file.write(), Err(Error::File { path, .. }) if path == inside));
-    }
-
-    #[test]
-    fn chunks_fit_their_arrays_and_the_encoding() {
-        for shape in [
-            &[3, 2][..],
-            &[1024, 1024],
-            &[2, 200_000],
-            &[200_000, 2],
-            &[1, 70_000],
-            &[300_000],
-            &[512, 512, 64],
-            &[3, 2, 512],
-            &[100_000, 3, 4],
-        ] {
-            let chunk = chunk(shape);
-            assert_eq!(chunk.len(), shape.len());
-            assert!(
-                chunk.iter().zip(shape).all(|(chunk, size)| (1..=*size).contains(chunk) && *chunk < 1 << 16)
-            );
-            assert!(chunk.iter().product::<u64>() <= 1 << 17);
-        }
     }
 
     #[test]

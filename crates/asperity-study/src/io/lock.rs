@@ -1,14 +1,13 @@
 //! Operating system locks on a file, which end with their process.
 
-use std::fs::{File, TryLockError};
 use std::io;
 use std::path::Path;
 use std::sync::Arc;
-use std::thread;
 use std::time::Duration;
 
 use web_time::Instant;
 
+use crate::io::fs::{self, File, TryLockError};
 use crate::io::regular;
 
 /// A lock held by this process; it is released with its last clone.
@@ -22,7 +21,7 @@ impl Lock {
     /// Locks the file at `path`, which is created if missing and stays when the lock is released. Returns `None` if another
     /// process holds the lock for longer than `patience`.
     pub(crate) fn take(path: &Path, patience: Duration) -> io::Result<Option<Self>> {
-        if path.exists() {
+        if fs::exists(path) {
             regular::check(path, "a file to be locked")?;
         }
         let file = File::options().write(true).create(true).truncate(false).open(path)?;
@@ -31,7 +30,7 @@ impl Lock {
             match file.try_lock() {
                 Ok(()) => return Ok(Some(Self { held: Some(Arc::new(file)) })),
                 Err(TryLockError::Error(_)) => return Ok(Some(Self { held: None })),
-                Err(TryLockError::WouldBlock) if began.elapsed() < patience => thread::sleep(patience / 50),
+                Err(TryLockError::WouldBlock) if began.elapsed() < patience => fs::wait(patience / 50),
                 Err(TryLockError::WouldBlock) => return Ok(None),
             }
         }

@@ -1,11 +1,15 @@
 //! File access: atomic writing, fields in HDF5 and for ParaView.
 
 mod digest; // SHA-256
+mod draft; // a field file being written
 pub mod fields; // HDF5: named fields with unit, axes, pitch
-mod image; // HDF5 in memory, of one array
 pub(crate) mod lock; // locks that end with their process
+#[cfg_attr(
+    any(feature = "memory", all(target_arch = "wasm32", target_os = "unknown")),
+    expect(dead_code, reason = "the library of HDF5 packs files in memory")
+)]
 mod packing; // chunks of arrays, deflated
 pub mod vti; // fields for ParaView
 
-pub use asperity_base::io::{atomic, read_regular, regular, replace, sweep};
+pub use asperity_base::io::{atomic, fs, read_regular, regular, replace, sweep};
 pub use digest::{sha256, sha256_of, sha256_of_file};

@@ -8,7 +8,7 @@ use super::axis::Axis;
 use super::named::NamedFile;
 use crate::case::Device;
 use crate::case::document::{Document, join};
-use crate::io::sha256;
+use crate::io::{fs, sha256};
 use asperity_base::choice::Choice;
 use asperity_base::error::{CaseError, Error, Result};
 
@@ -186,8 +186,8 @@ fn each_file_of(key: &str, value: &mut Value, change: &dyn Fn(&Path) -> PathBuf)
 
 /// Returns the path of `file` relative to the existing `folder`; absolute if there is no relative path.
 fn relative(folder: &Path, file: &Path) -> PathBuf {
-    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| absolute(path));
+    let absolute = |path: &Path| fs::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let real = |path: &Path| fs::canonicalize(path).unwrap_or_else(|_| absolute(path));
     let from = real(folder);
     // The file name is kept, even if it is a link.
     let file = absolute(file);

@@ -1,7 +1,6 @@
 //! The directory of a study: its plan and the states of its cases.
 
 use std::collections::{HashMap, VecDeque};
-use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -10,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::files::Files;
 use super::plan::Study;
-use crate::io::{atomic, regular};
+use crate::io::{atomic, fs, regular};
 use crate::results::is_in_use;
 use asperity_base::error::{Error, Result};
 
@@ -121,7 +120,7 @@ impl Folder {
         })?;
         // Nothing is removed, because other processes may work here. The first file they write identifies the study, so it
         // is checked last.
-        if !is_empty(path).map_err(failed)? && !folder.identity_path().exists() {
+        if !is_empty(path).map_err(failed)? && !fs::exists(folder.identity_path()) {
             return Err(Error::NotThisStudy {
                 path: path.to_owned(),
                 what: "is not empty, and holds no study of asperity",
@@ -146,7 +145,7 @@ impl Folder {
     /// [`Error::NotThisStudy`] if the directory contains another study, or none; [`Error::File`].
     pub fn open(path: &Path, study: &Study) -> Result<Self> {
         let folder = Self { path: path.to_owned() };
-        if !folder.identity_path().exists() {
+        if !fs::exists(folder.identity_path()) {
             return Err(Error::NotThisStudy { path: path.to_owned(), what: "holds no study of asperity" });
         }
         folder.admit(study)?;
@@ -178,7 +177,7 @@ impl Folder {
 
     /// Whether the results of a case exist.
     pub fn is_done(&self, case: usize) -> bool {
-        self.case(case).join("summary.json").exists()
+        fs::exists(self.case(case).join("summary.json"))
     }
 
     /// Returns the reason of the failure, if the case failed.

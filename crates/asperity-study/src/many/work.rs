@@ -3,7 +3,6 @@
 //! A process owns a case as long as it holds the lock of its results folder, which ends with the process.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -16,7 +15,7 @@ use super::plan::Study;
 use crate::case::Case;
 use crate::given::SurfaceInput;
 use crate::io::lock::Lock;
-use crate::io::{atomic, regular};
+use crate::io::{atomic, fs, regular};
 use crate::results::{CASE_FILE, Existing, try_acquire};
 use crate::run::run_with;
 use asperity_base::error::{Error, Result};
@@ -167,13 +166,13 @@ impl OwnedCase<'_> {
         let path = folder.join(CASE_FILE);
         let text = self.queue.study.case_file(self.case, Some(&folder))?;
         // No other process writes it, and a partial file left by a power cut is written again.
-        let there = match path.exists() {
+        let there = match fs::exists(&path) {
             true => regular::read(&path, "a case file", u64::MAX)
                 .map_err(|source| Error::File { path: path.clone(), source })?,
             false => Vec::new(),
         };
         if there != text.as_bytes() {
-            fs::write(&path, &text).map_err(|source| Error::File { path: path.clone(), source })?;
+            fs::write(&path, text.as_bytes()).map_err(|source| Error::File { path: path.clone(), source })?;
         }
         Case::load(&path)
     }

@@ -1,7 +1,6 @@
 //! Entry of a run into a results directory: accepted content, clearing, and the lock against other runs.
 
 use std::ffi::OsStr;
-use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -9,9 +8,9 @@ use std::time::Duration;
 use super::state::{ALTERED, ROWS};
 use super::{Results, has_every_position, is_nth};
 use crate::identity;
-use crate::io::atomic;
 use crate::io::fields::{Attribute, Fields};
 use crate::io::lock::{self, Lock};
+use crate::io::{atomic, fs};
 use crate::limit::LIMITS_TABLE;
 use crate::tables;
 use asperity_base::error::{Error, Result};
@@ -105,7 +104,7 @@ pub(super) fn enter(
     admit(directory, existing)?;
     let results = Results { directory: directory.to_owned() };
     let kept = match existing {
-        Existing::Resume if results.case_path().exists() => resumable(&results, case)?,
+        Existing::Resume if fs::exists(results.case_path()) => resumable(&results, case)?,
         _ => ExistingResults::Nothing,
     };
     Ok((lock, kept))
@@ -113,9 +112,9 @@ pub(super) fn enter(
 
 /// Returns an error if `directory` lies within the results of another run, which are cleared as a whole.
 fn outside_others(directory: &Path) -> Result<()> {
-    let all = std::path::absolute(directory);
+    let all = fs::absolute(directory);
     let all = all.map_err(|source| Error::File { path: directory.to_owned(), source })?;
-    match all.ancestors().skip(1).find(|folder| folder.join("case.json").exists()) {
+    match all.ancestors().skip(1).find(|folder| fs::exists(folder.join("case.json"))) {
         Some(results) => {
             Err(Error::WithinResults { path: directory.to_owned(), results: results.to_owned() })
         }
@@ -126,7 +125,7 @@ fn outside_others(directory: &Path) -> Result<()> {
 /// Returns an error if something in `directory` must be kept.
 fn admit(directory: &Path, existing: Existing) -> Result<()> {
     let failed = |source| Error::File { path: directory.to_owned(), source };
-    let results = directory.join("case.json").exists();
+    let results = fs::exists(directory.join("case.json"));
     let vacant = is_vacant(directory).map_err(failed)?;
     match existing {
         _ if vacant => Ok(()),
@@ -193,7 +192,7 @@ fn resumable_passes(results: &Results, case: &Value, identity: &str) -> Result<E
         return Ok(ExistingResults::Nothing);
     }
     let steps = results.steps_path();
-    if !steps.exists() {
+    if !fs::exists(&steps) {
         return Err(Error::NotResumable { path: steps, reason: "is missing" });
     }
     let mut positions: Vec<StepRecord> = tables::read_growing(&steps)?;
@@ -259,7 +258,7 @@ fn kept_every(case: &Value) -> usize {
 /// Returns an error unless `path` holds the undamaged fields of this run; for a motion, those of this pass.
 fn whole(path: &Path, identity: &str, pass: Option<usize>) -> Result<()> {
     let refused = |reason| Err(Error::NotResumable { path: path.to_owned(), reason });
-    if !path.exists() {
+    if !fs::exists(path) {
         return refused("is missing");
     }
     let fields = Fields::open(path)?;
@@ -318,7 +317,7 @@ pub(super) fn clear(results: &Results, kept: ExistingResults, keep: Keep) -> Res
             each_capability!(C => results.remove(&results.observer_table(C::NAME))?);
             results.remove(&results.observer_table(LIMITS_TABLE))?;
             let folders = [results.fields_folder(), results.figures_folder()];
-            for path in folders.into_iter().filter(|path| path.exists()) {
+            for path in folders.into_iter().filter(|path| fs::exists(path)) {
                 fs::remove_dir_all(&path).map_err(|source| Error::File { path, source })?;
             }
             Ok(())

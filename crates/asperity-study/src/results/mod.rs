@@ -35,7 +35,6 @@ mod step; // the output of a course, step by step
 mod write; // the output of a run
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -51,7 +50,7 @@ use state::Stored;
 use super::case::Case;
 use super::{identity, summary, tables};
 use crate::io::fields::{Attribute, Fields};
-use crate::io::regular;
+use crate::io::{fs, regular};
 use crate::limit::{BrokenLimit, LIMITS_TABLE};
 use crate::summary::{Outcome, Summary};
 use asperity_base::error::{Error, Result};
@@ -80,7 +79,7 @@ impl Results {
     /// [`Error::NoResults`].
     pub fn open(directory: &Path) -> Result<Self> {
         let results = Self { directory: directory.to_owned() };
-        if results.case_path().exists() {
+        if fs::exists(results.case_path()) {
             Ok(results)
         } else {
             Err(Error::NoResults { path: directory.to_owned() })
@@ -140,7 +139,7 @@ impl Results {
     /// Reads the rows of the table of passes, whatever the summary says.
     pub(super) fn passes_there(&self) -> Result<Vec<PassRecord>> {
         let path = self.passes_path();
-        if path.exists() { tables::read_growing(&path) } else { Ok(Vec::new()) }
+        if fs::exists(&path) { tables::read_growing(&path) } else { Ok(Vec::new()) }
     }
 
     /// Reads the positions of the finished passes.
@@ -192,7 +191,8 @@ impl Results {
     pub fn increments(&self) -> Result<Vec<IncrementRecord>> {
         let path = self.increments_path();
         let increments = self.rows_at_rest(&path)?;
-        if increments.is_empty() && self.summary_path().exists() && was_loaded_in_stages(&self.summary()?) {
+        if increments.is_empty() && fs::exists(self.summary_path()) && was_loaded_in_stages(&self.summary()?)
+        {
             return Err(self.incomplete(&path));
         }
         Ok(increments)
@@ -229,7 +229,7 @@ impl Results {
 
     /// Reads the rows of the table of a static contact; only complete rows, if it is still running.
     fn rows_at_rest<T: DeserializeOwned>(&self, path: &Path) -> Result<Vec<T>> {
-        match (path.exists(), self.summary_path().exists()) {
+        match (fs::exists(path), fs::exists(self.summary_path())) {
             (false, _) => Ok(Vec::new()),
             (true, false) => tables::read_growing(path),
             (true, true) => tables::read(path),
@@ -238,7 +238,7 @@ impl Results {
 
     /// Returns an error if the number of `rows` in the table at `path` differs from that in the summary, if there is one.
     fn agree(&self, path: &Path, rows: usize, told: impl Fn(&Summary) -> Option<usize>) -> Result<()> {
-        if !self.summary_path().exists() {
+        if !fs::exists(self.summary_path()) {
             return Ok(());
         }
         match told(&self.summary()?) {
@@ -393,7 +393,7 @@ impl Results {
     /// [`Error::File`].
     pub(crate) fn observed<T: DeserializeOwned>(&self, name: &str) -> Result<Vec<T>> {
         let path = self.observer_table(name);
-        if path.exists() { tables::read_growing(&path) } else { Ok(Vec::new()) }
+        if fs::exists(&path) { tables::read_growing(&path) } else { Ok(Vec::new()) }
     }
 
     /// The file of the fields of an increment that is kept.
@@ -587,7 +587,7 @@ impl Results {
 
     /// Error for a missing table, or one that differs from the summary.
     fn incomplete(&self, path: &Path) -> Error {
-        match path.exists() {
+        match fs::exists(path) {
             true => self.damaged(path, "it is damaged: its rows are not those in summary.json"),
             false => self.failed(path, std::io::Error::new(ErrorKind::NotFound, "is missing")),
         }

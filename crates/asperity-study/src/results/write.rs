@@ -10,7 +10,7 @@ use super::entry::{self, Existing, ExistingResults, NO_LOCKS};
 use crate::fields::{NamedField, RestFields};
 use crate::io::fields::FieldFile;
 use crate::io::lock::Lock;
-use crate::io::{atomic, vti};
+use crate::io::{atomic, fs, vti};
 use crate::subsurface::{Plan, SubsurfaceRecord};
 use crate::summary::Summary;
 use crate::{identity, summary};
@@ -164,8 +164,8 @@ impl Writer {
         let increments = self.results.increments()?.into_iter();
         let increments = increments.map(|increment| self.results.increment_path(increment.increment));
         let at_rest = points.chain(increments).chain([self.results.static_path()]);
-        let all = passes.chain(at_rest).filter(|path| path.exists());
-        for path in all.filter(|path| !path.with_extension("vti").exists()) {
+        let all = passes.chain(at_rest).filter(|path| fs::exists(path));
+        for path in all.filter(|path| !fs::exists(path.with_extension("vti"))) {
             vti::write_fields(&path)?;
         }
         Ok(())

@@ -1,0 +1,4 @@
+//! Files on the disk.
+
+pub mod atomic;
+pub mod fs;
