@@ -6,8 +6,8 @@
 //! | group | functions |
 //! |---|---|
 //! | files | `put`, `get`, `files`, `remove` |
-//! | cases | `examples`, `example`, `pair`, `read_case`, `write_case`, `commands`, `materials` |
-//! | surfaces | `scan`, `Surface` |
+//! | cases | `examples`, `example`, `read_case`, `write_case`, `commands`, `materials` |
+//! | surfaces | `scan`, `Surface`, `colours` |
 //! | runs | `check`, `run`, `report`, `figures`, `figure` |
 //! | program | `version` |
 //!
@@ -19,18 +19,14 @@
 //! ```text
 //! put(name: string, bytes: Uint8Array): void                    creates or replaces a file
 //! get(name: string): Uint8Array                                 a copy of its bytes
-//! files(folder: string): JSON [{name, bytes}]                   all files below the folder, sorted; "" for all files
+//! files(folder: string): JSON [{name, bytes, version}]          all files below the folder, sorted; "" for all files; the version grows with each change
 //! remove(name: string): void                                    a file, or a folder with all in it; nothing if there is none
 //!
 //! examples(): JSON [{name, about, files: [string]}]             the examples of `asperity example`
 //! example(name: string): string                                 writes its files into the folder `name`; returns the name of its case file
 //! materials(): JSON [{name, about, young, poisson, hardness, conductivity, …, source}]     as `asperity materials --json`
-//! pair(options: JSON): JSON {case: string, story: [string]}     the case of two files, as `asperity contact` and `asperity slide` write it;
-//!     options {lower: "disc.x3p", upper: "plate.x3p", load: "0.5 N" or "20 MPa", material: "steel" or "steel,alumina", hardness?: "4 GPa",
-//!              periodic?: bool, passes?: number,                               0 or none: a contact at rest
-//!              channel?: string, unit?: "um", lines?: "x" or "y", skip?: number, pitch?: "0.5 um" or "1 um,2 um"}
-//! read_case(text: string): JSON                                 the tables of a text of TOML
-//! write_case(tables: JSON): string                              the text of TOML of these tables
+//! read_case(text: string): JSON                                 the tables of a text of TOML; an infinite number is the text "inf"
+//! write_case(tables: JSON): string                              the text of TOML of these tables; "inf" becomes a number
 //! commands(case: string): JSON {shell: string, python: string}  lines that compute the case file of this name elsewhere
 //!
 //! scan(name: string, reading: TOML): JSON                       what a file says by itself; reading "" or keys such as `channel = "height"`
@@ -49,6 +45,8 @@
 //!   .heights(): Float32Array                                    m, index ix * ny + iy, NaN where undefined
 //!   .write(name: string): void                                  to a file: the end of its name is .x3p, .sdf, .gwy, .npy, .vtk or .png
 //!
+//! colours(): JSON {heights, pressure, diverging}                the colours of maps, for maps.js
+//!
 //! check(case: string): JSON                                     the case file of this name, before it is run
 //!     {title, rows: [{name, text}], warnings: [string], shapes: [[nx, ny], [nx, ny]], pitch: [dx, dy], memory: bytes, seconds,
 //!      coarser: {pitch: [dx, dy], memory} or null}              a pitch that fits into 1.5 GB, if the case does not
@@ -65,3 +63,14 @@
 //! ```
 //!
 //! After a worker has been ended, a new one continues: `put` each file of the results, then `run` with `"resume"`.
+
+#[cfg(target_arch = "wasm32")]
+#[expect(unreachable_pub, reason = "JavaScript calls them")]
+mod bindings;
+pub mod cases;
+mod failure;
+pub mod files;
+pub mod runs;
+pub mod surfaces;
+
+pub use failure::{Failure, Result};
