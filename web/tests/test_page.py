@@ -176,6 +176,20 @@ def test_what_does_not_fit_is_said_before_and_a_coarser_pitch_is_taken(opened):
     opened.tab.wait_for_function("() => !document.getElementById('text').value.includes('8192')")
 
 
+def test_memory_that_is_not_there_is_a_sentence(opened):
+    opened.at_once(False)
+    opened.example("quickstart")
+    opened.tab.fill("#text", opened.tab.input_value("#text").replace("[64, 64]", "[32768, 32768]").split("[motion]")[0])
+    opened.tab.click("#apply")
+    opened.said("#contact-check", "the command is the better place")
+    opened.tab.click("#press")
+    opened.said("#contact-said", "memory")
+    opened.tab.click("#undo")
+    opened.said("#contact-check", "64 × 64 cells")
+    opened.tab.click("#press")
+    opened.result("contact")
+
+
 def test_steps_of_the_preparation_are_undone(opened):
     opened.at_once(False)
     opened.drop({"disc.x3p": DISC})
