@@ -243,8 +243,7 @@ def test_a_stopped_run_keeps_its_passes_and_goes_on(opened):
 
 
 def test_the_zip_holds_what_the_command_computes(opened, asperity, tmp_path):
-    opened.at_once(False)
-    opened.example("measured")
+    opened.result("contact")
     opened.tab.click("#run")
     opened.result("motion")
     with opened.tab.expect_download() as download:
