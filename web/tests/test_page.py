@@ -12,6 +12,8 @@ import pytest
 from conftest import DIST, ROOT, Page, assert_close, compared
 
 DISC = (ROOT / "crates/asperity-cli/examples/measured/disc.x3p").read_bytes()
+# The page as one file, in bytes: it may not grow unnoticed.
+MAX_SIZE = 5 << 20
 CORPUS = ROOT / "crates/asperity-surface/fuzz/corpus"
 # One pass takes some tenths of a second, all of them far longer than the test waits.
 LONG = """
@@ -63,7 +65,7 @@ def test_nothing_is_asked_of_anyone_else(browser, site):
 
 def test_one_file_opens_by_a_double_click(browser):
     path = DIST / "asperity.html"
-    assert path.stat().st_size < 2 << 20, f"{path.stat().st_size} bytes"
+    assert path.stat().st_size < MAX_SIZE, f"{path.stat().st_size} bytes"
     page = Page(browser, path.as_uri())
     page.result("contact")
     assert {url.split("#")[0] for url in page.requests if not url.startswith(("blob:", "data:", "about:"))} == {path.as_uri()}
