@@ -61,7 +61,7 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 5] = [
             "with/film/table.rs",
             "with/fatigue/critical.rs",
             // A case that shows it.
-            "asperity-cli/src/example.rs",
+            "asperity-cli/src/example/kits.rs",
             // The keywords of a body, its columns and its removal in Python.
             "asperity/keys.py",
             "asperity/simulation.py",
