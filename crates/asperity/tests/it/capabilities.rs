@@ -105,7 +105,7 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 5] = [
             // Tables that viscoelastic bodies do not support.
             "asperity-study/src/case/rules/viscoelastic.rs",
             // A case that shows it.
-            "asperity-cli/src/example.rs",
+            "asperity-cli/src/example/kits.rs",
             // Its numbers in Python, its error, and the types that are made from its table.
             "asperity/_contact.py",
             "asperity/_html.py",
