@@ -124,8 +124,8 @@ def test_a_run_tells_where_its_bodies_tire() -> None:
     found = run.fatigue["lower"]
     assert list(found["pass"]) == [1, 2]
     # The passes of elastic bodies are alike, and damage adds up.
-    assert found["damage"][1] == pytest.approx(2 * found["damage_of_pass"][0], rel=1e-6)
-    assert found["life"][1] == pytest.approx(1 / found["damage_of_pass"][0], rel=1e-5)
+    assert found["damage"][1] == pytest.approx(2 * found["damage_of_pass"][0], rel=1e-4)
+    assert found["life"][1] == pytest.approx(1 / found["damage_of_pass"][0], rel=1e-4)
     # The same from the pressures of a pass.
     for each in asp.Simulation(rough(1), rough(2), passes=1, stride=2, **keywords):
         depths = np.geomspace(0.5e-6, 4e-6, 3)

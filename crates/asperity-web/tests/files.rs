@@ -186,7 +186,7 @@ fn a_measured_surface_is_scanned_prepared_and_written() {
     let heights = &about["sections"][0];
     assert_eq!(
         (&heights["rows"][0]["name"], &heights["title"]),
-        (&json!("Sq"), &json!("height parameters, ISO 25178-2"))
+        (&json!("Sa"), &json!("height parameters, ISO 25178-2"))
     );
     surface.write("prepared.x3p").unwrap();
     let again = surfaces::Surface::new("file = \"prepared.x3p\"").unwrap();
