@@ -11,7 +11,9 @@ use crate::motion::rim::Interior;
 use crate::motion::spot::largest_spot;
 use crate::motion::watch::{OneOfMany, StaticWatch, Watch};
 use crate::operator::{Boundary, Operators};
-use crate::solver::{Before, Control, InterfaceRecord, Params, Sliding, Solution, Stats, solve_sliding};
+use crate::solver::{
+    Before, Control, InterfaceRecord, NormalProblem, Params, Sliding, Solution, Stats, solve_sliding,
+};
 use crate::units::{CubicMetre, Kelvin, Metre, Newton, Pascal};
 
 /// The solution at one position: only the cells in contact.
@@ -78,7 +80,8 @@ impl Contact {
                 let guess = start.map_or(Before::Apart, Before::Guess);
                 let before = last.as_ref().map_or(guess, Before::Contact);
                 let mut operator = params.device.operator(operators, shape);
-                pair.interface().solve(operator.as_mut(), &gap, &bounds, control, before, params, watch)?
+                let problem = NormalProblem { gap: &gap, bounds: &bounds, control, before, params, watch };
+                pair.interface().solve(operator.as_mut(), &problem)?
             }
         };
         let interface = InterfaceRecord::of(pair.interface(), &solution, last);
@@ -268,8 +271,9 @@ pub fn press(
     let mut operator = params.device.operator(&operators, pair.lower_grid().shape);
     let bounds = pair.bounds(&position, None);
     let watch = StaticWatch::new(watch, 0, 1, control);
-    let solution =
-        pair.interface().solve(operator.as_mut(), &gap, &bounds, control, Before::Apart, params, &watch)?;
+    let before = Before::Apart;
+    let problem = NormalProblem { gap: &gap, bounds: &bounds, control, before, params, watch: &watch };
+    let solution = pair.interface().solve(operator.as_mut(), &problem)?;
     Ok(StaticContact { record: StaticRecord::of(pair, &solution), solution })
 }
 

@@ -16,8 +16,8 @@ use crate::motion::state::{Flattening, LoadedContact, LoadingState};
 use crate::motion::watch::{StaticWatch, Watch};
 use crate::operator::{Boundary, CoupledOperator, Operator};
 use crate::solver::{
-    self, Before, Control, Equilibrium, Friction, FrictionalSolution, InterfaceRecord, Loading, Params,
-    Rolling, RollingSolution, solve_frictional_watched, solve_rolling_watched,
+    self, Before, Control, Equilibrium, Friction, FrictionalSolution, InterfaceRecord, Loading,
+    NormalProblem, Params, Rolling, RollingSolution, solve_frictional_watched, solve_rolling_watched,
 };
 use crate::units::{Joule, Kelvin, Second};
 use crate::viscoelastic::{CreepMemory, solve_in_time};
@@ -260,8 +260,9 @@ impl LoadedContact {
         watch: &dyn solver::Watch,
     ) -> Result<Self> {
         let bounds = pair.bounds(&pair.at_rest(), None);
-        let solution =
-            pair.interface().solve(operator, gap, &bounds, control, Before::Apart, params, watch)?;
+        let before = Before::Apart;
+        let problem = NormalProblem { gap, bounds: &bounds, control, before, params, watch };
+        let solution = pair.interface().solve(operator, &problem)?;
         let plastic = solution.plastic_interference();
         let record = StaticRecord::of(pair, &solution);
         let solution = Equilibrium::Frictionless(Box::new(solution));
@@ -507,9 +508,10 @@ impl Solver {
         match self {
             Self::Frictionless(operator) => {
                 let before = Before::from(last.map(Equilibrium::normal));
-                let operator = operator.as_mut();
+                let control = loading.normal;
+                let problem = NormalProblem { gap, bounds, control, before, params, watch };
                 pair.interface()
-                    .solve(operator, gap, bounds, loading.normal, before, params, watch)
+                    .solve(operator.as_mut(), &problem)
                     .map(|solution| Equilibrium::Frictionless(Box::new(solution)))
             }
             Self::Frictional(operator, friction) => {

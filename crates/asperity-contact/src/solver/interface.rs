@@ -10,22 +10,11 @@ use crate::units::{JoulePerSquareMetre, Metre, Pascal};
 
 /// Interface of two bodies. Neither surface penetrates the other; a tension σ(g) may act across the gap g between them.
 pub trait Interface: Debug + Send + Sync {
-    /// Presses bodies together without friction, over their initial `gap` and within the upper `bounds` of the pressure, from the
-    /// contact `before`.
+    /// Presses bodies together without friction.
     ///
     /// # Errors
     /// The errors of [`solve_normal`](crate::solver::solve_normal), and those of the interface.
-    #[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
-    fn solve(
-        &self,
-        operator: &mut dyn Operator,
-        gap: &Field,
-        bounds: &Bounds,
-        control: Control,
-        before: Before<'_>,
-        params: &Params,
-        watch: &dyn Watch,
-    ) -> Result<Solution>;
+    fn solve(&self, operator: &mut dyn Operator, problem: &NormalProblem<'_>) -> Result<Solution>;
 
     /// Tension σ(g) ≥ 0 at a gap.
     fn tension(&self, gap: Metre) -> Pascal;
@@ -53,6 +42,23 @@ pub trait Interface: Debug + Send + Sync {
     fn check_passes(&self, is_shift: bool, displaces: bool, params: &Params) -> Result<()>;
 }
 
+/// A contact without friction that is to be solved.
+#[derive(Clone, Copy)]
+pub struct NormalProblem<'a> {
+    /// The initial gap, m.
+    pub gap: &'a Field,
+    /// The bounds of the pressure, of which only the upper ones count.
+    pub bounds: &'a Bounds,
+    /// The prescribed load or approach.
+    pub control: Control,
+    /// The contact before it.
+    pub before: Before<'a>,
+    /// The parameters of the solver.
+    pub params: &'a Params,
+    /// The watch of the computation.
+    pub watch: &'a dyn Watch,
+}
+
 /// Contact before another one of the same bodies.
 #[derive(Debug, Clone, Copy)]
 pub enum Before<'a> {
@@ -62,6 +68,17 @@ pub enum Before<'a> {
     Guess(&'a Field),
     /// The contact from which the bodies come.
     Contact(&'a Solution),
+}
+
+impl<'a> Before<'a> {
+    /// Returns the pressure that is known; `None` of bodies that come from afar.
+    pub fn pressure(self) -> Option<&'a Field> {
+        match self {
+            Self::Apart => None,
+            Self::Guess(pressure) => Some(pressure),
+            Self::Contact(last) => Some(&last.pressure),
+        }
+    }
 }
 
 impl<'a> From<Option<&'a Solution>> for Before<'a> {
@@ -86,22 +103,9 @@ pub struct InterfaceCost {
 pub struct HardWall;
 
 impl Interface for HardWall {
-    fn solve(
-        &self,
-        operator: &mut dyn Operator,
-        gap: &Field,
-        bounds: &Bounds,
-        control: Control,
-        before: Before<'_>,
-        params: &Params,
-        watch: &dyn Watch,
-    ) -> Result<Solution> {
-        let start = match before {
-            Before::Apart => None,
-            Before::Guess(pressure) => Some(pressure),
-            Before::Contact(last) => Some(&last.pressure),
-        };
-        solve_normal_watched(operator, gap, bounds, control, start, params, watch)
+    fn solve(&self, operator: &mut dyn Operator, problem: &NormalProblem<'_>) -> Result<Solution> {
+        let NormalProblem { gap, bounds, control, before, params, watch } = *problem;
+        solve_normal_watched(operator, gap, bounds, control, before.pressure(), params, watch)
     }
 
     fn tension(&self, _: Metre) -> Pascal {

@@ -36,7 +36,7 @@ pub use friction::{
 pub(crate) use friction::{
     History, Start, solve_frictional_from, solve_frictional_watched, solve_rolling_watched, solve_sliding,
 };
-pub use interface::{Before, HardWall, Interface, InterfaceCost};
+pub use interface::{Before, HardWall, Interface, InterfaceCost, NormalProblem};
 pub use residual::{Residual, residual};
 pub(crate) use site::{OwnedSite, Site, coarse_site};
 pub use stiffness::normal_stiffness;

@@ -6,10 +6,10 @@ use asperity_contact::material::Material;
 use asperity_contact::motion::{Motion, Pair, Simulation, Stage, Strategy, load_in_stages, press};
 use asperity_contact::operator::{Boundary, Operator};
 use asperity_contact::solver::{
-    Before, Bounds, Control, HardWall, Interface, Loading, Params, Solution, Tangential, Watch, solve_normal,
+    Control, HardWall, Interface, Loading, NormalProblem, Params, Solution, Tangential, solve_normal,
 };
 use asperity_contact::units::{JoulePerSquareMetre, Metre, Pascal};
-use asperity_contact::{Field, Grid, Result};
+use asperity_contact::{Grid, Result};
 use asperity_surface::LowPass;
 
 /// Suction of the same tension at every gap, up to a range beyond all gaps.
@@ -20,22 +20,10 @@ struct Suction {
 }
 
 impl Interface for Suction {
-    fn solve(
-        &self,
-        operator: &mut dyn Operator,
-        gap: &Field,
-        bounds: &Bounds,
-        control: Control,
-        before: Before<'_>,
-        params: &Params,
-        _: &dyn Watch,
-    ) -> Result<Solution> {
-        let start = match before {
-            Before::Apart => None,
-            Before::Guess(pressure) => Some(pressure),
-            Before::Contact(last) => Some(&last.pressure),
-        };
-        solve_normal(operator, gap, &bounds.clone().above(-self.tension), control, start, params)
+    fn solve(&self, operator: &mut dyn Operator, problem: &NormalProblem<'_>) -> Result<Solution> {
+        let NormalProblem { gap, bounds, control, before, params, .. } = *problem;
+        let bounds = bounds.clone().above(-self.tension);
+        solve_normal(operator, gap, &bounds, control, before.pressure(), params)
     }
 
     fn tension(&self, _: Metre) -> Pascal {

@@ -24,8 +24,8 @@ use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, in_rows};
 use crate::operator::Operator;
 use crate::solver::{
-    Before, Bounds, Control, Interface, InterfaceCost, Params, Solution, Stats, Watch, residual,
-    self_influence, solve_normal_watched,
+    Before, Bounds, Control, Interface, InterfaceCost, NormalProblem, Params, Solution, Stats, Watch,
+    residual, self_influence, solve_normal_watched,
 };
 use crate::units::{JoulePerSquareMetre, Metre, Newton, Pascal};
 use asperity_base::watch::check_stop;
@@ -80,16 +80,8 @@ impl Adhesion {
 }
 
 impl Interface for Adhesion {
-    fn solve(
-        &self,
-        operator: &mut dyn Operator,
-        gap: &Field,
-        bounds: &Bounds,
-        control: Control,
-        before: Before<'_>,
-        params: &Params,
-        watch: &dyn Watch,
-    ) -> Result<Solution> {
+    fn solve(&self, operator: &mut dyn Operator, problem: &NormalProblem<'_>) -> Result<Solution> {
+        let NormalProblem { gap, bounds, control, before, params, watch } = *problem;
         let last = match before {
             Before::Contact(last) => Some(last),
             Before::Apart | Before::Guess(_) => None,
