@@ -103,7 +103,7 @@ impl Listener {
         }));
     }
 
-    /// Tells the progress, but not more often than a person sees it.
+    /// Reports the progress, at most twenty times a second.
     fn progress(&self, part: f64, text: impl FnOnce() -> String) {
         const INTERVAL: Duration = Duration::from_millis(50);
         let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);

@@ -38,9 +38,9 @@ pub struct SweepState {
 /// Points that are `done` are not solved again, except the last.
 ///
 /// Each point is an independent contact of undeformed bodies, solved from zero. It has the bits of [`crate::motion::press`]
-/// or [`crate::motion::roll`], whatever the other points are. Pressures of another load would not be a better start than
-/// those of coarser grids: from 1.5 times the load up they cost more convolutions. The steady sliding of
-/// viscoelastic bodies is the exception: its contact at a speed starts from the pressures at the speed before.
+/// or [`crate::motion::roll`], whatever the other points are. The pressures of another load are no better start than
+/// those of coarser grids: if the loads differ by a factor of 1.5 or more, they cost more convolutions. Only the steady sliding of
+/// viscoelastic bodies starts at a speed from the pressures at the speed before.
 ///
 /// # Errors
 /// [`Error::AtPoint`] with the error of [`crate::solver::solve_normal`] or [`crate::solver::solve_rolling`],

@@ -85,11 +85,18 @@ fn only_the_passes_asked_for_are_looked_at_and_what_is_beyond_the_model_is_told(
     assert!(rows.iter().all(|row| row.pass == 2) && rows.len() == 2);
     let told = |words: &str| summary.warnings.iter().any(|warning| warning.contains(words));
     assert!(told("between two positions whose stress is computed"), "{:?}", summary.warnings);
+    assert!(told("no pass before pass 2 is looked at"), "{:?}", summary.warnings);
+    assert!(!told("may be deeper than the largest depth"));
     assert!(!folder.path().join("fields/fatigue-0001.h5").exists());
     let text = "times the one above it, and the largest f may lie between two";
     assert!(!told(text));
     let mut deep = case(1, "");
     deep.with.fatigue.as_mut().unwrap().to = 4e-3;
+    let (summary, _) = run(&deep, tempfile::tempdir().unwrap().path(), Existing::Keep);
+    assert!(summary.warnings.iter().any(|warning| warning.contains(text)), "{:?}", summary.warnings);
+    let text = "pits of the lower body may be deeper than the largest depth, 4 µm";
+    let mut deep = case(1, "");
+    deep.lower.properties.fatigue.as_mut().unwrap().pit_depth = 5e-3;
     let (summary, _) = run(&deep, tempfile::tempdir().unwrap().path(), Existing::Keep);
     assert!(summary.warnings.iter().any(|warning| warning.contains(text)), "{:?}", summary.warnings);
 }

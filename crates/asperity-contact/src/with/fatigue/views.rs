@@ -202,6 +202,14 @@ pub(super) fn doubts(fatigue: &Fatigue, rows: &[FatigueRecord], surroundings: &S
     }
     let limits = surroundings.bodies.iter().zip([OnBody::Lower, OnBody::Upper]);
     let limits = limits.filter_map(|(body, name)| Some((name, body.properties.fatigue.as_ref()?)));
+    for (name, _) in limits.clone().filter(|(_, limits)| limits.pit_depth > fatigue.to) {
+        doubts.push(format!(
+            "pits of the {} body may be deeper than the largest depth, {}, below which the damage is not known: check the unit, or look deeper by a \
+             larger `to`",
+            name.word(),
+            format(fatigue.to, Dimension::Length)
+        ));
+    }
     for (name, _) in limits.clone().filter(|(_, limits)| limits.pit_depth > 0.0) {
         if rows.iter().any(|row| row.body == name && row.pitted_share.is_none()) {
             doubts.push(format!(
@@ -216,6 +224,12 @@ pub(super) fn doubts(fatigue: &Fatigue, rows: &[FatigueRecord], surroundings: &S
              an approach is prescribed: it needs curved bodies under a load"
                 .to_owned(),
         );
+    }
+    if let Some(first) = rows.first().filter(|row| row.pass > 1) {
+        doubts.push(format!(
+            "no pass before pass {} is looked at, and none of them counts as damage: look at the first pass, too",
+            first.pass
+        ));
     }
     if rows.is_empty() {
         doubts.push("no pass that was computed is among those whose fatigue is asked for".to_owned());

@@ -21,7 +21,7 @@ pub(super) const RULES: &[Rule] = &[
         this: "`pit_depth`",
         with: "[plasticity]",
         message: "pits are not broken out of elasto-plastic bodies",
-        hint: "leave 'pit_depth' out: `fatigue.csv` tells the damage",
+        hint: "leave 'pit_depth' out; `fatigue.csv` has the damage without it",
         at: "lower.fatigue.pit_depth",
         example: &[
             r#"lower.fatigue = { torsion = "350 MPa", tension = "600 MPa", pit_depth = "2 um" }"#,
