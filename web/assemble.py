@@ -1,7 +1,7 @@
 """The page from its parts: `python assemble.py MODULE DIST`.
 
 MODULE is the folder with `asperity.js` and `asperity_bg.wasm` of `wasm-bindgen --target no-modules --out-name asperity`. DIST takes
-`index.html`, `worker.js` and `asperity.wasm` for a server, and `asperity.html`, one file with all of them, which opens by a double click.
+`index.html`, `worker.js` and `asperity.bin`, the packed module, for a server, and `asperity.html`, one file with all of them, which opens by a double click.
 """
 
 import base64
@@ -61,12 +61,14 @@ def page(policy, more=""):
 def main(module, dist):
     worker = (module / "asperity.js").read_text() + "\n" + (WEB / "src/worker.js").read_text()
     wasm = (module / "asperity_bg.wasm").read_bytes()
-    packed = base64.b64encode(zlib.compress(wasm, 9)).decode()
-    inside = script(worker, ' type="text/plain" id="worker"') + f'<script type="text/plain" id="module">{packed}</script>\n'
+    # Packed here, because plain hosts do not pack it.
+    packed = zlib.compress(wasm, 9)
+    text = base64.b64encode(packed).decode()
+    inside = script(worker, ' type="text/plain" id="worker"') + f'<script type="text/plain" id="module">{text}</script>\n'
     dist.mkdir(parents=True, exist_ok=True)
     (dist / "index.html").write_text(page(POLICY + "; connect-src 'self'"))
     (dist / "worker.js").write_text(worker)
-    (dist / "asperity.wasm").write_bytes(wasm)
+    (dist / "asperity.bin").write_bytes(packed)
     (dist / "asperity.html").write_text(page(POLICY, inside))
 
 

@@ -16,19 +16,16 @@ const BROKEN = {
   hint: "take a coarser pitch or a smaller window, or run the case file with the command on this machine",
 };
 
-/** Returns the bytes of the module and the program of the worker. They are files beside the page, or parts of it. */
+/** Returns the packed module and the program of the worker. They are files beside the page, or parts of it. */
 async function parts() {
   const inside = document.getElementById("module");
-  if (!inside) {
-    const [bytes, text] = await Promise.all([fetch("asperity.wasm").then((r) => r.arrayBuffer()), fetch("worker.js").then((r) => r.text())]);
-    return [bytes, text];
-  }
+  if (!inside) return Promise.all([fetch("asperity.bin").then((r) => r.blob()), fetch("worker.js").then((r) => r.text())]);
   const packed = Uint8Array.from(atob(inside.textContent), (letter) => letter.charCodeAt(0));
-  return [await through(packed, new DecompressionStream("deflate")), document.getElementById("worker").textContent];
+  return [packed, document.getElementById("worker").textContent];
 }
 
-const compiled = parts().then(async ([bytes, text]) => {
-  const module = await WebAssembly.compile(bytes);
+const compiled = parts().then(async ([packed, text]) => {
+  const module = await WebAssembly.compile(await through(packed, new DecompressionStream("deflate")));
   return { module, url: URL.createObjectURL(new Blob([text], { type: "text/javascript" })) };
 });
 

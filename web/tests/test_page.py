@@ -49,7 +49,7 @@ def test_nothing_is_asked_of_anyone_else(browser, site):
     page.drop({"disc.x3p": DISC})
     page.said(".body[data-side=lower] .summary", "128 × 128 cells")
     asked = {url.split("#")[0] for url in page.requests if not url.startswith(("blob:", "data:"))}
-    assert asked <= {site, site + "worker.js", site + "asperity.wasm", "about:srcdoc"}, asked
+    assert asked <= {site, site + "worker.js", site + "asperity.bin", "about:srcdoc"}, asked
     # Whatever a script on it tries, the policy of the page holds it back: in the page, and in its workers.
     for attempt in ("fetch('https://example.org/')", "fetch('http://127.0.0.1:9/')", "new Promise((y, n) => { const i = new Image(); i.onload = y; i.onerror = n; i.src = 'http://127.0.0.1:9/x.png'; })"):
         assert page.tab.evaluate(f"{attempt}.then(() => 'sent', () => 'held')") == "held"
@@ -257,7 +257,7 @@ def test_the_zip_holds_what_the_command_computes(opened, asperity, tmp_path):
     subprocess.run([asperity, "run", tmp_path / "case.toml", "--out", tmp_path / "again", "--quiet"], check=True)
     here, there = (json.loads((tmp_path / folder / "summary.json").read_text()) for folder in ("motion", "again"))
     assert here["passes"]
-    assert_close(compared(here), compared(there))
+    assert_close(compared(here), compared(there), 1e-6)
 
 
 def test_the_address_holds_the_case(opened, browser, site):

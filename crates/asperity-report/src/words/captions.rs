@@ -48,7 +48,7 @@ const CAPTIONS: [(&str, &str); 40] = [
     ("mean_gap", "Mean distance of the deformed surfaces over the whole grid."),
     ("plastic", "Depth that yields at the hardness, both bodies together."),
     ("plastic_flow", "Plastic strain and work of each step. Bodies that have shaken down flow no more."),
-    ("pressure", "Pressure on each cell. White cells do not touch."),
+    ("pressure", "Pressure on each cell. Cells without colour do not touch."),
     (
         "pressure_histogram",
         "Share of the contact at each pressure. A peak at the right end is material at its hardness.",
