@@ -69,6 +69,7 @@ export class Course {
 
   /** Returns whether the results belong to other tables than these, and fades them if so. */
   outdated(tables) {
+    this.present = tables;
     const old = this.computed !== this.#identity(tables);
     this.report.old = old;
     return old;
@@ -81,6 +82,7 @@ export class Course {
 
   /** Runs tables from the beginning, in place of a run in progress. */
   async start(tables) {
+    this.present = tables;
     const identity = this.computed = this.#identity(tables);
     const text = await this.app.desk.call("write_case", JSON.stringify(tables));
     if (identity !== this.computed) return;
@@ -129,8 +131,12 @@ export class Course {
   }
 
   show() {
-    // The report has these curves too.
-    this.report.show(this.run.page(), () => this.live.clear());
+    this.report.show(this.run.page(), () => {
+      // The report has these curves too.
+      this.live.clear();
+      // The case may have changed since the run began.
+      this.outdated(this.present);
+    });
     this.app.finished();
   }
 

@@ -33,16 +33,21 @@ export class MotionSection extends Course {
     const found = await this.app.contact.check(kase.atRest());
     if (!found) return;
     const stride = Math.max(1, Math.round((found.shapes[0][0] + found.shapes[1][0]) / POSITIONS));
-    kase.change({ motion: { passes: PASSES, stride }, output: { pressure_every: 1 } });
+    // Only bodies that are free along x pass over each other.
+    const along = [kase.get("contact.boundary")].flat()[0];
+    const motion = { passes: PASSES, stride, ...(along === "periodic" && { strategy: "shift" }) };
+    kase.change({ motion, output: { pressure_every: 1 } });
     await this.start(kase.tables);
   }
 
   async update() {
-    const isOld = this.outdated(this.app.kase.tables);
-    this.button.textContent = this.app.kase.moves ? "Run" : "Propose passes and run";
+    const { kase } = this.app;
+    const isOld = this.outdated(kase.tables);
+    this.button.hidden = kase.isCourse;
+    this.button.textContent = kase.moves ? "Run" : "Propose passes and run";
     if (isOld) this.again.hidden = true;
-    if (this.app.kase.moves) await this.check(this.app.kase.tables);
-    else this.checked.replaceChildren();
+    if (kase.moves) await this.check(kase.tables);
+    else this.checked.replaceChildren(kase.isCourse ? "This case has a course of its own, without passes. Press computes it." : "");
   }
 
   async stop() {

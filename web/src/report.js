@@ -51,7 +51,6 @@ export class ReportFrame {
   #swap(frame) {
     if (this.frame) this.frame.remove();
     this.frame = frame;
-    this.old = false;
     frame.classList.remove("coming");
     const { body } = frame.contentDocument;
     this.place.prepend(this.sections);

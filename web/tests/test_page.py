@@ -215,6 +215,42 @@ def test_area_over_load_is_drawn_while_it_is_computed(opened):
     assert opened.result("over-load").locator("#head .verdict").count() == 1
 
 
+def test_results_of_a_case_that_has_changed_meanwhile_are_faded(opened):
+    opened.at_once(False)
+    opened.tab.fill("#text", LONG.replace("32, 32", "512, 512").split("motion")[0])
+    opened.tab.click("#apply")
+    opened.said("#contact-check", "512 × 512 cells")
+    opened.tab.wait_for_selector("#contact-report.old iframe:not(.coming)")
+    opened.tab.click("#press")
+    opened.tab.wait_for_selector("#contact-stop:visible")
+    opened.set("contact.load", "60 mN")
+    opened.tab.wait_for_selector("#contact-stop", state="hidden", timeout=120_000)
+    opened.tab.wait_for_function("() => document.querySelector('#contact-report iframe:not(.coming)').contentDocument.querySelector('.verdict').innerText.includes('50 mN')")
+    assert opened.tab.locator("#contact-report.old").count() == 1
+    opened.set("contact.load", "0.05")
+    opened.result("contact")
+
+
+def test_proposed_passes_of_periodic_bodies_shift(opened):
+    opened.at_once(False)
+    opened.tab.fill("#text", LONG.replace("load = 0.05", 'load = 0.05, boundary = "periodic"').split("motion")[0])
+    opened.tab.click("#apply")
+    opened.said("#contact-check", "32 × 32 cells")
+    opened.tab.click("#run")
+    opened.result("motion")
+    assert 'strategy = "shift"' in opened.tab.input_value("#text")
+
+
+@pytest.mark.parametrize("name", ["seal", "viscoelastic", "friction"])
+def test_passes_are_not_proposed_for_a_course_without_them(opened, name):
+    opened.at_once(False)
+    opened.example(name)
+    opened.said("#motion-check", "Press computes it")
+    assert not opened.tab.is_visible("#run")
+    opened.example("quickstart")
+    opened.tab.wait_for_selector("#run")
+
+
 def test_a_stopped_run_keeps_its_passes_and_goes_on(opened):
     opened.at_once(False)
     opened.tab.fill("#text", LONG)
