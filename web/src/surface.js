@@ -96,8 +96,8 @@ class BodyView {
     Object.assign(this, { asked, version });
     try {
       if (topography.file !== undefined) await this.read(topography);
-      const shape = topography.window || topography.resample ? [] : topography.file === undefined ? whole.shape : this.scan.shape;
-      if (shape.length && shape[0] * shape[1] > MAX_CELLS) return this.refuse(shape);
+      const shape = topography.window || topography.resample ? null : topography.file === undefined ? whole.shape : this.scan.shape;
+      if (shape?.[0] * shape?.[1] > MAX_CELLS) return this.refuse(shape);
       const { about, map } = await this.app.desk.call("surface", whole);
       await unpack(map);
       if (asked !== this.asked) return this.about;

@@ -256,6 +256,10 @@ def legends_hide(tab):
     for expected in (before[0] - 1, before[0]):
         tab.evaluate(f"{view}.legend.querySelector('button').click()")
         assert (tab.evaluate(shown), tab.evaluate(csv_text)) == (expected, before[1])
+    # Without any curve the axes stay.
+    for expected in (0, before[0]):
+        tab.evaluate(f"{view}.legend.querySelectorAll('button').forEach((button) => button.click())")
+        assert (tab.evaluate(shown), tab.evaluate(f"Boolean({view}.plot.axes.length)")) == (expected, True)
 
 
 def is_accessible(tab, axe):

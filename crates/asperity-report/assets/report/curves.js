@@ -21,7 +21,8 @@ class ChartView {
   }
 
   show(chart) {
-    if (this.chart && (this.chart.title !== chart.title || this.chart.colours !== chart.colours)) this.hidden.clear();
+    const curves = ({ title, colours, series }) => [title, colours, series.length].join();
+    if (this.chart && curves(this.chart) !== curves(chart)) this.hidden.clear();
     this.chart = chart;
     this.explain();
     this.redraw();
@@ -61,8 +62,12 @@ class ChartView {
     if (this.plot) this.plot.destroy();
     const [ink, line] = [style("--ink"), style("--line")];
     const bounds = (s) => [s.y, s.low || [], s.high || []].map((all) => all.map((y) => plotted(y, axisOf(s))));
-    const place = chart.series.map((_, n) => n).filter((n) => !this.hidden.has(this.curve(n)));
-    const series = this.shown = place.map((n) => chart.series[n]);
+    const all = chart.series.map((_, n) => n);
+    const visible = all.filter((n) => !this.hidden.has(this.curve(n)));
+    this.shown = visible.map((n) => chart.series[n]);
+    // uPlot needs a series. Where all curves are hidden, their axes stay.
+    const place = visible.length ? visible : all;
+    const series = place.map((n) => chart.series[n]);
     const colour = (k) => this.colour(place[k]);
     const axisOf = (s) => (s.right ? chart.right : chart.y);
     const points = series.map((s) => [s.x.map((x) => plotted(x, chart.x)), s.y.map((y) => plotted(y, axisOf(s)))]);
@@ -91,7 +96,7 @@ class ChartView {
       axes: [axis("x", chart.x, 2), axis("y", chart.y, 3), ...(chart.right ? [axis("right", chart.right, 1)] : [])],
       series: [{}, ...series.map((s, n) => ({
         facets: [{ scale: "x", auto: true }, { scale: s.right ? "right" : "y", auto: true }],
-        stroke: colour(n), paths: (u) => { drawSeries(u, s, points[n], colour(n), chart); return null; },
+        stroke: colour(n), paths: (u) => { if (visible.length) drawSeries(u, s, points[n], colour(n), chart); return null; },
       }))],
       cursor: { points: { show: false }, drag: { x: true, y: false, setScale: false }, dataIdx: () => null },
       hooks: {
@@ -137,7 +142,7 @@ class ChartView {
   /** The point nearest to the cursor. */
   read(u, points) {
     const { left, top } = u.cursor;
-    if (left === undefined || left < 0) { this.readout.textContent = ""; return; }
+    if (this.shown.length === 0 || left === undefined || left < 0) { this.readout.textContent = ""; return; }
     let [nearest, best] = [Infinity, null];
     points.forEach(([xs, ys], n) => {
       const s = this.shown[n];
