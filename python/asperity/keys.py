@@ -73,12 +73,12 @@ class Friction(_RequiredFriction, total=False):
     creepages : sequence
         Several creepages, one after the other; list of at least one value, or a table. Without it: at most one of the
         six in the plane.
-    spin : float
-        Rolling only, in 1/m: angular velocity of the upper body relative to the lower one, over the rolling velocity,
-        about z through the middle of the grid, positive from +x towards +y; number. By default `0`.
     rolling_force : float, str or pair of them
         Steady rolling along x: force of the upper body on the lower one; force along x, or `[x, y]`. Without it: at
         most one of the six in the plane.
+    spin : float
+        Rolling only, in 1/m: angular velocity of the upper body relative to the lower one, over the rolling velocity,
+        about z through the middle of the grid, positive from +x towards +y; number. By default `0`.
     increments : int
         Equal steps in which load and tangential load grow from 0; whole number ≥ 1. By default `1`.
     """
@@ -91,8 +91,8 @@ class Friction(_RequiredFriction, total=False):
     sliding: Sequence[float]
     creepage: float | Sequence[float]
     creepages: Sequence[float | Sequence[float]]
-    spin: float
     rolling_force: Pair
+    spin: float
     increments: int
 
 
@@ -626,13 +626,13 @@ class Common(Capabilities, total=False):
     method: Annotated[Literal["auto", "direct", "polonsky-keer", "active-set"] | None, "contact",
         "Solver; all methods give the same result. By default `\"auto\"`."]
     device: Annotated[Literal["cpu", "cuda", "host"] | None, "contact",
-        "What solves the contact: `\"cpu\"`; `\"cuda\"`, a GPU of NVIDIA; `\"host\"`, the solver of the GPU in plain loops on the "
-        "processor, for comparison. By default `\"cpu\"`."]
+        "Device that solves the contact: `\"cpu\"`; `\"cuda\"`, a GPU of NVIDIA; `\"host\"`, the solver of the GPU in plain loops on "
+        "the processor, for comparison. By default `\"cpu\"`."]
     tolerance: Annotated[float | None, "contact",
         "Residual η at which the solver stops, see theory; number > 0, < 1. By default `1e-6`."]
     friction: Annotated[float | Friction | None, "",
         "Friction law and tangential loading: `coefficient`, `coupling`, `shear_strength`, `junction_growth`, `force`, "
-        "`displacement`, `sliding`, `creepage`, `creepages`, `spin`, `rolling_force`, `increments`; a number is its coefficient."]
+        "`displacement`, `sliding`, `creepage`, `creepages`, `rolling_force`, `spin`, `increments`; a number is its coefficient."]
     adhesion: Annotated[Adhesion | None, "",
         "Attraction between the bodies: `work`, `range`, `potential`, `history`."]
 

@@ -6,6 +6,7 @@
 
 use std::fmt;
 
+use crate::choice::choice;
 use crate::error::{Error, Result};
 use crate::units::{Dimension, Range};
 
@@ -73,6 +74,20 @@ pub enum Kind {
         value: &'static str,
     },
 }
+
+/// Spacing of several values between two ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spacing {
+    /// Equal ratios.
+    Log,
+    /// Equal steps.
+    Linear,
+}
+
+choice!(Spacing: "log" => Log, "linear" => Linear);
+
+/// The form of several values.
+pub const SEVERAL: &str = "list of at least one value, or a [table](#a-sweep)";
 
 /// The accepted numbers, in addition to the limits of [`Dimension::range`] and [`NUMBERS`](crate::units::NUMBERS).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -207,11 +222,17 @@ pub trait Value {
     /// As all methods.
     fn real(&self, key: &Key, kind: &Kind) -> Result<f64>;
 
-    /// Reads a count within the limits of its key.
+    /// Reads a count within the limits of its kind, which a key of [`Kind::Other`] does not have itself.
     ///
     /// # Errors
     /// As all methods.
-    fn count(&self, key: &Key) -> Result<usize>;
+    fn count(&self, key: &Key, kind: &Kind) -> Result<usize>;
+
+    /// Reads a whole number of at least `least`.
+    ///
+    /// # Errors
+    /// As all methods.
+    fn whole(&self, least: u64) -> Result<u64>;
 
     /// Reads true or false.
     ///
@@ -246,12 +267,12 @@ pub trait Value {
     /// As all methods.
     fn items(&self, expected: &str) -> Result<Vec<Box<dyn Value + '_>>>;
 
-    /// Reads a list of at least one number of a kind, or a table that gives it by `from`, `to` and `points`, in equal ratios unless it says
-    /// otherwise. `example` is one of them.
+    /// Reads a list of at least one number or vector of a kind, or a table that gives it by `from`, `to` and `points`, at a `spacing` unless
+    /// it says otherwise. `example` is one of them. A number is the first of two.
     ///
     /// # Errors
     /// As all methods.
-    fn several(&self, key: &Key, kind: &Kind, example: &str) -> Result<Vec<f64>>;
+    fn several(&self, key: &Key, kind: &Kind, spacing: Spacing, example: &str) -> Result<Vec<[f64; 2]>>;
 
     /// Returns a hint if `word` is similar to one of `words`.
     fn similar(&self, word: &str, words: &[&'static str]) -> Option<String>;
@@ -273,6 +294,22 @@ pub fn optional<T>(
     read: impl FnOnce(&dyn Value) -> Result<T>,
 ) -> Result<Option<T>> {
     source.value(key.name).map(|value| read(value.as_ref())).transpose()
+}
+
+/// Whether a source gives a key of a part.
+pub fn gives<P: Part>(source: &dyn Source) -> bool {
+    P::keys().iter().any(|key| source.value(key.name).is_some())
+}
+
+/// Returns an error if more than one of `keys` is given.
+///
+/// # Errors
+/// Several are given.
+pub fn at_most_one(source: &dyn Source, keys: &[&'static str], hint: &str) -> Result<()> {
+    match keys.iter().any(|key| source.value(key).is_some()) {
+        true => source.exactly_one(keys, hint).map(|_| ()),
+        false => Ok(()),
+    }
 }
 
 /// Returns an error at a key that is given, unless its value `holds` beside the others.
@@ -400,7 +437,7 @@ impl Section {
 
 impl Kind {
     /// Dimension of its numbers; none for pure numbers and for other values.
-    pub fn dimension(&self) -> Option<Dimension> {
+    pub const fn dimension(&self) -> Option<Dimension> {
         match self {
             Self::Quantity(dimension, _) => Some(*dimension),
             Self::Other { dimension, .. } => *dimension,

@@ -14,12 +14,23 @@ enum Accepts {
     Choice,
     Flag,
     Count(LitInt),
+    /// A whole number of any size.
+    Whole(LitInt),
     Number(LitStr),
     Quantity(Expr),
     /// Values of a special form, with their reader.
     Special(Path),
     /// The keys of another type.
     Part,
+}
+
+/// Two numbers along x and y.
+#[derive(Clone, Copy)]
+enum Two {
+    /// Both, or one for both axes.
+    Pair,
+    /// Both components, or the one along x.
+    Vector,
 }
 
 /// A field of a table.
@@ -30,8 +41,12 @@ pub(crate) struct Field<'a> {
     accepts: Accepts,
     range: Option<Expr>,
     most: Option<LitInt>,
-    /// Whether the value is a pair of numbers, or one for both axes.
-    is_pair: bool,
+    /// Two numbers in place of one.
+    two: Option<Two>,
+    /// Several numbers in place of one, with one of them as an example.
+    several: Option<LitStr>,
+    /// Spacing of several numbers that a table gives by its ends.
+    spacing: Option<Ident>,
     dimension: Option<Ident>,
     form: Option<LitStr>,
     default: Option<Expr>,
@@ -56,8 +71,9 @@ impl<'a> Field<'a> {
         of: &'a Type,
         absent: &LitStr,
     ) -> Result<Self> {
-        let field = Self::new(name, attributes, of)?;
-        Ok(Self { absent: Some(absent.clone()), ..field })
+        let mut field = Self::new(name, attributes, of)?;
+        field.absent.get_or_insert_with(|| absent.clone());
+        Ok(field)
     }
 
     fn new(name: Ident, attributes: &'a [Attribute], of: &'a Type) -> Result<Self> {
@@ -74,7 +90,9 @@ impl<'a> Field<'a> {
             accepts: Accepts::Part,
             range: None,
             most: None,
-            is_pair: false,
+            two: None,
+            several: None,
+            spacing: None,
             dimension: None,
             form: None,
             default: None,
@@ -92,10 +110,14 @@ impl<'a> Field<'a> {
                 "flag" => accepts = Some(Accepts::Flag),
                 "part" => accepts = Some(Accepts::Part),
                 "count" => accepts = Some(Accepts::Count(meta.value()?.parse()?)),
+                "whole" => accepts = Some(Accepts::Whole(meta.value()?.parse()?)),
                 "number" => accepts = Some(Accepts::Number(meta.value()?.parse()?)),
                 "quantity" => accepts = Some(Accepts::Quantity(meta.value()?.parse()?)),
                 "special" => accepts = Some(Accepts::Special(meta.value()?.parse()?)),
-                "pair" => field.is_pair = true,
+                "pair" => field.two = Some(Two::Pair),
+                "vector" => field.two = Some(Two::Vector),
+                "several" => field.several = Some(meta.value()?.parse()?),
+                "spacing" => field.spacing = Some(meta.value()?.parse()?),
                 "range" => field.range = Some(meta.value()?.parse()?),
                 "most" => field.most = Some(meta.value()?.parse()?),
                 "dimension" => field.dimension = Some(meta.value()?.parse()?),
@@ -180,7 +202,13 @@ impl<'a> Field<'a> {
     pub(crate) fn reader(&self, key: &TokenStream) -> TokenStream {
         let (name, of) = (&self.name, self.of);
         if self.part().is_some() {
-            return quote!(let #name = <#of as ::asperity_base::table::Part>::read(source)?;);
+            let read = quote!(<#of as ::asperity_base::table::Part>::read(source)?);
+            return match self.is_optional {
+                true => {
+                    quote!(let #name = if ::asperity_base::table::gives::<#of>(source) { Some(#read) } else { None };)
+                }
+                false => quote!(let #name = #read;),
+            };
         }
         let given = self.given(key);
         let read = match &self.default {
@@ -200,8 +228,19 @@ impl<'a> Field<'a> {
                     .map(|word| <#of as ::asperity_base::choice::Choice>::WORDS[word].1)
             },
             Accepts::Flag => quote!(value.flag()),
-            Accepts::Count(_) => quote!(value.count(#key)),
-            Accepts::Number(_) | Accepts::Quantity(_) if self.is_pair => quote!(value.pair(#key)),
+            Accepts::Count(_) => quote!(value.count(#key, &(#key).kind)),
+            Accepts::Whole(least) => quote!(value.whole(#least)),
+            Accepts::Number(_) | Accepts::Quantity(_) if self.several.is_some() => {
+                let (one, example, spacing) = (self.number(), &self.several, self.spacing());
+                let several = quote!(value.several(#key, &#one, #spacing, #example));
+                match self.two {
+                    Some(_) => several,
+                    None => {
+                        quote!(#several.map(|values| values.into_iter().map(|[value, _]| value).collect()))
+                    }
+                }
+            }
+            Accepts::Number(_) | Accepts::Quantity(_) if self.two.is_some() => quote!(value.pair(#key)),
             Accepts::Quantity(dimension) if self.form.is_some() => {
                 let bounds = self.bounds();
                 quote!(value.real(#key, &::asperity_base::table::Kind::Quantity(#dimension, #bounds)))
@@ -218,8 +257,11 @@ impl<'a> Field<'a> {
         let of = self.of;
         let one = match &self.accepts {
             Accepts::Part => quote!(<#of as ::asperity_base::table::Part>::check(value)?;),
-            Accepts::Count(_) => quote!(::asperity_base::table::check(#key, *value as f64)?;),
-            Accepts::Number(_) | Accepts::Quantity(_) if self.is_pair => {
+            Accepts::Count(_) | Accepts::Whole(_) => {
+                quote!(::asperity_base::table::check(#key, *value as f64)?;)
+            }
+            Accepts::Number(_) | Accepts::Quantity(_) if self.several.is_some() => return TokenStream::new(),
+            Accepts::Number(_) | Accepts::Quantity(_) if self.two.is_some() => {
                 quote!(for value in value { ::asperity_base::table::check(#key, *value)?; })
             }
             Accepts::Number(_) | Accepts::Quantity(_) => {
@@ -243,15 +285,17 @@ impl<'a> Field<'a> {
                 let most = self.most.as_ref().map_or(quote!(u64::MAX), |most| quote!(#most));
                 quote!(Count { least: #least, most: #most })
             }
-            (Accepts::Number(noun), _) => {
-                let bounds = self.bounds();
-                quote!(Number(#noun, #bounds))
+            (Accepts::Whole(least), _) => quote!(Count { least: #least, most: u64::MAX }),
+            (Accepts::Number(_) | Accepts::Quantity(_), form) if self.several.is_some() => {
+                let form = match form {
+                    Some(form) => quote!(#form),
+                    None => quote!(::asperity_base::table::SEVERAL),
+                };
+                let one = self.number();
+                quote!(Other { dimension: #one.dimension(), value: #form })
             }
             (Accepts::Quantity(_), Some(form)) => quote!(Other { dimension: None, value: #form }),
-            (Accepts::Quantity(dimension), None) => {
-                let bounds = self.bounds();
-                quote!(Quantity(::asperity_base::units::Dimension::#dimension, #bounds))
-            }
+            (Accepts::Number(_) | Accepts::Quantity(_), _) => return Ok(self.number()),
             (Accepts::Special(_), form) => {
                 let form = form.as_ref().ok_or_else(|| {
                     Error::new_spanned(&self.name, "a special value tells its form: `form`")
@@ -264,8 +308,31 @@ impl<'a> Field<'a> {
             }
             (Accepts::Part, _) => unreachable!("a part declares its own keys"),
         };
-        let kind = quote!(::asperity_base::table::Kind::#kind);
-        Ok(if self.is_pair { quote!(::asperity_base::table::Kind::Pair(&#kind)) } else { kind })
+        Ok(quote!(::asperity_base::table::Kind::#kind))
+    }
+
+    /// The kind of a number or a quantity, or of two.
+    fn number(&self) -> TokenStream {
+        let bounds = self.bounds();
+        let one = match &self.accepts {
+            Accepts::Number(noun) => quote!(::asperity_base::table::Kind::Number(#noun, #bounds)),
+            Accepts::Quantity(dimension) => quote! {
+                ::asperity_base::table::Kind::Quantity(::asperity_base::units::Dimension::#dimension, #bounds)
+            },
+            _ => unreachable!("no number"),
+        };
+        match self.two {
+            None => one,
+            Some(Two::Pair) => quote!(::asperity_base::table::Kind::Pair(&#one)),
+            Some(Two::Vector) => quote!(::asperity_base::table::Kind::Vector(&#one)),
+        }
+    }
+
+    fn spacing(&self) -> TokenStream {
+        match &self.spacing {
+            Some(spacing) => quote!(::asperity_base::table::Spacing::#spacing),
+            None => quote!(::asperity_base::table::Spacing::Log),
+        }
     }
 
     fn bounds(&self) -> TokenStream {

@@ -33,13 +33,16 @@ use syn::{DeriveInput, parse_macro_input};
 /// |---|---|
 /// | `choice` | one of the words of a `Choice` |
 /// | `flag` | true or false |
-/// | `count = 1` | a whole number of at least 1, and at most `most` |
+/// | `count = 1` | a number of things of at least 1, and at most `most` |
+/// | `whole = 0` | a whole number of at least 0 and of any size, a `u64` |
 /// | `number = "a share"` | a number, with its name in messages, within a `range` |
 /// | `quantity = Length` | a quantity of this `Dimension`, within a `range` |
 /// | … and `pair` | one of these for both axes, or two |
+/// | … and `vector` | its component along x, or those along x and y |
+/// | … and `several = "\"1 N\""` | a list of these, with an example of one, or a table of its ends; `spacing = Linear` for equal steps |
 /// | `quantity = kind.drop(), form = "…"` | one whose dimension depends on the fields above, as the documentation describes it |
 /// | `special = reader, form = "…"` | values that a function reads, of a `dimension`, if any |
-/// | `part` | the keys of a type that derives [`derive@Part`] |
+/// | `part` | the keys of a type that derives [`derive@Part`]; an `Option` of it is `None` if none of them is given |
 ///
 /// `range` is a variant of `Bounds`. A field that is an `Option` is `None` without the key. Any other field has a `default`, or its key must
 /// be given. A default is an expression as a case file writes it; `written = "\"5 nm\""` writes it with a unit. The `written` value of an

@@ -133,7 +133,7 @@ pub fn run_on_ranks(
     let first = ranks.rank() == 0;
     let writer = first.then(|| Writer::enter(directory, &resolved, existing)).transpose()?;
     check_same_directory(&**ranks, directory)?;
-    let control = case.contact.prescribed.control(slab.whole_grid().area());
+    let control = case.contact.prescribed().control(slab.whole_grid().area());
     let contact = press_slab(&pair, &slab, case.contact.boundary, control, &params(case))?;
     if let Some(writer) = &writer {
         writer.begin()?;
@@ -206,7 +206,7 @@ fn check(case: &Case) -> Result<()> {
         ("plasticity", case.plasticity.is_some()),
         ("subsurface", case.subsurface.is_some()),
         ("output.paraview", case.output.paraview),
-        ("contact.sweep", !case.contact.sweep.is_empty()),
+        ("contact.sweep", !case.contact.sweep().is_empty()),
         ("contact.method", matches!(case.contact.method, Method::Direct | Method::PolonskyKeer)),
         ("contact.device", case.contact.device != Device::Cpu),
     ];

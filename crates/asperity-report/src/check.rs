@@ -8,7 +8,7 @@ use asperity_contact::motion::{LoadControl, OffsetY, Path, PlasticUpdate, Point,
 use asperity_contact::solver::{Control, Creep, Friction, Rolling, Tangential};
 use asperity_contact::with::{BodyLaw, Capability, Listed};
 use asperity_contact::{each_capability, each_law};
-use asperity_study::case::{Body, Boundary, CounterBody, LoadingPath, Mount, Side, StrategyKind};
+use asperity_study::case::{Body, Boundary, CounterBody, LoadingPath, Mount, Side};
 use asperity_study::{Bodies, Case, Demand, Estimate, MountedSurface, Plan};
 
 use crate::words::closed_form;
@@ -133,7 +133,7 @@ fn contact(case: &Case, estimate: &Estimate) -> String {
     };
     let method = case.contact.method.word();
     let mut text = match &estimate.loading_path {
-        Some(LoadingPath::Sweep(points)) if !case.contact.sweep.is_empty() => swept(points),
+        Some(LoadingPath::Sweep(points)) if !case.contact.sweep().is_empty() => swept(points),
         _ => control,
     };
     if let (Control::Load(load), true) = (estimate.control, estimate.plastic_limit.is_finite()) {
@@ -142,7 +142,7 @@ fn contact(case: &Case, estimate: &Estimate) -> String {
     }
     if let Control::Load(load) = estimate.control {
         let mean = units::format(load / estimate.mean_facing_area, Dimension::Pressure);
-        let at_most = if !case.contact.sweep.is_empty() { " at most" } else { "" };
+        let at_most = if !case.contact.sweep().is_empty() { " at most" } else { "" };
         let _ = write!(text, ", nominal pressure {mean}{at_most}");
     }
     let _ = write!(text, ", {boundary}, method {method}, tolerance {:e}", case.contact.tolerance);
@@ -182,7 +182,7 @@ fn motion(case: &Case, estimate: &Estimate) -> String {
             _ => "none: one static contact".to_owned(),
         };
     };
-    let strategy = StrategyKind::from(&motion.strategy).word();
+    let strategy = motion.strategy.word();
     let update = match motion.plastic_update {
         PlasticUpdate::Pass => "after each pass",
         PlasticUpdate::Step => "at each position",
@@ -196,7 +196,7 @@ fn motion(case: &Case, estimate: &Estimate) -> String {
     if motion.path != Path::OneWay {
         let _ = write!(text, ", {}", motion.path.word());
     }
-    match motion.offset_y {
+    match motion.offset_y() {
         OffsetY::NONE => {}
         OffsetY::Cells(cells) => {
             let _ = write!(text, ", {} further along y in each pass", plural(cells, "cell", "cells"));

@@ -92,7 +92,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     let column = lower_grid.shape[1] as f64 * lower_grid.cell_area();
     let column_area = |columns: usize| columns as f64 * column;
     let apparent_area = facing as f64 * column;
-    let control = case.contact.prescribed.control(apparent_area);
+    let control = case.contact.prescribed().control(apparent_area);
     let load_control = case.motion(apparent_area).map_or(LoadControl::Step, |motion| motion.load_control);
     let [lower_hardness, upper_hardness] = [&bodies.lower.hardness, &bodies.upper.hardness];
     let hardness = lower_hardness.min().min(upper_hardness.min());
@@ -125,7 +125,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     check_limit(control, plastic_limit)?;
     let compliances = Compliances::new(lower, upper)?;
     if let (Some(law), Some(loading_path)) = (law, &loading_path) {
-        holds(law, loading_path, case.contact.prescribed.control(apparent_area), apparent_area)?;
+        holds(law, loading_path, case.contact.prescribed().control(apparent_area), apparent_area)?;
     }
     let slopes = [&bodies.lower, &bodies.upper].map(|body| body.topography.sdq());
     let mut estimate = Estimate {
@@ -208,7 +208,7 @@ pub(super) fn check_plastic_limit(case: &Case, grids: [Grid; 2]) -> Result<()> {
     let bearable: Vec<Newton> =
         positions.iter().map(|position| cap * position.columns as f64 * column).collect();
     let load_control = motion.map_or(LoadControl::Step, |motion| motion.load_control);
-    check_limit(case.contact.prescribed.control(apparent_area), load_control.plastic_limit(&bearable))
+    check_limit(case.contact.prescribed().control(apparent_area), load_control.plastic_limit(&bearable))
 }
 
 /// Largest pressure on cells of a hardness, reduced by the shear of sliding bodies.
@@ -331,7 +331,7 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
         {
             tilted(name, body, &mut warnings);
         }
-        let shifts = matches!(case.motion, Some(motion) if motion.strategy != Strategy::Overlap);
+        let shifts = matches!(case.motion, Some(motion) if motion.strategy() != Strategy::Overlap);
         let wraps = [0, 1].map(|axis| case.contact.boundary.repeats(axis) || (shifts && axis == 0));
         torn(name, body, wraps, &mut warnings);
     }

@@ -170,7 +170,7 @@ pub fn bodies_until(case: &Case, mut given: SurfaceInput, stop: Stop<'_>) -> Res
 
 /// Axes along which both bodies have the same number of cells: an overlap joins bodies of any length.
 fn shared_axes(case: &Case) -> &'static [usize] {
-    let overlap = matches!(case.motion, Some(motion) if motion.strategy == Strategy::Overlap);
+    let overlap = matches!(case.motion, Some(motion) if motion.strategy() == Strategy::Overlap);
     if overlap { &[1] } else { &[1, 0] }
 }
 

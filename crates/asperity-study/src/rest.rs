@@ -134,7 +134,7 @@ pub(super) fn solve(
 ) -> Result<StaticResult> {
     let apparent_area = estimate.apparent_area;
     let law = case.friction.as_ref().map(|friction| &friction.law);
-    let control = case.contact.prescribed.control(apparent_area);
+    let control = case.contact.prescribed().control(apparent_area);
     let extent = pair.lower_grid().extent();
     let contact = StaticProblem { case, pair, estimate, law, control, params: params(case), writer, watch };
     if let Some(slide) = case.slide(apparent_area) {

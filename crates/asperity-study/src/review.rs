@@ -326,7 +326,7 @@ fn at_the_rim(
 ) -> Option<String> {
     /// Limit as a multiple of the volume per area of the interior.
     const DENSER: f64 = 2.0;
-    let strategy = case.motion?.strategy;
+    let strategy = case.motion?.strategy();
     let interiors = Interior::of_bodies(shapes, case.contact.boundary, strategy, case.output.rim);
     let [mut all, mut rim, mut of_area] = [0.0; 3];
     for body in 0..2 {

@@ -218,7 +218,7 @@ pub(super) fn estimate(
 
 /// Returns reasons not to trust a stage that takes its time in few steps.
 fn coarse(stage: &StageSpec) -> impl Iterator<Item = String> {
-    let steps = stage.increments;
+    let steps = stage.steps();
     let times = [("duration", stage.duration), ("dwell", stage.dwell), ("period", stage.period)];
     times.into_iter().filter(move |_| steps < STEPS).filter_map(move |(key, time)| {
         Some(format!(

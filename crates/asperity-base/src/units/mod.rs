@@ -1,8 +1,10 @@
 //! SI quantities: type aliases for signatures, and reading and writing with a unit.
 
+mod infinite;
 mod quantity;
 mod range;
 
+pub use infinite::or_inf;
 pub use quantity::{
     CELSIUS, Dimension, Multiple, UnitError, format, format_digits, format_distinct, format_number,
     format_number_digits, format_within, parse,

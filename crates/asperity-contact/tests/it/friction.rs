@@ -276,7 +276,7 @@ fn more_force_than_friction_holds_is_an_error_with_the_limit() {
     }
     let nearly = solve([0.299, 0.398], 0.25).unwrap();
     assert!(nearly.stick.sum() < 0.2 * nearly.normal.contact_cells() as f64);
-    assert!(matches!(solve([0.0; 2], -0.1), Err(Error::OutOfRange { quantity: "friction coefficient", .. })));
+    assert!(matches!(solve([0.0; 2], -0.1), Err(Error::OutOfRange { quantity: "coefficient", .. })));
     assert!(matches!(
         solve([f64::NAN, 0.0], 0.1),
         Err(Error::OutOfRange { quantity: "tangential force", .. })

@@ -45,10 +45,10 @@ pub(super) fn loads_in_words(points: &[SweepRecord]) -> String {
 
 /// All curves of a sweep of at least one point.
 pub(crate) fn curves(points: &[SweepRecord], case: &Case) -> Vec<Curves> {
-    if let Some(friction) = case.friction.as_ref().filter(|friction| !friction.creepages.is_empty()) {
+    if let Some(friction) = case.friction.as_ref().filter(|friction| friction.sweeps()) {
         return vec![traction(points, &friction.law)];
     }
-    let (column, x): (_, Number) = match case.contact.prescribed {
+    let (column, x): (_, Number) = match case.contact.prescribed() {
         _ if case.steady.is_some() => ("speed", |point| point.steady.map_or(f64::NAN, |steady| steady.speed)),
         Prescribed::Load(_) => ("load", |point| point.load),
         Prescribed::MeanPressure(_) => ("mean_pressure", |point| point.mean_pressure),

@@ -173,7 +173,7 @@ fn of_motion(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) ->
     let count = groups.len();
     data["contact"] = shown(&frames, groups);
     data["contact"]["wraps"] =
-        found.case.motion.is_some_and(|motion| motion.strategy != Strategy::Overlap).into();
+        found.case.motion.is_some_and(|motion| motion.strategy() != Strategy::Overlap).into();
     let mut html = SCRUBBER.to_owned() + &remark;
     if count < last || positions.len() < kept.len() {
         html += &format!(

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use asperity_base::units::{Dimension, bytes, format, format_time};
 use asperity_study::Outcome;
-use asperity_study::case::Prescribed;
+use asperity_study::case::{Prescribed, StageSpec};
 use asperity_study::io::fs;
 use serde_json::Value;
 
@@ -31,8 +31,8 @@ pub(super) fn section(found: &PageData) -> String {
     }
     let reached = found.passes.last().map(|pass| pass.mean_load).or(at_rest.map(|record| record.load));
     // The last stage that prescribes a load or an approach decides.
-    let last = found.case.history.iter().rev().find_map(|stage| stage.normal);
-    let prescribed = last.unwrap_or(found.case.contact.prescribed);
+    let last = found.case.history.iter().rev().find_map(StageSpec::normal);
+    let prescribed = last.unwrap_or(found.case.contact.prescribed());
     if let (Prescribed::Load(wanted), Some(reached)) = (prescribed, reached) {
         let off = (reached - wanted).abs() / if wanted == 0.0 { 1.0 } else { wanted.abs() };
         let [wanted, reached] = [wanted, reached].map(|load| format(load, Dimension::Force));

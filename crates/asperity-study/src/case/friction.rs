@@ -1,78 +1,161 @@
 //! `[friction]` and `[[history]]`: friction, and the loading history of a static contact.
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
-use super::cursor::{Entry, Table};
-use super::prescribed::{Prescribed, of_stage};
-use super::schema::loading::{friction as keys, history};
-use super::schema::tables::known_in;
-use super::{Case, Number};
+use super::Case;
+use super::prescribed::Prescribed;
 use asperity_base::error::Result;
-use asperity_base::units::{Second, SquareMetre};
+use asperity_base::exists;
+use asperity_base::table::{Bounds, Exists, Key, Kind, Source, Value, at_most_one, two};
+use asperity_base::units::{Metre, Newton, Pascal, Second, SquareMetre};
 use asperity_contact::motion::{Cycles, Point, Stage, StageTime};
-use asperity_contact::solver::{Coupling, Creep, Friction, Loading, Rolling, Tangential};
+use asperity_contact::solver::{Creep, Friction, Loading, Rolling, Tangential};
+use asperity_derive::{Part, Table};
 
 /// Friction, and the tangential loading.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Table, Debug, Clone, PartialEq, Serialize)]
+#[table("friction")]
 #[non_exhaustive]
 pub struct FrictionSpec {
     /// The law.
-    #[serde(flatten, serialize_with = "with_infinities")]
+    #[key(part)]
+    #[serde(flatten)]
     pub law: Friction,
-    /// Prescribed tangential loading of a static contact; no force if neither it nor `creepages` is given.
+    /// Prescribed tangential loading of a static contact; no force if absent.
+    #[key(part)]
     #[serde(flatten)]
     pub prescribed: Option<InPlane>,
-    /// Creepages of a rolling contact in a sweep, each on virgin bodies; empty without a sweep.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub creepages: Vec<[f64; 2]>,
-    /// Spin of a rolling contact, 1/m; 0 for any other contact.
+    /// Rolling only, in 1/m: angular velocity of the upper body relative to the lower one, over the rolling velocity, about z through the middle
+    /// of the grid, positive from +x towards +y.
+    #[key(number = "a number, in 1/m", default = 0.0, written = "0", example = "25")]
     #[serde(skip_serializing_if = "is_zero")]
     pub spin: f64,
-    /// Number of equal loading steps of a static contact, ≥ 1; 1 for a rolling contact and a motion.
+    /// Equal steps in which load and tangential load grow from 0.
+    ///
+    /// 1 for a rolling contact and a motion.
+    #[key(count = 1, default = 1, example = "20")]
     #[serde(skip_serializing_if = "is_one")]
     pub increments: usize,
 }
 
 /// Prescribed tangential loading, along x and y.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Part, Debug, Clone, PartialEq, Serialize)]
+#[part(absent = "at most one of the six in the plane", hint = "give one of them, or none")]
 #[serde(rename_all = "snake_case")]
 pub enum InPlane {
     /// Force of the upper body on the lower one.
-    Force([f64; 2]),
+    #[key(quantity = Force, vector, absent = "0", example = "\"0.1 N\"", exists = exists::LOAD)]
+    Force([Newton; 2]),
     /// Displacement of the upper body relative to the lower one.
-    Displacement([f64; 2]),
-    /// Sliding of the upper body in this direction, a unit vector.
+    #[key(quantity = Length, vector, example = "\"0.1 um\"", exists = exists::LENGTH)]
+    Displacement([Metre; 2]),
+    /// Sliding direction of the upper body; every cell slips.
+    ///
+    /// A unit vector.
+    #[key(special = direction, form = "`[x, y]` of any length", example = "[1, 0]")]
     Sliding([f64; 2]),
-    /// Rolling along x, with the velocity of the upper body relative to the lower one over the rolling velocity.
+    /// Steady rolling along x: velocity of the upper body relative to the lower one, over the rolling velocity.
+    #[key(number = "a finite number", vector, example = "0.001")]
     Creepage([f64; 2]),
-    /// Rolling along x, with the force of the upper body on the lower one.
-    RollingForce([f64; 2]),
+    /// Several creepages, one after the other.
+    ///
+    /// A sweep, each on virgin bodies.
+    #[key(number = "a finite number", vector, several = "[0.001, 0]", spacing = Linear, example = "[0.001]")]
+    Creepages(Vec<[f64; 2]>),
+    /// Steady rolling along x: force of the upper body on the lower one.
+    #[key(quantity = Force, vector, example = "\"0.1 N\"", exists = exists::LOAD)]
+    RollingForce([Newton; 2]),
+}
+
+/// A direction in the plane, as a unit vector.
+fn direction(value: &dyn Value, key: &Key) -> Result<[f64; 2]> {
+    const EXPECTED: &str = "a direction such as [1, 0]";
+    const COMPONENT: Kind = Kind::Number("a finite number", Bounds::Any);
+    let [x, y] = match value.is_array() {
+        true => two(value, EXPECTED, |item| item.real(key, &COMPONENT))?,
+        false => [value.real(key, &COMPONENT)?, 0.0],
+    };
+    let length = x.hypot(y);
+    if length == 0.0 { Err(value.unexpected(EXPECTED, None)) } else { Ok([x / length, y / length]) }
 }
 
 /// A further stage of the loading. Quantities not given stay as they are.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Table, Debug, Clone, Copy, PartialEq, Serialize)]
+#[table("history", check = at_most_one_of_each)]
 #[non_exhaustive]
 pub struct StageSpec {
-    /// Prescribed load, mean pressure or approach.
-    #[serde(flatten)]
-    pub normal: Option<Prescribed>,
-    /// Prescribed tangential loading: force, displacement or sliding.
-    #[serde(flatten)]
-    pub in_plane: Option<InPlane>,
-    /// Number of equal steps, ≥ 1; in a cycle of each way.
-    pub increments: usize,
-    /// Number of cycles, in each of which the loading goes there and comes back, ≥ 1; `None` if it goes there once.
+    /// As in \[contact\]; at most one of the three; with \[adhesion\] it may be 0 or pull, below 0.
+    #[key(quantity = Force, absent = "unchanged", example = "\"2 N\"", exists = exists::LOAD)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load: Option<Newton>,
+    /// As in \[contact\]; at most one of the three; with \[adhesion\] it may be 0 or pull, below 0.
+    #[key(quantity = Pressure, absent = "unchanged", example = "\"1 MPa\"", exists = exists::LOAD)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean_pressure: Option<Pascal>,
+    /// As in \[contact\]; at most one of the three.
+    #[key(quantity = Length, absent = "unchanged", example = "\"10 nm\"", exists = exists::LENGTH)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub approach: Option<Metre>,
+    /// As in \[friction\], which it requires; at most one of the three.
+    #[key(quantity = Force, vector, absent = "unchanged", example = "\"0.1 N\"", exists = exists::LOAD)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force: Option<[Newton; 2]>,
+    /// As in \[friction\], which it requires; at most one of the three.
+    #[key(quantity = Length, vector, absent = "unchanged", example = "\"0.1 um\"", exists = exists::LENGTH)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub displacement: Option<[Metre; 2]>,
+    /// As in \[friction\], which it requires; at most one of the three.
+    #[key(special = direction, form = "`[x, y]` of any length", absent = "unchanged", example = "[1, 0]")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sliding: Option<[f64; 2]>,
+    /// Equal steps from the end of the previous stage; in a cycle of each way.
+    ///
+    /// Always there in a case.
+    #[key(
+        count = 1,
+        absent = "1; with a `duration` or a `dwell` 16; for elasto-plastic bodies the number in [plasticity]",
+        example = "10"
+    )]
+    pub increments: Option<usize>,
+    /// Number of cycles, in each of which the loading goes there and comes back.
+    #[key(count = 1, absent = "none: the loading goes there once", example = "10000")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cycles: Option<usize>,
-    /// Time of a cycle, > 0; unknown if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub period: Option<Second>,
-    /// Time in which the loading goes there, > 0; at once if absent.
+    /// Time in which the loading goes there, in equal steps, for viscoelastic bodies.
+    #[key(
+        quantity = Time,
+        range = AboveZero,
+        absent = "none: at once",
+        example = "\"0.1 s\"",
+        exists = Exists::Any("a stage of any time")
+    )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub duration: Option<Second>,
-    /// Time for which the loading then stays, > 0.
+    /// Time for which the loading then stays, in `increments` steps that grow, for viscoelastic bodies.
+    #[key(
+        quantity = Time,
+        range = AboveZero,
+        absent = "none",
+        example = "\"10 s\"",
+        exists = Exists::Any("a dwell of any time")
+    )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dwell: Option<Second>,
+    /// Time of a cycle, for films that grow and for viscoelastic bodies.
+    #[key(
+        quantity = Time,
+        range = AboveZero,
+        absent = "unknown",
+        example = "\"50 ms\"",
+        exists = Exists::Any("a cycle of any time")
+    )]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub period: Option<Second>,
+}
+
+fn at_most_one_of_each(_: &StageSpec, source: &dyn Source) -> Result<()> {
+    at_most_one(source, &["force", "displacement", "sliding"], "give one of them, or none")?;
+    at_most_one(source, &["load", "mean_pressure", "approach"], "for example `load = \"2 N\"`")
 }
 
 /// Loading path of a static contact: the sequence of prescribed states.
@@ -97,11 +180,79 @@ impl FrictionSpec {
         self.law.shear_limit(1.0).is_finite()
     }
 
-    /// Returns the rolling states: one for each of `creepages`, or a single one.
+    /// Whether it takes several creepages, one after the other.
+    pub fn sweeps(&self) -> bool {
+        matches!(self.prescribed, Some(InPlane::Creepages(_)))
+    }
+
+    /// Returns the rolling states: one for each of several creepages, or a single one.
     fn rolling(&self) -> impl Iterator<Item = Rolling> + '_ {
-        let one = self.prescribed.and_then(InPlane::creep);
-        let creeps = self.creepages.iter().copied().map(Creep::Creepage).chain(one);
+        let creeps = self.prescribed.iter().flat_map(InPlane::creeps);
         creeps.map(|creep| Rolling { creep, spin: self.spin })
+    }
+}
+
+impl StageSpec {
+    /// Default number of steps in a time, with which pressures are within some per cent.
+    const STEPS_IN_TIME: usize = 16;
+
+    /// Returns the normal loading, if it changes.
+    pub fn normal(&self) -> Option<Prescribed> {
+        let load = self.load.map(Prescribed::Load);
+        load.or(self.mean_pressure.map(Prescribed::MeanPressure)).or(self.approach.map(Prescribed::Approach))
+    }
+
+    /// Returns the tangential loading, if it changes.
+    pub fn tangential(&self) -> Option<Tangential> {
+        let force = self.force.map(Tangential::Force);
+        force.or(self.displacement.map(Tangential::Displacement)).or(self.sliding.map(Tangential::Sliding))
+    }
+
+    /// Returns the number of equal steps; in a cycle of each way.
+    pub fn steps(&self) -> usize {
+        self.increments.unwrap_or(1)
+    }
+
+    /// Whether the loading goes anywhere.
+    fn goes(&self) -> bool {
+        self.normal().is_some() || self.tangential().is_some()
+    }
+
+    /// Returns the stage with its number of steps, which is `steps` for one that takes no time and does not name it.
+    ///
+    /// # Errors
+    /// A hint, if it names nothing that changes; `keys` are examples of what it might.
+    pub(super) fn resolved(self, steps: usize, keys: &str) -> std::result::Result<Self, String> {
+        let takes_time = self.duration.is_some() || self.dwell.is_some();
+        let default = if takes_time { Self::STEPS_IN_TIME } else { steps };
+        match self.duration {
+            _ if self.goes() || self.dwell.is_some() => {
+                Ok(Self { increments: self.increments.or(Some(default)), ..self })
+            }
+            Some(_) => Err(format!(
+                "give {keys}, to which it goes in the `duration`; a `dwell` is the time for which it stays"
+            )),
+            None => Err(format!("give {keys}; what a stage does not name stays")),
+        }
+    }
+
+    /// Returns the stages of the library after a `loading`, which they change.
+    fn stages(&self, loading: &mut Loading, apparent_area: SquareMetre) -> impl Iterator<Item = Stage> {
+        if let Some(normal) = self.normal() {
+            loading.normal = normal.control(apparent_area);
+        }
+        if let Some(tangential) = self.tangential() {
+            loading.tangential = tangential;
+        }
+        let loading = *loading;
+        let cycles = self.cycles.map(|count| Cycles { count, period: self.period });
+        let time = self.duration.map_or(StageTime::Sudden, StageTime::Even);
+        // Steps that take no time change a viscoelastic contact at once.
+        let steps = if self.dwell.is_some() && self.duration.is_none() { 1 } else { self.steps() };
+        // A stage that only dwells goes nowhere.
+        let goes = self.goes().then(|| Stage::new(loading, steps).with_cycles(cycles).within(time));
+        let stays = self.dwell.map(|time| Stage::new(loading, self.steps()).within(StageTime::Growing(time)));
+        goes.into_iter().chain(stays)
     }
 }
 
@@ -129,8 +280,8 @@ impl Case {
         }
         let friction = self.friction.as_ref();
         let mut rolling = friction.into_iter().flat_map(FrictionSpec::rolling);
-        let normal = self.contact.prescribed.control(apparent_area);
-        if friction.is_some_and(|friction| !friction.creepages.is_empty()) {
+        let normal = self.contact.prescribed().control(apparent_area);
+        if friction.is_some_and(FrictionSpec::sweeps) {
             let point = |rolling| Point { control: normal, rolling: Some(rolling), speed: None };
             return Some(LoadingPath::Sweep(rolling.map(point).collect()));
         }
@@ -139,43 +290,25 @@ impl Case {
             return Some(LoadingPath::Sweep(steady.all().into_iter().map(point).collect()));
         }
         let rolling = rolling.next();
-        if !self.contact.sweep.is_empty() {
+        let sweep = self.contact.sweep();
+        if !sweep.is_empty() {
             let point = |prescribed: &Prescribed| Point {
                 control: prescribed.control(apparent_area),
                 rolling,
                 speed: None,
             };
-            return Some(LoadingPath::Sweep(self.contact.sweep.iter().map(point).collect()));
+            return Some(LoadingPath::Sweep(sweep.iter().map(point).collect()));
         }
         if let Some(rolling) = rolling {
             return Some(LoadingPath::Rolling(rolling));
         }
-        let tangential = friction.and_then(|friction| friction.prescribed).and_then(InPlane::tangential);
+        let tangential = friction.and_then(|friction| friction.prescribed.as_ref()?.tangential());
         let mut loading = Loading { normal, tangential: tangential.unwrap_or(Tangential::Force([0.0; 2])) };
         let flowing = self.plasticity.and_then(|plasticity| plasticity.increments).unwrap_or(1);
         let increments = friction.map_or(flowing, |friction| friction.increments);
         let mut stages = vec![Stage::new(loading, increments)];
         for stage in &self.history {
-            if let Some(normal) = stage.normal {
-                loading.normal = normal.control(apparent_area);
-            }
-            if let Some(tangential) = stage.in_plane.and_then(InPlane::tangential) {
-                loading.tangential = tangential;
-            }
-            let cycles = stage.cycles.map(|count| Cycles { count, period: stage.period });
-            let time = stage.duration.map_or(StageTime::Sudden, StageTime::Even);
-            // A stage that only dwells goes nowhere.
-            if stage.normal.is_some() || stage.in_plane.is_some() {
-                // Steps that take no time change a viscoelastic contact at once.
-                let increments =
-                    if stage.dwell.is_some() && stage.duration.is_none() { 1 } else { stage.increments };
-                stages.push(Stage::new(loading, increments).with_cycles(cycles).within(time));
-            }
-            stages.extend(
-                stage
-                    .dwell
-                    .map(|time| Stage::new(loading, stage.increments).within(StageTime::Growing(time))),
-            );
+            stages.extend(stage.stages(&mut loading, apparent_area));
         }
         Some(LoadingPath::Stages(stages))
     }
@@ -188,101 +321,24 @@ impl Case {
 
 impl InPlane {
     /// Returns the tangential loading of bodies that do not roll.
-    fn tangential(self) -> Option<Tangential> {
-        match self {
+    fn tangential(&self) -> Option<Tangential> {
+        match *self {
             Self::Force(force) => Some(Tangential::Force(force)),
             Self::Displacement(shift) => Some(Tangential::Displacement(shift)),
             Self::Sliding(direction) => Some(Tangential::Sliding(direction)),
-            Self::Creepage(_) | Self::RollingForce(_) => None,
+            Self::Creepage(_) | Self::Creepages(_) | Self::RollingForce(_) => None,
         }
     }
 
-    /// Returns the tangential loading of rolling bodies.
-    fn creep(self) -> Option<Creep> {
+    /// Returns the tangential loadings of rolling bodies.
+    fn creeps(&self) -> Vec<Creep> {
         match self {
-            Self::Creepage(creepage) => Some(Creep::Creepage(creepage)),
-            Self::RollingForce(force) => Some(Creep::Force(force)),
-            Self::Force(_) | Self::Displacement(_) | Self::Sliding(_) => None,
+            Self::Creepage(creepage) => vec![Creep::Creepage(*creepage)],
+            Self::Creepages(several) => several.iter().copied().map(Creep::Creepage).collect(),
+            Self::RollingForce(force) => vec![Creep::Force(*force)],
+            Self::Force(_) | Self::Displacement(_) | Self::Sliding(_) => Vec::new(),
         }
     }
-}
-
-/// Keys of the tangential loading of a static contact.
-pub(super) const IN_PLANE: [&str; 6] =
-    ["force", "displacement", "sliding", "creepage", "creepages", "rolling_force"];
-/// Keys that a stage may change: normal, then tangential.
-const STAGE: [&str; 6] = ["load", "mean_pressure", "approach", "force", "displacement", "sliding"];
-/// Default number of steps in a time, with which pressures are within some per cent.
-const STEPS_IN_TIME: usize = 16;
-
-pub(super) fn friction(table: &Table<'_>) -> Result<FrictionSpec> {
-    known_in(table)?;
-    at_most_one(table, &IN_PLANE)?;
-    Ok(FrictionSpec {
-        law: Friction {
-            coefficient: keys::COEFFICIENT.of(table)?,
-            shear_strength: keys::SHEAR_STRENGTH.of(table)?,
-            junction_growth: keys::JUNCTION_GROWTH.of(table)?,
-            coupling: keys::COUPLING.of(table)?,
-        },
-        prescribed: in_plane(table)?,
-        creepages: keys::CREEPAGES.of(table)?.unwrap_or_default(),
-        spin: keys::SPIN.of(table)?,
-        increments: keys::INCREMENTS.of(table)?,
-    })
-}
-
-/// Returns the stages after the first; by default each that takes no time has `steps` steps.
-pub(super) fn stages(
-    entry: &Entry<'_>,
-    friction: Option<&FrictionSpec>,
-    steps: usize,
-) -> Result<Vec<StageSpec>> {
-    let (normal, plane) = STAGE.split_at(3);
-    let stage = |table: &Table<'_>| {
-        known_in(table)?;
-        let gives = |keys: &[&str]| keys.iter().any(|key| table.get(key).is_some());
-        if !gives(&STAGE) && !gives(&["dwell"]) {
-            let keys = if friction.is_some() { "'load', 'force' or another" } else { "'load' or another" };
-            let hint = match gives(&["duration"]) {
-                true => format!(
-                    "give {keys}, to which it goes in the `duration`; a `dwell` is the time for which it stays"
-                ),
-                false => format!("give {keys}; what a stage does not name stays"),
-            };
-            return Err(table.error("[[history]] names nothing that changes".to_owned(), Some(hint)));
-        }
-        at_most_one(table, plane)?;
-        let default = if gives(&["duration", "dwell"]) { STEPS_IN_TIME } else { steps };
-        Ok(StageSpec {
-            normal: gives(normal).then(|| of_stage(table)).transpose()?,
-            in_plane: in_plane(table)?,
-            increments: history::INCREMENTS.of(table)?.unwrap_or(default),
-            cycles: history::CYCLES.of(table)?,
-            period: history::PERIOD.of(table)?,
-            duration: history::DURATION.of(table)?,
-            dwell: history::DWELL.of(table)?,
-        })
-    };
-    entry.tables()?.iter().map(stage).collect()
-}
-
-/// Returns an error if more than one of `keys` is given.
-fn at_most_one(table: &Table<'_>, keys: &[&'static str]) -> Result<()> {
-    match keys.iter().any(|key| table.get(key).is_some()) {
-        true => table.exactly_one(keys, "give one of them, or none").map(|_| ()),
-        false => Ok(()),
-    }
-}
-
-/// Reads the tangential loading of [friction] or of a stage, at most one key of which is given.
-fn in_plane(table: &Table<'_>) -> Result<Option<InPlane>> {
-    let force = keys::FORCE.of(table)?.map(InPlane::Force);
-    let displacement = keys::DISPLACEMENT.of(table)?.map(InPlane::Displacement);
-    let sliding = keys::SLIDING.of(table)?.map(InPlane::Sliding);
-    let creepage = keys::CREEPAGE.of(table)?.map(InPlane::Creepage);
-    let rolling_force = keys::ROLLING_FORCE.of(table)?.map(InPlane::RollingForce);
-    Ok(force.or(displacement).or(sliding).or(creepage).or(rolling_force))
 }
 
 fn is_zero(value: &f64) -> bool {
@@ -291,17 +347,4 @@ fn is_zero(value: &f64) -> bool {
 
 fn is_one(count: &usize) -> bool {
     *count == 1
-}
-
-fn with_infinities<S: Serializer>(law: &Friction, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-    #[derive(Serialize)]
-    struct Keys {
-        coefficient: Number,
-        shear_strength: Number,
-        coupling: Coupling,
-        junction_growth: f64,
-    }
-    let Friction { coefficient, shear_strength, coupling, junction_growth } = *law;
-    let (coefficient, shear_strength) = (coefficient.into(), shear_strength.into());
-    Keys { coefficient, shear_strength, coupling, junction_growth }.serialize(serializer)
 }

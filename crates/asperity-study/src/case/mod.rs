@@ -24,18 +24,19 @@ mod source;
 mod subsurface;
 mod topography;
 
-use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
 
+pub use self::contact::{Contact, GridMatch};
 use self::document::Document;
 pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
 pub use self::hardness::{Hardness, HardnessInput, HardnessMap};
 pub use self::json_schema::json_schema;
+pub use self::motion::{ControlKind, CounterBody, MotionSpec, Offset, StrategyKind};
 pub use self::output::Output;
-pub use self::prescribed::Prescribed;
+pub use self::prescribed::{ContactLoad, Prescribed};
 pub use self::sliding::SlidingSpec;
 pub use self::source::{Layer, Source, TopographySpec};
 pub use self::subsurface::{Side, SubsurfaceSpec};
@@ -44,11 +45,9 @@ use asperity_base::choice::choice;
 use asperity_base::error::{Error, Result};
 use asperity_base::units::{MetrePerSecond, SquareMetre};
 use asperity_contact::material::{Coating, Compliances, Material};
-use asperity_contact::motion::{
-    Acceleration, LoadControl, Motion, OffsetY, Path as MotionPath, PlasticUpdate, Strategy,
-};
+use asperity_contact::motion::{Acceleration, Motion, Strategy};
 pub use asperity_contact::operator::{Boundary, Edge};
-use asperity_contact::solver::{Control, Coupling, Sliding};
+use asperity_contact::solver::{Coupling, Sliding};
 pub use asperity_contact::solver::{Device, Method};
 use asperity_contact::temperature::{Temperature, Thermal};
 use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
@@ -168,177 +167,6 @@ pub enum Mount {
 
 choice!(Mount: "turned-over" => TurnedOver, "as-is" => AsIs);
 
-/// Load, boundary and solver.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Contact {
-    /// The load or approach; the largest of a sweep.
-    pub prescribed: Prescribed,
-    /// The points of a sweep, all of one kind, each on virgin bodies; empty without a sweep.
-    pub sweep: Vec<Prescribed>,
-    /// Continuation of the surfaces beyond the grid.
-    pub boundary: Boundary,
-    /// Whether the surfaces are brought to a common grid.
-    pub grid: GridMatch,
-    /// The solver.
-    pub method: Method,
-    /// The device that solves the contact.
-    pub device: Device,
-    /// Scale-free complementarity residual at which the solver stops, 0 < η < 1.
-    pub tolerance: f64,
-}
-
-/// Treatment of two surfaces whose grids differ.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum GridMatch {
-    /// Both surfaces must fit as they are prepared.
-    #[default]
-    AsPrepared,
-    /// Both surfaces are resampled to the coarser pitch, and cropped about their centres to a common size.
-    Common,
-}
-
-choice!(GridMatch: "as-prepared" => AsPrepared, "common" => Common);
-
-impl Serialize for Contact {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct Keys<'a> {
-            #[serde(flatten)]
-            prescribed: Option<Prescribed>,
-            #[serde(flatten)]
-            sweep: BTreeMap<&'a str, Vec<f64>>,
-            boundary: Boundary,
-            #[serde(skip_serializing_if = "is_as_prepared")]
-            grid: GridMatch,
-            method: Method,
-            #[serde(skip_serializing_if = "is_cpu")]
-            device: Device,
-            tolerance: f64,
-        }
-        let Self { prescribed, ref sweep, boundary, grid, method, device, tolerance } = *self;
-        let values = || sweep.iter().map(|point| point.value()).collect();
-        let sweep: BTreeMap<_, _> =
-            sweep.first().map(|point| (point.key_of_list(), values())).into_iter().collect();
-        let prescribed = sweep.is_empty().then_some(prescribed);
-        Keys { prescribed, sweep, boundary, grid, method, device, tolerance }.serialize(serializer)
-    }
-}
-
-/// A motion without its load, which is in [`Contact`]; see [`Case::motion`].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[non_exhaustive]
-pub struct MotionSpec {
-    /// Overlap or circular shift.
-    #[serde(flatten, serialize_with = "with_speeds")]
-    pub strategy: Strategy,
-    /// Number of passes, ≥ 1.
-    pub passes: usize,
-    /// Cells per step, ≥ 1.
-    pub stride: usize,
-    /// Where [`Contact::prescribed`] holds: as the mean over a pass, or at each position.
-    pub control: ControlKind,
-    /// When plastic deformation is applied.
-    pub plastic_update: PlasticUpdate,
-    /// Relative tolerance on the pass-mean load, 0 < tolerance < 1.
-    pub load_tolerance: f64,
-    /// Speed of the upper body over the lower one in an overlap, if given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub speed: Option<f64>,
-    /// Time for which viscoelastic bodies are apart between two passes, ≥ 0.
-    #[serde(skip_serializing_if = "is_nothing")]
-    pub pause: f64,
-    /// Forward stroke alone, or forward and return stroke.
-    #[serde(skip_serializing_if = "is_one_way")]
-    pub path: MotionPath,
-    /// Offset of the passes along y.
-    #[serde(flatten, serialize_with = "with_seed")]
-    pub offset_y: OffsetY,
-    /// The upper body in the passes after the first.
-    #[serde(skip_serializing_if = "is_same")]
-    pub counter: CounterBody,
-}
-
-/// The upper body in the passes after the first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CounterBody {
-    /// The same as in the first pass.
-    Same,
-    /// A new one for each pass, from the same generator with another seed.
-    Fresh,
-}
-
-choice!(CounterBody: "same" => Same, "fresh" => Fresh);
-
-impl MotionSpec {
-    /// Whether all passes have the same bodies at the same positions.
-    pub fn repeats(&self) -> bool {
-        self.counter == CounterBody::Same && self.under(Control::Approach(0.0)).repeats()
-    }
-
-    /// Returns the motion under a control.
-    fn under(&self, control: Control) -> Motion {
-        Motion {
-            strategy: self.strategy,
-            passes: self.passes,
-            stride: self.stride,
-            control,
-            load_control: self.control.load_control(),
-            plastic_update: self.plastic_update,
-            load_tolerance: self.load_tolerance,
-            friction: None,
-            speed: self.speed,
-            bulk: None,
-            path: self.path,
-            offset_y: self.offset_y,
-            pause: self.pause,
-        }
-    }
-}
-
-/// The control of a motion without its value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ControlKind {
-    /// The mean load of a pass.
-    PassLoad,
-    /// The load at every position.
-    StepLoad,
-    /// The approach.
-    Approach,
-}
-
-impl ControlKind {
-    /// Where a load holds; irrelevant for an approach.
-    fn load_control(self) -> LoadControl {
-        match self {
-            Self::StepLoad => LoadControl::Step,
-            Self::PassLoad | Self::Approach => LoadControl::Pass,
-        }
-    }
-}
-
-choice!(ControlKind: "pass-load" => PassLoad, "step-load" => StepLoad, "approach" => Approach);
-
-/// A [`Strategy`] without its speeds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StrategyKind {
-    /// Only the overlap is solved.
-    Overlap,
-    /// The surfaces are shifted circularly.
-    Shift,
-}
-
-choice!(StrategyKind: "overlap" => Overlap, "shift" => Shift);
-
-impl From<&Strategy> for StrategyKind {
-    fn from(strategy: &Strategy) -> Self {
-        match strategy {
-            Strategy::Overlap => Self::Overlap,
-            Strategy::Shift { .. } => Self::Shift,
-        }
-    }
-}
-
 /// Largest accepted case file.
 pub(crate) const MAX_CASE_BYTES: u64 = 4 << 20;
 
@@ -379,7 +207,7 @@ impl Case {
             bodies: [&self.lower, &self.upper].map(Body::constants),
             boundary: self.contact.boundary,
             moves: self.motion.is_some(),
-            is_shift: self.motion.is_some_and(|motion| motion.strategy != Strategy::Overlap),
+            is_shift: self.motion.is_some_and(|motion| motion.strategy() != Strategy::Overlap),
             repeats: self.motion.is_some_and(|motion| motion.repeats()),
             dragging_speed: self.dragging_speed(),
             has_friction: self.friction.is_some(),
@@ -393,7 +221,7 @@ impl Case {
     /// Returns the sum of the speeds at which the two bodies move past the contact.
     fn dragging_speed(&self) -> Option<MetrePerSecond> {
         let Some(motion) = self.motion else { return self.sliding.and_then(|sliding| sliding.speed) };
-        match motion.strategy {
+        match motion.strategy() {
             Strategy::Overlap => motion.speed,
             Strategy::Shift { speed_lower, speed_upper } => Some(speed_lower.abs() + speed_upper.abs()),
         }
@@ -451,7 +279,7 @@ impl Case {
         Some(Motion {
             friction: self.friction.as_ref().map(|friction| friction.law),
             bulk: self.temperature.map(|temperature| temperature.bulk),
-            ..self.motion?.under(self.contact.prescribed.control(apparent_area))
+            ..self.motion?.under(self.contact.prescribed().control(apparent_area))
         })
     }
 
@@ -518,61 +346,4 @@ fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result
         mount: Option<Mount>,
     }
     Keys { body: upper, mount: upper.mount }.serialize(serializer)
-}
-
-// Default values are omitted, so that cases from before these keys keep their digests.
-
-fn is_cpu(device: &Device) -> bool {
-    *device == Device::Cpu
-}
-
-fn is_as_prepared(grid: &GridMatch) -> bool {
-    *grid == GridMatch::AsPrepared
-}
-
-fn is_nothing(value: &f64) -> bool {
-    *value == 0.0
-}
-
-fn is_one_way(path: &MotionPath) -> bool {
-    *path == MotionPath::OneWay
-}
-
-fn is_same(counter: &CounterBody) -> bool {
-    *counter == CounterBody::Same
-}
-
-fn with_seed<S: Serializer>(offset: &OffsetY, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-    #[derive(Serialize)]
-    #[serde(untagged)]
-    enum Keys {
-        None {},
-        Cells { offset_y: usize },
-        Random { offset_y: &'static str, seed: u64 },
-    }
-    let keys = match *offset {
-        OffsetY::NONE => Keys::None {},
-        OffsetY::Cells(offset_y) => Keys::Cells { offset_y },
-        OffsetY::Random { seed } => Keys::Random { offset_y: RANDOM, seed },
-    };
-    keys.serialize(serializer)
-}
-
-/// The word for passes at random offsets along y.
-const RANDOM: &str = "random";
-
-fn with_speeds<S: Serializer>(strategy: &Strategy, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-    #[derive(Serialize)]
-    struct Keys {
-        strategy: StrategyKind,
-        #[serde(skip_serializing_if = "Option::is_none")]
-        speed_lower: Option<f64>,
-        #[serde(skip_serializing_if = "Option::is_none")]
-        speed_upper: Option<f64>,
-    }
-    let [speed_lower, speed_upper] = match *strategy {
-        Strategy::Overlap => [None; 2],
-        Strategy::Shift { speed_lower, speed_upper } => [Some(speed_lower), Some(speed_upper)],
-    };
-    Keys { strategy: strategy.into(), speed_lower, speed_upper }.serialize(serializer)
 }

@@ -3,18 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use super::body::body;
-use super::contact::contact;
 use super::cursor::Table;
 use super::document::Document;
-use super::friction::{friction, stages};
-use super::motion::motion;
 use super::plasticity::plasticity;
 use super::rules;
 use super::running::{Used, heat_together};
 use super::schema::root as keys;
 use super::schema::tables::{self, belongs, known_in};
 use super::topography::{one_tells_the_other, topography};
-use super::{Case, TopographySpec};
+use super::{Case, Contact, FrictionSpec, MotionSpec, StageSpec, TopographySpec};
 use asperity_base::error::Result;
 use asperity_base::table::Table as _;
 use asperity_contact::temperature::Temperature;
@@ -66,15 +63,18 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     heat_together(&mut lower, &lower_table, &upper, used);
     heat_together(&mut upper, &upper_table, &lower, used);
     one_tells_the_other(&lower.topography, &upper.topography, &upper_table)?;
-    let contact = contact(&keys::CONTACT.demand(root)?)?;
+    let contact = keys::CONTACT.demand(root)?;
+    known_in(&contact)?;
+    let contact = Contact::read(&contact)?;
     let mut interface = Interfaces::default();
     each_interface!(I => if let Some(table) = root.table(I::NAME)? {
         known_in(&table)?;
         I::read(&table)?.give(&mut interface);
     });
-    let mut motion = keys::MOTION.of(root)?.map(|table| motion(&table, contact.prescribed)).transpose()?;
+    let motion: Option<MotionSpec> = tables::read(&keys::MOTION, root)?;
+    let mut motion = motion.map(|motion| motion.resolved(contact.prescribed()));
     let sliding = tables::read(&keys::SLIDING, root)?;
-    let mut friction = keys::FRICTION.of(root)?.map(|table| friction(&table)).transpose()?;
+    let mut friction = tables::read::<FrictionSpec>(&keys::FRICTION, root)?;
     let plasticity = keys::PLASTICITY
         .of(root)?
         .map(|table| plasticity(&table, root, &mut motion, &mut friction))
@@ -85,8 +85,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
         (Some(_), Some(friction)) => friction.increments,
         (Some(plasticity), None) => plasticity.increments.unwrap_or(1),
     };
-    let history =
-        keys::HISTORY.entry(root).map(|entry| stages(&entry, friction.as_ref(), steps)).transpose()?;
+    let history = stages(root, friction.is_some(), steps)?;
     let acceleration = tables::read(&keys::ACCELERATION, root)?;
     let temperature = tables::read(&keys::TEMPERATURE, root)?
         .map(|temperature: Temperature| temperature.resolved(lower.thermal.is_some()));
@@ -102,7 +101,7 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
         contact,
         interface,
         friction,
-        history: history.unwrap_or_default(),
+        history,
         motion,
         sliding,
         steady: tables::read(&keys::STEADY, root)?,
@@ -114,4 +113,17 @@ fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
         output: tables::read(&keys::OUTPUT, root)?.unwrap_or_default(),
         document: Document::default(),
     })
+}
+
+/// Reads the stages after the first; by default each that takes no time has `steps` steps.
+fn stages(root: &Table<'_>, has_friction: bool, steps: usize) -> Result<Vec<StageSpec>> {
+    let Some(entry) = keys::HISTORY.entry(root) else { return Ok(Vec::new()) };
+    let keys = if has_friction { "'load', 'force' or another" } else { "'load' or another" };
+    let stage = |table: &Table<'_>| {
+        known_in(table)?;
+        StageSpec::read(table)?
+            .resolved(steps, keys)
+            .map_err(|hint| table.error("[[history]] names nothing that changes".to_owned(), Some(hint)))
+    };
+    entry.tables()?.iter().map(stage).collect()
 }

@@ -1,7 +1,6 @@
 //! `[plasticity]`: elasto-plastic bodies, with what their volumes mean for motion and friction.
 
 use super::cursor::Table;
-use super::schema::loading::friction::INCREMENTS as OF_FRICTION;
 use super::schema::tables::known_in;
 use super::{FrictionSpec, MotionSpec};
 use asperity_base::error::Result;
@@ -24,7 +23,7 @@ pub(super) fn plasticity(
         // Plastic flow occurs at every position.
         motion.plastic_update = PlasticUpdate::Step;
     } else if let (Some(friction), Some(of_friction)) = (friction.as_mut(), root.table("friction")?)
-        && OF_FRICTION.entry(&of_friction).is_none()
+        && of_friction.get("increments").is_none()
     {
         // The load is applied in the steps of the volume.
         friction.increments = increments;

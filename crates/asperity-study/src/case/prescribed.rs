@@ -1,16 +1,61 @@
-//! Prescribed normal loading: one of `load`, `mean_pressure`, `approach`.
+//! Prescribed normal loading: a load, a mean pressure or an approach, or several.
 
 use serde::Serialize;
 
-use super::cursor::Table;
-use super::schema::loading::{contact as keys, history};
-use asperity_base::error::Result;
+use asperity_base::exists;
 use asperity_base::units::{Metre, Newton, Pascal, SquareMetre};
 use asperity_contact::solver;
+use asperity_derive::Part;
 
-/// Prescribed normal loading.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// Normal loading of a contact.
+#[derive(Part, Debug, Clone, PartialEq, Serialize)]
+#[part(
+    absent = "exactly one of the six that give a load or an approach",
+    hint = "for example `load = \"2 N\"`"
+)]
 #[serde(rename_all = "snake_case")]
+pub enum ContactLoad {
+    /// Total normal force; in a motion, the mean over a pass or the force at each position, see `control`.
+    #[key(quantity = Force, range = AboveZero, example = "\"2 N\"", exists = exists::LOAD)]
+    Load(Newton),
+    /// Load over the apparent area, the area of all cells at full overlap; during an overlap motion half of them overlap on average, so that
+    /// the mean pressure there is about twice as large.
+    #[key(quantity = Pressure, range = AboveZero, example = "\"1 MPa\"", exists = exists::LOAD)]
+    MeanPressure(Pascal),
+    /// Distance by which the bodies have approached, of any sign; 0 if the planes z = 0 of both height maps coincide.
+    #[key(quantity = Length, example = "\"10 nm\"", exists = exists::LENGTH)]
+    Approach(Metre),
+    /// Several loads, one after the other.
+    #[key(
+        quantity = Force,
+        range = AboveZero,
+        several = "\"0.1 N\"",
+        example = "[\"0.1 N\", \"1 N\"]",
+        exists = exists::LOAD
+    )]
+    Loads(Vec<Newton>),
+    /// Several mean pressures, one after the other.
+    #[key(
+        quantity = Pressure,
+        range = AboveZero,
+        several = "\"1 MPa\"",
+        example = "[\"1 MPa\", \"10 MPa\"]",
+        exists = exists::LOAD
+    )]
+    MeanPressures(Vec<Pascal>),
+    /// Several approaches, one after the other.
+    #[key(
+        quantity = Length,
+        several = "\"10 nm\"",
+        spacing = Linear,
+        example = "[\"10 nm\", \"20 nm\"]",
+        exists = exists::LENGTH
+    )]
+    Approaches(Vec<Metre>),
+}
+
+/// One normal loading.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Prescribed {
     /// Total normal force, > 0; of any sign in a history of bodies that attract each other.
     Load(Newton),
@@ -18,6 +63,35 @@ pub enum Prescribed {
     MeanPressure(Pascal),
     /// Approach relative to the prepared heights; positive or negative.
     Approach(Metre),
+}
+
+impl ContactLoad {
+    /// Returns the loading, the largest of a sweep.
+    pub(super) fn largest(&self) -> Prescribed {
+        let largest = |values: &[f64]| {
+            values.iter().copied().max_by(f64::total_cmp).expect("a list has at least one value")
+        };
+        match self {
+            Self::Load(load) => Prescribed::Load(*load),
+            Self::MeanPressure(pressure) => Prescribed::MeanPressure(*pressure),
+            Self::Approach(approach) => Prescribed::Approach(*approach),
+            Self::Loads(loads) => Prescribed::Load(largest(loads)),
+            Self::MeanPressures(pressures) => Prescribed::MeanPressure(largest(pressures)),
+            Self::Approaches(approaches) => Prescribed::Approach(largest(approaches)),
+        }
+    }
+
+    /// Returns the points of a sweep.
+    pub(super) fn sweep(&self) -> Vec<Prescribed> {
+        let points =
+            |values: &[f64], point: fn(f64) -> Prescribed| values.iter().copied().map(point).collect();
+        match self {
+            Self::Load(_) | Self::MeanPressure(_) | Self::Approach(_) => Vec::new(),
+            Self::Loads(loads) => points(loads, Prescribed::Load),
+            Self::MeanPressures(pressures) => points(pressures, Prescribed::MeanPressure),
+            Self::Approaches(approaches) => points(approaches, Prescribed::Approach),
+        }
+    }
 }
 
 impl Prescribed {
@@ -29,52 +103,4 @@ impl Prescribed {
             Self::Approach(approach) => solver::Control::Approach(approach),
         }
     }
-
-    /// The value, in the unit of its kind.
-    pub(super) fn value(self) -> f64 {
-        match self {
-            Self::Load(value) | Self::MeanPressure(value) | Self::Approach(value) => value,
-        }
-    }
-
-    /// The key of a list of such values in `[contact]`.
-    pub(super) fn key_of_list(self) -> &'static str {
-        match self {
-            Self::Load(_) => LISTS[0],
-            Self::MeanPressure(_) => LISTS[1],
-            Self::Approach(_) => LISTS[2],
-        }
-    }
-}
-
-/// The keys of a sweep in `[contact]`.
-pub(super) const LISTS: [&str; 3] = ["loads", "mean_pressures", "approaches"];
-
-/// Reads the one of the three that [contact] gives.
-pub(super) fn prescribed(table: &Table<'_>) -> Result<Prescribed> {
-    table.exactly_one(&["load", "mean_pressure", "approach"], "for example `load = \"2 N\"`")?;
-    let load = keys::LOAD.of(table)?.map(Prescribed::Load);
-    let pressure = keys::MEAN_PRESSURE.of(table)?.map(Prescribed::MeanPressure);
-    let approach = keys::APPROACH.of(table)?.map(Prescribed::Approach);
-    Ok(load.or(pressure).or(approach).expect("one of the three is given"))
-}
-
-/// Reads the one of the three that a stage of a [[history]] gives.
-pub(super) fn of_stage(table: &Table<'_>) -> Result<Prescribed> {
-    table.exactly_one(&["load", "mean_pressure", "approach"], "for example `load = \"2 N\"`")?;
-    let load = history::LOAD.of(table)?.map(Prescribed::Load);
-    let pressure = history::MEAN_PRESSURE.of(table)?.map(Prescribed::MeanPressure);
-    let approach = history::APPROACH.of(table)?.map(Prescribed::Approach);
-    Ok(load.or(pressure).or(approach).expect("one of the three is given"))
-}
-
-/// The points of the sweep that `table` gives; none where it gives no list.
-pub(super) fn sweep(table: &Table<'_>) -> Result<Vec<Prescribed>> {
-    let points = |values: Option<Vec<f64>>, point: fn(f64) -> Prescribed| {
-        values.unwrap_or_default().into_iter().map(point)
-    };
-    let loads = points(keys::LOADS.of(table)?, Prescribed::Load);
-    let pressures = points(keys::MEAN_PRESSURES.of(table)?, Prescribed::MeanPressure);
-    let approaches = points(keys::APPROACHES.of(table)?, Prescribed::Approach);
-    Ok(loads.chain(pressures).chain(approaches).collect())
 }

@@ -29,7 +29,7 @@ impl Case {
     /// Returns the sliding in place, on this apparent area; `None` for others.
     pub fn slide(&self, apparent_area: SquareMetre) -> Option<Slide> {
         let SlidingSpec { distance, speed, updates } = self.sliding?;
-        let control = self.contact.prescribed.control(apparent_area);
+        let control = self.contact.prescribed().control(apparent_area);
         let slide = Slide::graded(distance, updates, control).with_speed(speed);
         let friction = self.friction.as_ref().map(|friction| friction.law);
         Some(slide.with_friction(friction).with_bulk(self.temperature.map(|temperature| temperature.bulk)))

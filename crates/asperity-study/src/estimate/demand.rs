@@ -2,7 +2,7 @@
 
 use web_time::Instant;
 
-use crate::case::{Body, Case, ControlKind, CounterBody, Layer, LoadingPath, MotionSpec, Source};
+use crate::case::{Body, Case, ControlKind, CounterBody, Layer, LoadingPath, MotionSpec, Source, StageSpec};
 use crate::given::SurfaceInput;
 use crate::prepare::grids;
 use crate::subsurface::Plan;
@@ -300,11 +300,11 @@ impl Sizes<'_> {
         let products = match self.case.motion {
             Some(motion) => {
                 let [products, trials] = ROLLING;
-                let trials = if motion.control == ControlKind::PassLoad { trials } else { 1.0 };
+                let trials = if motion.control() == ControlKind::PassLoad { trials } else { 1.0 };
                 trials * products * (motion.passes * self.overlaps.len()) as f64
             }
             None => {
-                let later: usize = self.case.history.iter().map(|stage| stage.increments).sum();
+                let later: usize = self.case.history.iter().map(StageSpec::steps).sum();
                 let [flowing, unloading] = PRODUCTS;
                 let unloading = if plasticity.unload == Some(true) { unloading } else { 0.0 };
                 let friction = self.case.friction.as_ref().map_or(1, |friction| friction.increments);
@@ -377,7 +377,7 @@ impl Sizes<'_> {
         let [convolutions, mut effort] = match (case.motion, &case.friction) {
             (Some(motion), _) => {
                 let changes = motion.plastic_update == PlasticUpdate::Step || case.relaxes();
-                let searches = if motion.control == ControlKind::PassLoad && changes { 5.0 } else { 1.0 };
+                let searches = if motion.control() == ControlKind::PassLoad && changes { 5.0 } else { 1.0 };
                 let positions = self.solved().len();
                 let passes = self.computed_passes(motion.passes);
                 let mut cost = if self.is_coupled() { SLIDING } else { normal };

@@ -7,7 +7,7 @@ use toml::Value;
 
 use crate::case::cursor::{Entry, Table};
 use crate::case::document::join;
-use crate::case::schema::list::points_entry;
+use crate::case::schema::sweep::points_entry;
 use crate::case::schema::tables::dimension;
 use asperity_base::error::Result;
 use asperity_base::units::{self, Dimension};

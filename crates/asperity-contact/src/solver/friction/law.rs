@@ -1,9 +1,14 @@
 //! The law of friction: the largest shear of a cell under its pressure.
 
-use crate::error::{Result, check, check_in};
+use serde::Serialize;
+
+use crate::error::Result;
 use crate::solver::Bounds;
-use crate::units::{Dimension, Pascal};
+use crate::units::{Pascal, or_inf};
 use asperity_base::choice::choice;
+use asperity_base::exists;
+use asperity_base::table::Part as _;
+use asperity_derive::Part;
 
 /// Coupling of normal and tangential displacements between dissimilar bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -35,18 +40,34 @@ impl Coupling {
 ///
 /// A cell with a smaller |q| sticks. A cell at the limit may slip, and q on the lower body points in the direction of
 /// the slip of the upper body.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Part, Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Friction {
-    /// Coefficient of friction μ ≥ 0; infinite if touching bodies always stick.
+    /// Coefficient of friction μ.
+    ///
+    /// At least 0; infinite if touching bodies always stick.
+    #[key(number = "a number", range = FromZeroOrInfinite("nothing slips"), example = "0.3", exists = exists::FRICTION)]
+    #[serde(serialize_with = "or_inf")]
     pub coefficient: f64,
-    /// Shear strength τ > 0 of the interface, for example of a boundary film; infinite without a limit.
-    pub shear_strength: Pascal,
-    /// The coupling of normal and tangential displacements.
+    /// Coupling between dissimilar bodies: `"goodman"`, pressure displaces tangentially, but shear does not displace normally; `"none"`,
+    /// neither.
+    #[key(choice, default = Coupling::Full, example = "\"none\"")]
     pub coupling: Coupling,
-    /// Weight α ≥ 0 of the shear in the yield condition p² + αq² ≤ H² of a plastic cell. Shear then lowers the
-    /// largest pressure, and the contact grows. With α = 0 the hardness limits only the pressure. Tabor, Proc. R.
-    /// Soc. A 251, 378 (1959), found α near 9 for metals. The criteria of von Mises and Tresca give 27 and 36 if
-    /// H is three times the yield stress.
+    /// τ, the largest shear stress of the interface under any pressure, for example of a boundary film.
+    #[key(
+        quantity = Pressure,
+        range = AboveZeroOrInfinite("no limit"),
+        default = Pascal::INFINITY,
+        written = "inf",
+        example = "\"20 MPa\"",
+        exists = exists::SHEAR_STRENGTH
+    )]
+    #[serde(serialize_with = "or_inf")]
+    pub shear_strength: Pascal,
+    /// α in p² + αq² ≤ H²: shear lowers the cap of the pressure, and the contact grows; about 9 for metals.
+    ///
+    /// The yield condition of a plastic cell. With α = 0 the hardness limits only the pressure. Tabor, Proc. R. Soc. A 251, 378 (1959), found α
+    /// near 9 for metals. The criteria of von Mises and Tresca give 27 and 36 if H is three times the yield stress.
+    #[key(number = "a number", range = FromZero, default = 0.0, written = "0", example = "9")]
     pub junction_growth: f64,
 }
 
@@ -86,22 +107,7 @@ impl Friction {
 
     /// Returns the law, or an error if a number is out of range.
     pub(crate) fn checked(self) -> Result<Self> {
-        check("friction coefficient", self.coefficient, self.coefficient >= 0.0, "a number of at least 0")?;
-        check_in(
-            Dimension::Pressure,
-            "shear strength",
-            self.shear_strength,
-            self.shear_strength > 0.0,
-            "a stress above 0",
-        )?;
-        let alpha = self.junction_growth;
-        check(
-            "junction growth",
-            alpha,
-            (0.0..f64::INFINITY).contains(&alpha),
-            "a finite weight of at least 0",
-        )?;
-        Ok(self)
+        self.check().map(|()| self)
     }
 
     /// Returns the largest shear of a cell under `pressure`.

@@ -215,9 +215,10 @@ pub struct Steady {
     pub speed: Option<MetrePerSecond>,
     /// Several speeds, one after the other, each from the contact at the one before.
     #[key(
-        special = speeds,
+        quantity = Speed,
+        range = AboveZero,
+        several = "\"1 mm/s\"",
         form = "list of at least one speed > 0, or a [table](#a-sweep)",
-        dimension = Speed,
         default = Vec::new(),
         absent = "exactly one of the two",
         example = "[\"1 mm/s\", \"1 m/s\"]",
@@ -225,10 +226,6 @@ pub struct Steady {
     )]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub speeds: Vec<MetrePerSecond>,
-}
-
-fn speeds(value: &dyn Value, key: &Key) -> Result<Vec<MetrePerSecond>> {
-    value.several(key, &Kind::Quantity(Dimension::Speed, Bounds::AboveZero), "\"1 mm/s\"")
 }
 
 fn at_a_speed(_: &Steady, source: &dyn Source) -> Result<()> {

@@ -1,7 +1,6 @@
 //! Rules of friction, rolling, sweeps and histories.
 
-use super::super::friction::IN_PLANE;
-use super::super::{Boundary, InPlane, Prescribed, StageSpec};
+use super::super::{Boundary, Prescribed};
 use super::Rule;
 use super::examples::{AT_ANY_SPEED, FLOWS, LINE, ROLLS, RUBS, SWEEP, VOLUME};
 
@@ -14,8 +13,8 @@ pub(super) const RULES: &[Rule] = &[
         at: "history.cycles",
         example: &[RUBS, r#"history = [{ sliding = [1, 0], cycles = 10 }]"#],
         broken: |tables| {
-            let slides = |stage: &StageSpec| matches!(stage.in_plane, Some(InPlane::Sliding(_)));
-            let both = tables.case.history.iter().any(|stage| stage.cycles.is_some() && slides(stage));
+            let mut stages = tables.case.history.iter();
+            let both = stages.any(|stage| stage.cycles.is_some() && stage.sliding.is_some());
             tables.of_stage(&["cycles"]).or(tables.at("history")).filter(|_| both)
         },
     },
@@ -191,18 +190,20 @@ pub(super) const RULES: &[Rule] = &[
         at: "history.load",
         example: &[r#"history = [{ load = "-1 N" }]"#],
         broken: |tables| {
-            let pulls = |normal: &Prescribed| match *normal {
+            let pulls = |normal: Prescribed| match normal {
                 Prescribed::Load(value) | Prescribed::MeanPressure(value) => value <= 0.0,
                 Prescribed::Approach(_) => false,
             };
             tables.case.interface.is_empty().then_some(())?;
-            let index =
-                tables.case.history.iter().position(|stage| stage.normal.as_ref().is_some_and(pulls))?;
+            let index = tables.case.history.iter().position(|stage| stage.normal().is_some_and(pulls))?;
             let stage = tables.stages().into_iter().nth(index)?.table().ok()?;
             stage.get("load").or(stage.get("mean_pressure"))
         },
     },
 ];
+
+/// Keys of the tangential loading of a static contact.
+const IN_PLANE: [&str; 6] = ["force", "displacement", "sliding", "creepage", "creepages", "rolling_force"];
 
 /// Why a rolling contact has neither stages nor increments.
 const STEADY: &str = "the steady state does not depend on the loading path";

@@ -181,7 +181,7 @@ impl<'a> Tables<'a> {
 
     /// Returns the key of a sweep in [contact].
     fn sweep(&self) -> Option<Entry<'a>> {
-        self.first("contact", &super::prescribed::LISTS)
+        self.first("contact", &["loads", "mean_pressures", "approaches"])
     }
 
     /// Returns the stages of the history, or the history if it has none.
@@ -216,12 +216,12 @@ impl<'a> Tables<'a> {
 
     /// Returns the motion of an overlap.
     fn overlap(&self) -> Option<&'a MotionSpec> {
-        self.motion().filter(|motion| motion.strategy == Strategy::Overlap)
+        self.motion().filter(|motion| motion.strategy() == Strategy::Overlap)
     }
 
     /// Returns the motion of a shift.
     fn shift(&self) -> Option<&'a MotionSpec> {
-        self.motion().filter(|motion| motion.strategy != Strategy::Overlap)
+        self.motion().filter(|motion| motion.strategy() != Strategy::Overlap)
     }
 
     /// Whether the bodies slide over each other.
@@ -250,7 +250,7 @@ impl<'a> Tables<'a> {
 
     fn slip(&self) -> Slip {
         match self.motion() {
-            Some(motion) if motion.strategy.direction() == 0.0 => Slip::Rolling,
+            Some(motion) if motion.strategy().direction() == 0.0 => Slip::Rolling,
             Some(_) => Slip::InPasses,
             None if self.case.sliding.is_some() => Slip::InPlace,
             None if self.frets() => Slip::InStages,
@@ -264,11 +264,11 @@ impl<'a> Tables<'a> {
             return sliding.speed.is_none().then_some(Timeless::InPlace);
         }
         if let Some(motion) = self.motion() {
-            let is_given = match motion.strategy {
+            let is_given = match motion.strategy() {
                 Strategy::Overlap => motion.speed.is_some(),
                 Strategy::Shift { .. } => self.first("motion", &["speed_upper", "speed_lower"]).is_some(),
             };
-            let missing = match motion.strategy {
+            let missing = match motion.strategy() {
                 Strategy::Overlap => Timeless::Overlap,
                 Strategy::Shift { .. } => Timeless::Shift,
             };

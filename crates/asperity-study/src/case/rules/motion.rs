@@ -1,8 +1,9 @@
 //! Rules of motions, and of sliding in place.
 
-use super::super::{ControlKind, CounterBody, OffsetY, Prescribed, Source};
+use super::super::{ControlKind, CounterBody, Prescribed, Source};
 use super::Rule;
 use super::examples::{AT_ANY_SPEED, CHANGES, JUMPS, MOVES, RUBS, SLIDES, SWEEP};
+use asperity_contact::motion::OffsetY;
 
 pub(super) const RULES: &[Rule] = &[
     Rule {
@@ -49,7 +50,7 @@ pub(super) const RULES: &[Rule] = &[
         at: "motion.offset_y",
         example: &["motion = { offset_y = 3 }"],
         broken: |tables| {
-            tables.motion().filter(|motion| motion.offset_y != OffsetY::NONE)?;
+            tables.motion().filter(|motion| motion.offset_y() != OffsetY::NONE)?;
             tables.at("motion.offset_y").filter(|_| !tables.case.contact.boundary.repeats(1))
         },
     },
@@ -61,7 +62,7 @@ pub(super) const RULES: &[Rule] = &[
         at: "motion.seed",
         example: &["motion = { seed = 7 }"],
         broken: |tables| {
-            tables.motion().filter(|motion| !matches!(motion.offset_y, OffsetY::Random { .. }))?;
+            tables.motion().filter(|motion| !matches!(motion.offset_y(), OffsetY::Random { .. }))?;
             tables.at("motion.seed")
         },
     },
@@ -73,8 +74,8 @@ pub(super) const RULES: &[Rule] = &[
         at: "motion.control",
         example: &[r#"motion = { control = "approach" }"#],
         broken: |tables| {
-            tables.motion().filter(|motion| motion.control == ControlKind::Approach)?;
-            let is_load = !matches!(tables.case.contact.prescribed, Prescribed::Approach(_));
+            tables.motion().filter(|motion| motion.control() == ControlKind::Approach)?;
+            let is_load = !matches!(tables.case.contact.prescribed(), Prescribed::Approach(_));
             tables.at("motion.control").filter(|_| is_load)
         },
     },
@@ -86,8 +87,8 @@ pub(super) const RULES: &[Rule] = &[
         at: "motion.control",
         example: &[r#"contact = { approach = "10 nm" }"#, r#"motion = { control = "pass-load" }"#],
         broken: |tables| {
-            tables.motion().filter(|motion| motion.control != ControlKind::Approach)?;
-            let is_load = !matches!(tables.case.contact.prescribed, Prescribed::Approach(_));
+            tables.motion().filter(|motion| motion.control() != ControlKind::Approach)?;
+            let is_load = !matches!(tables.case.contact.prescribed(), Prescribed::Approach(_));
             tables.at("motion.control").filter(|_| !is_load)
         },
     },

@@ -1,9 +1,9 @@
 //! Rules of bodies that contacts change.
 
-use super::super::{CounterBody, OffsetY};
+use super::super::CounterBody;
 use super::Rule;
 use super::examples::{CHANGES, GENERATED, JUMPS, LINE, MOVES, RUBS};
-use asperity_contact::motion::PlasticUpdate;
+use asperity_contact::motion::{OffsetY, PlasticUpdate};
 
 pub(super) const RULES: &[Rule] = &[
     Rule {
@@ -14,7 +14,7 @@ pub(super) const RULES: &[Rule] = &[
         at: "friction",
         example: &[RUBS, r#"motion = { strategy = "shift", speed_lower = 1, speed_upper = 1 }"#],
         broken: |tables| {
-            tables.motion().filter(|motion| motion.strategy.direction() == 0.0)?;
+            tables.motion().filter(|motion| motion.strategy().direction() == 0.0)?;
             tables.at("friction")
         },
     },
@@ -59,7 +59,7 @@ pub(super) const RULES: &[Rule] = &[
         at: "acceleration",
         example: &[CHANGES, LINE, r#"motion = { speed = "0.5 m/s", offset_y = "random" }"#, JUMPS],
         broken: |tables| {
-            tables.motion().filter(|motion| motion.offset_y != OffsetY::NONE && tables.jumps())?;
+            tables.motion().filter(|motion| motion.offset_y() != OffsetY::NONE && tables.jumps())?;
             tables.at("acceleration")
         },
     },

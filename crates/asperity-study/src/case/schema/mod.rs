@@ -4,12 +4,10 @@
 //! its messages, the units of study axes and the tables of `docs/input` are derived from it.
 
 pub(crate) mod body;
-pub(crate) mod loading;
 pub(crate) mod hardness;
-pub(crate) mod list;
-pub(crate) mod moving;
 pub(crate) mod root;
 mod source;
+pub(crate) mod sweep;
 pub(crate) mod tables;
 pub(crate) mod topography;
 pub(crate) mod typed;
@@ -17,7 +15,7 @@ pub(crate) mod values;
 
 use std::sync::LazyLock;
 
-use super::SubsurfaceSpec;
+use super::{Contact, FrictionSpec, MotionSpec, StageSpec, SubsurfaceSpec};
 use asperity_base::table::Table as _;
 pub use asperity_base::table::{Bounds, Exists, Fallback, Key, Kind, Section};
 use asperity_contact::material::Coating;
@@ -68,10 +66,10 @@ fn of_every_case() -> Vec<Section> {
         declared(Section { keys: both.leak(), ..body::both::SECTION }),
         declared(body::upper::SECTION),
         Coating::sections(),
-        declared(loading::contact::SECTION),
+        Contact::sections(),
         of_interfaces,
-        declared(moving::motion::SECTION),
-        declared(loading::friction::SECTION),
+        MotionSpec::sections(),
+        FrictionSpec::sections(),
         SubsurfaceSpec::sections(),
         crate::case::Output::sections(),
         asperity_contact::motion::Acceleration::sections(),
@@ -86,8 +84,8 @@ fn of_every_case() -> Vec<Section> {
         declared(topography::file::SECTION),
         declared(topography::given::SECTION),
         topography::sections_of_kinds(),
-        declared(loading::history::SECTION),
-        declared(list::SECTION),
+        StageSpec::sections(),
+        sweep::Ends::sections(),
         declared(hardness::map::SECTION),
         declared(hardness::given::SECTION),
     ]
@@ -110,7 +108,7 @@ mod tests {
 
     use super::super::cursor::Table as Written;
     use super::super::document::Document;
-    use crate::case::{Output, SlidingSpec, SubsurfaceSpec};
+    use crate::case::{Contact, FrictionSpec, MotionSpec, Output, SlidingSpec, StageSpec, SubsurfaceSpec};
 
     /// Reads a table of this dotted name and of these sections, once for each choice, with the examples of the required keys, and with the
     /// default of the others if they are `told`. `one` is a key of which one of several is required.
@@ -182,6 +180,9 @@ mod tests {
         check::<Coating>("");
         check::<Viscoelasticity>("moduli = [1e6]\ntimes = [1]");
         check::<Steady>("speed = 1");
+        check::<Contact>("load = 1");
+        check::<FrictionSpec>("");
+        check::<StageSpec>("");
         assert_eq!(Acceleration::default(), read("acceleration", &[], "", true, Acceleration::read)[0]);
         assert_eq!(Output::default(), read("output", &[], "", true, Output::read)[0]);
         check_part::<Form>();
@@ -191,6 +192,8 @@ mod tests {
     /// The defaults of these depend on the case: the table alone leaves them open.
     #[test]
     fn a_derived_table_reads_its_examples() {
+        let motion = read("motion", &MotionSpec::sections(), "", false, MotionSpec::read);
+        assert_eq!((motion[0].speed_lower, motion[0].speed_upper, motion[0].seed), (None, None, None));
         let yielding =
             read("lower.plasticity", &Yielding::sections(), "yield_stress = 1e9", false, Yielding::read);
         assert_eq!(yielding[0].hardening, None);

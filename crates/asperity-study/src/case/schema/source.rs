@@ -2,10 +2,10 @@
 
 use super::super::cursor::{Entry, Table, did_you_mean};
 use super::tables::suits;
-use super::typed::{COUNT, missing, real};
-use super::{Key, Kind, values};
+use super::typed::{count, missing, real};
+use super::{Key, Kind, sweep};
 use asperity_base::error::{Error, Result};
-use asperity_base::table::{self, Source, expected};
+use asperity_base::table::{self, Source, Spacing, expected};
 use asperity_base::units::Dimension;
 
 impl Source for Table<'_> {
@@ -31,8 +31,12 @@ impl table::Value for Entry<'_> {
         real(kind, key, self)
     }
 
-    fn count(&self, key: &Key) -> Result<usize> {
-        (COUNT.read)(key, self)
+    fn count(&self, key: &Key, kind: &Kind) -> Result<usize> {
+        count(kind, key, self)
+    }
+
+    fn whole(&self, least: u64) -> Result<u64> {
+        self.whole(least)
     }
 
     fn flag(&self) -> Result<bool> {
@@ -68,8 +72,8 @@ impl table::Value for Entry<'_> {
         Ok(self.items(expected)?.into_iter().map(|item| Box::new(item) as Box<dyn table::Value>).collect())
     }
 
-    fn several(&self, key: &Key, kind: &Kind, example: &str) -> Result<Vec<f64>> {
-        values::sweep::numbers(self, example, |entry| real(kind, key, entry))
+    fn several(&self, key: &Key, kind: &Kind, spacing: Spacing, example: &str) -> Result<Vec<[f64; 2]>> {
+        sweep::several(self, key, kind, spacing, example)
     }
 
     fn similar(&self, word: &str, words: &[&'static str]) -> Option<String> {

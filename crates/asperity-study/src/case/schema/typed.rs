@@ -185,12 +185,6 @@ impl Optional<f64> {
 }
 
 impl<T> Optional<T> {
-    /// Declares the key for another table, with another default.
-    pub(super) const fn elsewhere(&self, absent: &'static str, text: &'static str) -> Self {
-        let key = Key { default: Fallback::Absent(absent), text, ..self.key };
-        Self { key, read: self.read }
-    }
-
     /// Returns the value in `table`, if it is given.
     pub(in crate::case) fn of(&self, table: &Table<'_>) -> Result<Option<T>> {
         table.get(self.key.name).map(|entry| (self.read)(&self.key, &entry)).transpose()
@@ -278,26 +272,12 @@ pub(super) const fn number_named(noun: &'static str, bounds: Bounds) -> Value<f6
     }
 }
 
-/// A count.
-pub(super) const fn count(least: u64) -> Value<usize> {
-    count_to(least, u64::MAX)
-}
-
 /// A count within the limits of its key.
-pub(super) const COUNT: Value<usize> = count(0);
-
-/// A count with limits.
-pub(super) const fn count_to(least: u64, most: u64) -> Value<usize> {
-    let read = |key: &Key, entry: &Entry<'_>| {
-        let Kind::Count { least, most } = key.kind else { unreachable!("a count is declared as one") };
-        let count = entry.count(least as usize)?;
-        match count as u64 <= most {
-            true => Ok(count),
-            false => Err(entry.unexpected(&expected(&key.kind, key), None)),
-        }
-    };
-    Value { kind: Kind::Count { least, most }, read, exists: Exists::Undeclared }
-}
+pub(super) const COUNT: Value<usize> = Value {
+    kind: Kind::Count { least: 0, most: u64::MAX },
+    read: |key, entry| count(&key.kind, key, entry),
+    exists: Exists::Undeclared,
+};
 
 /// The seed of random numbers.
 pub(super) const SEED: Value<u64> = Value {
@@ -331,12 +311,6 @@ pub(super) const fn pair(item: &'static Value<f64>) -> Value<[f64; 2]> {
     Value { kind: Kind::Pair(&item.kind), read, exists: item.exists }
 }
 
-/// A component along x, or two along x and y.
-pub(super) const fn vector(item: &'static Value<f64>) -> Value<[f64; 2]> {
-    let read = |key: &Key, entry: &Entry<'_>| table::Value::pair(entry, key);
-    Value { kind: Kind::Vector(&item.kind), read, exists: item.exists }
-}
-
 /// Values of a special form, which the documentation describes as `value`.
 pub(super) const fn other<T>(
     dimension: Option<Dimension>,
@@ -344,6 +318,16 @@ pub(super) const fn other<T>(
     read: fn(&Key, &Entry<'_>) -> Result<T>,
 ) -> Value<T> {
     Value { kind: Kind::Other { dimension, value }, read, exists: Exists::Undeclared }
+}
+
+/// Reads a count of a `kind`.
+pub(super) fn count(kind: &Kind, key: &Key, entry: &Entry<'_>) -> Result<usize> {
+    let Kind::Count { least, most } = *kind else { unreachable!("a count is declared as one") };
+    let count = entry.count(least as usize)?;
+    match count as u64 <= most {
+        true => Ok(count),
+        false => Err(entry.unexpected(&expected(kind, key), None)),
+    }
 }
 
 /// Reads a quantity or a number of a `kind`.
@@ -374,10 +358,6 @@ pub(in crate::case) fn real(kind: &Kind, key: &Key, entry: &Entry<'_>) -> Result
 
 /// A length above 0.
 pub(super) const LENGTH: Value<f64> = quantity(Dimension::Length, Bounds::AboveZero).exists(exists::LENGTH);
-/// A pressure or modulus above 0.
-pub(super) const PRESSURE: Value<f64> = quantity(Dimension::Pressure, Bounds::AboveZero);
-/// A fraction of a whole.
-pub(super) const FRACTION: Value<f64> = number(Bounds::Between { least: 0.0, most: 1.0, open: [true, true] });
 
 // Keys shared by several tables.
 
@@ -392,4 +372,4 @@ pub(super) const LINES: Optional<Axis> = optional(
 );
 /// Number of lines above the numbers of a text file.
 pub(super) const SKIP: Optional<usize> =
-    optional("skip", count(0), "0", "6", "number of lines above the numbers of a text");
+    optional("skip", COUNT, "0", "6", "number of lines above the numbers of a text");

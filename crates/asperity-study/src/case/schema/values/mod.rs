@@ -1,7 +1,4 @@
 //! Readers of values of special forms, and their words.
 
-pub(in crate::case) mod contact;
 pub(in crate::case) mod hardness;
-pub(in crate::case) mod motion;
-pub(in crate::case) mod sweep;
 pub(in crate::case) mod topography;
