@@ -8,6 +8,7 @@ use std::fmt;
 
 use crate::choice::choice;
 use crate::error::{Error, Result};
+use crate::grid::MAX_CELLS;
 use crate::units::{Dimension, Range};
 
 /// Keys that belong to one table, or to each of several tables.
@@ -171,6 +172,9 @@ pub trait Table: Sized {
 
 /// Keys that stand together in a table: some of its keys, one of several keys, or a choice with the keys that it gives a meaning.
 pub trait Part: Sized {
+    /// Whether one of the keys chooses which others have a meaning, so that the part itself refuses those that have none.
+    const CHOOSES: bool;
+
     /// Returns the keys that have a meaning in any case.
     fn keys() -> Vec<Key>;
 
@@ -258,8 +262,29 @@ pub trait Value {
     /// As all methods.
     fn pair(&self, key: &Key) -> Result<[f64; 2]>;
 
+    /// Reads the size of a unit, given by its name or as a quantity above 0.
+    ///
+    /// # Errors
+    /// As all methods.
+    fn unit(&self, dimension: Dimension) -> Result<f64>;
+
     /// Whether the value is an array.
     fn is_array(&self) -> bool;
+
+    /// Whether the value is a table.
+    fn is_table(&self) -> bool;
+
+    /// Returns the table, which has only known keys.
+    ///
+    /// # Errors
+    /// As all methods.
+    fn table(&self) -> Result<Box<dyn Source + '_>>;
+
+    /// Returns the tables of an array of tables, which have only known keys.
+    ///
+    /// # Errors
+    /// As all methods.
+    fn tables(&self) -> Result<Vec<Box<dyn Source + '_>>>;
 
     /// Returns the items of an array; `expected` describes them.
     ///
@@ -343,6 +368,40 @@ pub fn list<T>(value: &dyn Value, expected: &str, read: impl Fn(&dyn Value) -> R
 /// As the methods of [`Value`].
 pub fn two<T>(value: &dyn Value, expected: &str, read: impl Fn(&dyn Value) -> Result<T>) -> Result<[T; 2]> {
     list(value, expected, read)?.try_into().map_err(|_| value.unexpected(expected, None))
+}
+
+/// Reads the size of a unit of the dimension of a key.
+///
+/// # Errors
+/// As the methods of [`Value`].
+///
+/// # Panics
+/// For a key of pure numbers.
+pub fn unit(value: &dyn Value, key: &Key) -> Result<f64> {
+    value.unit(key.kind.dimension().expect("a unit has a dimension"))
+}
+
+/// Reads numbers of cells along x and y, each at least 1.
+///
+/// # Errors
+/// As the methods of [`Value`].
+pub fn cells(value: &dyn Value, _: &Key) -> Result<[usize; 2]> {
+    const EXPECTED: &str = "two whole numbers of at least 1, such as [256, 256]";
+    let whole = |item: &dyn Value| item.whole(0).map(|cells| usize::try_from(cells).unwrap_or(usize::MAX));
+    let shape = two(value, EXPECTED, whole)?;
+    match shape[0].checked_mul(shape[1]) {
+        Some(0) => Err(value.unexpected(EXPECTED, None)),
+        Some(cells) if cells <= MAX_CELLS => Ok(shape),
+        _ => Err(value.unexpected("a grid of at most 2³² cells", None)),
+    }
+}
+
+/// Reads an array of tables.
+///
+/// # Errors
+/// As the methods of [`Value`].
+pub fn tables<P: Part>(value: &dyn Value) -> Result<Vec<P>> {
+    value.tables()?.iter().map(|table| P::read(table.as_ref())).collect()
 }
 
 /// Checks a number against the bounds of its key.

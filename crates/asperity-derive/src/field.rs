@@ -3,9 +3,10 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::meta::ParseNestedMeta;
+use syn::punctuated::Punctuated;
 use syn::{
     Attribute, Data, DeriveInput, Error, Expr, ExprLit, Fields, FieldsNamed, Ident, Lit, LitInt, LitStr,
-    Meta, Path, Result, Type,
+    Meta, Path, Result, Token, Type, bracketed,
 };
 
 /// The values that a key accepts.
@@ -18,8 +19,14 @@ enum Accepts {
     Whole(LitInt),
     Number(LitStr),
     Quantity(Expr),
+    /// A text, or a type made from it.
+    Text,
     /// Values of a special form, with their reader.
     Special(Path),
+    /// A table within the table.
+    Table,
+    /// Tables within the table, each with the keys of a part.
+    Tables,
     /// The keys of another type.
     Part,
 }
@@ -54,6 +61,8 @@ pub(crate) struct Field<'a> {
     absent: Option<LitStr>,
     example: Option<LitStr>,
     exists: Option<Expr>,
+    /// Choices with which the key has a meaning; empty if it always has.
+    pub(crate) with: Vec<String>,
     meaning: String,
 }
 
@@ -100,6 +109,7 @@ impl<'a> Field<'a> {
             absent: None,
             example: None,
             exists: None,
+            with: Vec::new(),
             meaning: String::new(),
         };
         let mut accepts = None;
@@ -108,6 +118,9 @@ impl<'a> Field<'a> {
             match word.to_string().as_str() {
                 "choice" => accepts = Some(Accepts::Choice),
                 "flag" => accepts = Some(Accepts::Flag),
+                "text" => accepts = Some(Accepts::Text),
+                "table" => accepts = Some(Accepts::Table),
+                "tables" => accepts = Some(Accepts::Tables),
                 "part" => accepts = Some(Accepts::Part),
                 "count" => accepts = Some(Accepts::Count(meta.value()?.parse()?)),
                 "whole" => accepts = Some(Accepts::Whole(meta.value()?.parse()?)),
@@ -127,6 +140,13 @@ impl<'a> Field<'a> {
                 "absent" => field.absent = Some(meta.value()?.parse()?),
                 "example" => field.example = Some(meta.value()?.parse()?),
                 "exists" => field.exists = Some(meta.value()?.parse()?),
+                "with" => {
+                    let value = meta.value()?;
+                    let kinds;
+                    bracketed!(kinds in value);
+                    let kinds = Punctuated::<LitStr, Token![,]>::parse_terminated(&kinds)?;
+                    field.with = kinds.iter().map(LitStr::value).collect();
+                }
                 _ => return Err(meta.error("no such word in #[key]")),
             }
             Ok(())
@@ -150,6 +170,7 @@ impl<'a> Field<'a> {
         let (kind, meaning) = (self.kind()?, &self.meaning);
         let example = match &self.example {
             Some(example) => quote!(#example),
+            None if matches!(self.accepts, Accepts::Table | Accepts::Tables) => quote!(""),
             None => return Err(Error::new_spanned(&self.name, "a key needs an example")),
         };
         let fallback = match (&self.absent, &self.default) {
@@ -202,10 +223,10 @@ impl<'a> Field<'a> {
     pub(crate) fn reader(&self, key: &TokenStream) -> TokenStream {
         let (name, of) = (&self.name, self.of);
         if self.part().is_some() {
-            let read = quote!(<#of as ::asperity_base::table::Part>::read(source)?);
+            let read = quote!(<#of as ::asperity_base::table::Part>::read(__source)?);
             return match self.is_optional {
                 true => {
-                    quote!(let #name = if ::asperity_base::table::gives::<#of>(source) { Some(#read) } else { None };)
+                    quote!(let #name = if ::asperity_base::table::gives::<#of>(__source) { Some(#read) } else { None };)
                 }
                 false => quote!(let #name = #read;),
             };
@@ -214,7 +235,7 @@ impl<'a> Field<'a> {
         let read = match &self.default {
             _ if self.is_optional => given,
             Some(default) => quote!((#given).unwrap_or(#default)),
-            None => quote!((#given).ok_or_else(|| source.missing(#key))?),
+            None => quote!((#given).ok_or_else(|| __source.missing(#key))?),
         };
         quote!(let #name = #read;)
     }
@@ -246,10 +267,13 @@ impl<'a> Field<'a> {
                 quote!(value.real(#key, &::asperity_base::table::Kind::Quantity(#dimension, #bounds)))
             }
             Accepts::Number(_) | Accepts::Quantity(_) => quote!(value.real(#key, &(#key).kind)),
+            Accepts::Text => quote!(value.text().map(<#of>::from)),
             Accepts::Special(read) => quote!(#read(value, #key)),
+            Accepts::Table => quote!(<#of as ::asperity_base::table::Table>::read(value.table()?.as_ref())),
+            Accepts::Tables => quote!(::asperity_base::table::tables(value)),
             Accepts::Part => unreachable!("a part reads itself"),
         };
-        quote!(::asperity_base::table::optional(source, #key, |value| #read)?)
+        quote!(::asperity_base::table::optional(__source, #key, |value| #read)?)
     }
 
     /// The statements that check a `value`, a reference, against the bounds of its declaration `key`.
@@ -281,6 +305,9 @@ impl<'a> Field<'a> {
         let kind = match (&self.accepts, &self.form) {
             (Accepts::Choice, _) => quote!(Choice(<#of as ::asperity_base::choice::Choice>::NAMES)),
             (Accepts::Flag, _) => quote!(Flag),
+            (Accepts::Text, _) => quote!(Text),
+            (Accepts::Table, _) => quote!(Table),
+            (Accepts::Tables, _) => quote!(Tables),
             (Accepts::Count(least), _) => {
                 let most = self.most.as_ref().map_or(quote!(u64::MAX), |most| quote!(#most));
                 quote!(Count { least: #least, most: #most })
@@ -384,8 +411,9 @@ fn meaning(attributes: &[Attribute], name: &Ident) -> Result<String> {
     let first = characters
         .next()
         .ok_or_else(|| Error::new_spanned(name, "a key needs its meaning, as documentation"))?;
-    // A symbol or an abbreviation keeps its capital.
-    let is_word = characters.clone().next().is_some_and(char::is_lowercase);
+    // A symbol, an abbreviation and a name in the genitive keep their capital.
+    let is_name = text.split(' ').next().is_some_and(|word| word.ends_with("'s"));
+    let is_word = characters.clone().next().is_some_and(char::is_lowercase) && !is_name;
     match is_word {
         true => Ok(first.to_lowercase().chain(characters).collect()),
         false => Ok(text.to_owned()),

@@ -41,13 +41,16 @@ use syn::{DeriveInput, parse_macro_input};
 /// | … and `vector` | its component along x, or those along x and y |
 /// | … and `several = "\"1 N\""` | a list of these, with an example of one, or a table of its ends; `spacing = Linear` for equal steps |
 /// | `quantity = kind.drop(), form = "…"` | one whose dimension depends on the fields above, as the documentation describes it |
+/// | `text` | a text, or a type made from it |
+/// | `table` | a table, whose struct derives [`derive@Table`] |
+/// | `tables` | an array of tables, each with the keys of a type that derives [`derive@Part`] |
 /// | `special = reader, form = "…"` | values that a function reads, of a `dimension`, if any |
 /// | `part` | the keys of a type that derives [`derive@Part`]; an `Option` of it is `None` if none of them is given |
 ///
 /// `range` is a variant of `Bounds`. A field that is an `Option` is `None` without the key. Any other field has a `default`, or its key must
 /// be given. A default is an expression as a case file writes it; `written = "\"5 nm\""` writes it with a unit. The `written` value of an
 /// `Option` is the one that the reader of the whole case puts in place of `None`. `absent` describes in words what holds without the key.
-/// `exists` is an expression of the type `Exists`.
+/// `exists` is an expression of the type `Exists`. A key has a meaning only `with = ["file"]`, one of several kinds, if it names them.
 ///
 /// `#[table("output", default)]` also implements `Default`, for a table all of whose keys have a default. `#[table("…", check = function)]`
 /// names a function that gets the struct and the source, and returns an error for values that do not go together.
@@ -81,6 +84,13 @@ pub fn table(input: TokenStream) -> TokenStream {
 /// #[part(key = "law", example = "\"arrhenius\"", meaning = "law of the growth")]
 /// enum FilmLaw {
 ///     Arrhenius { /// Rate. #[key(…)] rate: f64, … },
+///     …
+/// }
+///
+/// #[derive(Part)]                                        exactly one kind, named as the first of its keys
+/// #[part(hint = "for example `file = \"disc.x3p\"`")]
+/// enum Source {
+///     File { /// Path. #[key(…)] file: PathBuf, … },
 ///     …
 /// }
 /// ```

@@ -26,6 +26,11 @@ pub(crate) fn derive(input: &DeriveInput) -> Result<TokenStream> {
     }
     match &input.data {
         Data::Enum(data) if attribute.key.is_some() => choice(input, data, &attribute),
+        Data::Enum(data)
+            if data.variants.iter().all(|variant| matches!(variant.fields, Fields::Named(_))) =>
+        {
+            kinds(input, data, &attribute)
+        }
         Data::Enum(data) => one_of(input, data, &attribute),
         _ => group(input, &attribute),
     }
@@ -36,19 +41,16 @@ fn group(input: &DeriveInput, attribute: &Attribute) -> Result<TokenStream> {
     let fields = fields(input)?.named.iter().map(Field::of).collect::<Result<Vec<_>>>()?;
     let declarations = declarations(&fields)?;
     let keys = keys(&fields, &quote!(KEYS));
-    let sections = fields
-        .iter()
-        .filter_map(Field::part)
-        .map(|part| quote!(sections.extend(<#part as ::asperity_base::table::Part>::sections(tables));));
+    let sections = sections(&fields, &quote!(KEYS), &quote!(tables));
     let sections = quote! {
         let mut sections = Vec::new();
-        #(#sections)*
+        #sections
         sections
     };
     let read = reader(&fields, &quote!(KEYS), attribute.check.as_ref());
     let check = checkers(&fields, &quote!(KEYS), |name| quote!(&self.#name));
     let check = quote!(#check Ok(()));
-    Ok(implementation(&input.ident, [quote!(#(#declarations),*), keys, sections, read, check]))
+    Ok(implementation(&input.ident, false, [quote!(#(#declarations),*), keys, sections, read, check]))
 }
 
 /// An enum of single values: exactly one of the keys, each named as its variant.
@@ -66,7 +68,7 @@ fn one_of(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
         quote!(#name => #given.map(Self::#variant),)
     });
     let read = quote! {
-        let given = match source.exactly_one(&[#(#names),*], #hint)? {
+        let given = match __source.exactly_one(&[#(#names),*], #hint)? {
             #(#arms)*
             _ => unreachable!("the source names one of these"),
         };
@@ -81,7 +83,7 @@ fn one_of(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
     });
     let check = quote!(match self { #(#checks)* } Ok(()));
     let declarations = quote!(#(#declarations),*);
-    Ok(implementation(&input.ident, [declarations, keys, quote!(Vec::new()), read, check]))
+    Ok(implementation(&input.ident, false, [declarations, keys, quote!(Vec::new()), read, check]))
 }
 
 /// Returns the key of a variant with a single value.
@@ -123,26 +125,13 @@ fn choice(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
                 let part = &fields.unnamed[0].ty;
                 (
                     quote!(let keys = <#part as ::asperity_base::table::Part>::keys();),
-                    quote!(Self::#ident(<#part as ::asperity_base::table::Part>::read(source)?)),
+                    quote!(Self::#ident(<#part as ::asperity_base::table::Part>::read(__source)?)),
                     quote!(Self::#ident(part) => <#part as ::asperity_base::table::Part>::check(part)?,),
                 )
             }
             Fields::Named(fields) => {
                 let fields = fields.named.iter().map(Field::of).collect::<Result<Vec<_>>>()?;
-                let (declarations, list) = (declarations(&fields)?, quote!(KEYS));
-                let own = quote!(const KEYS: &[::asperity_base::table::Key] = &[#(#declarations),*];);
-                let keys = keys(&fields, &list);
-                let readers = readers(&fields, &list);
-                let names: Vec<_> = fields.iter().map(|field| &field.name).collect();
-                let checks = checkers(&fields, &list, |name| quote!(#name));
-                (
-                    quote!(#own let mut keys = Vec::new(); #keys),
-                    quote!(#own #readers Self::#ident { #(#names),* }),
-                    quote! {
-                        #[allow(unused_variables, reason = "words have no bounds")]
-                        Self::#ident { #(#names),* } => { #own #checks }
-                    },
-                )
+                named(ident, &fields)?
             }
             Fields::Unnamed(_) => {
                 return Err(Error::new_spanned(variant, "a kind is a struct, or has keys of its own"));
@@ -156,7 +145,7 @@ fn choice(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
         });
         checks.extend(check);
         arms.extend(quote! {
-            Some(#index) => { source.suits(#choice)?; #read }
+            Some(#index) => { __source.suits(#choice)?; #read }
         });
     }
     let sections = quote! {
@@ -164,24 +153,86 @@ fn choice(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
         #sections
         sections
     };
-    let check_all = attribute.check.as_ref().map(|check| quote!(#check(&read, source)?;));
+    let check_all = attribute.check.as_ref().map(|check| quote!(#check(&read, __source)?;));
     let read = quote! {
-        let chosen = ::asperity_base::table::optional(source, &KEYS[0], |value| value.word(&[#(#words),*]))?;
+        let chosen = ::asperity_base::table::optional(__source, &KEYS[0], |value| value.word(&[#(#words),*]))?;
         let read = match chosen {
             #arms
-            _ => return Err(source.missing(&KEYS[0])),
+            _ => return Err(__source.missing(&KEYS[0])),
         };
         #check_all
         Ok(read)
     };
     let keys = quote!(keys.push(KEYS[0]););
     let check = quote!(match self { #checks } Ok(()));
-    Ok(implementation(&input.ident, [declaration, keys, sections, read, check]))
+    Ok(implementation(&input.ident, true, [declaration, keys, sections, read, check]))
 }
 
-/// The implementation with the declarations of the own keys, and the bodies of its functions.
+/// An enum of several kinds, exactly one of which is given by the key of its name, the first of its fields.
+fn kinds(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result<TokenStream> {
+    let hint =
+        need(input, attribute.hint.as_ref(), "one of several kinds needs a `hint` for none and for two")?;
+    let names: Vec<String> = data.variants.iter().map(|variant| snake(&variant.ident)).collect();
+    let (mut sections, mut arms, mut checks) = (TokenStream::new(), TokenStream::new(), TokenStream::new());
+    for (variant, kind) in data.variants.iter().zip(&names) {
+        let fields = variant.fields.iter().map(Field::of).collect::<Result<Vec<_>>>()?;
+        let parts: Vec<_> = fields.iter().filter_map(Field::part).collect();
+        // A choice among the keys looks itself for those that do not suit it.
+        let suits = quote! {
+            if !(false #(|| <#parts as ::asperity_base::table::Part>::CHOOSES)*) {
+                __source.suits(#kind)?;
+            }
+        };
+        let (keys, read, check) = named(&variant.ident, &fields)?;
+        sections.extend(quote! {
+            {
+                #keys
+                sections.push(::asperity_base::table::Section { tables, kind: #kind, keys: keys.leak() });
+                #(sections.extend(<#parts as ::asperity_base::table::Part>::sections(tables));)*
+            }
+        });
+        arms.extend(quote!(#kind => { #suits #read }));
+        checks.extend(check);
+    }
+    let sections = quote! {
+        let mut sections = Vec::new();
+        #sections
+        sections
+    };
+    let check_all = attribute.check.as_ref().map(|check| quote!(#check(&read, __source)?;));
+    let read = quote! {
+        let read = match __source.exactly_one(&[#(#names),*], #hint)? {
+            #arms
+            _ => unreachable!("the source names one of these"),
+        };
+        #check_all
+        Ok(read)
+    };
+    let check = quote!(match self { #checks } Ok(()));
+    Ok(implementation(&input.ident, false, [TokenStream::new(), TokenStream::new(), sections, read, check]))
+}
+
+/// The statements and expressions of a variant with keys: its `keys`, the reader, and the arm that checks it.
+fn named(ident: &Ident, fields: &[Field<'_>]) -> Result<(TokenStream, TokenStream, TokenStream)> {
+    let (declarations, list) = (declarations(fields)?, quote!(KEYS));
+    let own = quote!(const KEYS: &[::asperity_base::table::Key] = &[#(#declarations),*];);
+    let (keys, readers) = (keys(fields, &list), readers(fields, &list));
+    let names: Vec<_> = fields.iter().map(|field| &field.name).collect();
+    let checks = checkers(fields, &list, |name| quote!(#name));
+    Ok((
+        quote!(#own let mut keys = Vec::new(); #keys),
+        quote!(#own #readers Self::#ident { #(#names),* }),
+        quote! {
+            #[allow(unused_variables, reason = "words have no bounds")]
+            Self::#ident { #(#names),* } => { #own #checks }
+        },
+    ))
+}
+
+/// The implementation of a part, which may be a choice, with the declarations of the own keys, and the bodies of its functions.
 fn implementation(
     part: &Ident,
+    chooses: bool,
     [declarations, keys, sections, read, check]: [TokenStream; 5],
 ) -> TokenStream {
     quote! {
@@ -190,6 +241,8 @@ fn implementation(
 
             #[allow(clippy::vec_init_then_push, unused_mut, reason = "one statement for each key")]
             impl ::asperity_base::table::Part for #part {
+                const CHOOSES: bool = #chooses;
+
                 fn keys() -> Vec<::asperity_base::table::Key> {
                     let mut keys = Vec::new();
                     #keys
@@ -201,7 +254,7 @@ fn implementation(
                     #sections
                 }
 
-                fn read(source: &dyn ::asperity_base::table::Source) -> ::asperity_base::error::Result<Self> {
+                fn read(__source: &dyn ::asperity_base::table::Source) -> ::asperity_base::error::Result<Self> {
                     #read
                 }
 
@@ -229,11 +282,34 @@ fn numbered<'f, 'a>(fields: &'f [Field<'a>]) -> impl Iterator<Item = (usize, &'f
 
 /// The statements that add the keys of fields to `keys`, from the `list` of their own keys and from their parts.
 pub(crate) fn keys(fields: &[Field<'_>], list: &TokenStream) -> TokenStream {
-    let each = numbered(fields).map(|(index, field)| match field.part() {
+    let each = numbered(fields).filter(|(_, field)| field.with.is_empty());
+    let each = each.map(|(index, field)| match field.part() {
         Some(part) => quote!(keys.extend(<#part as ::asperity_base::table::Part>::keys());),
         None => quote!(keys.push(#list[#index]);),
     });
     each.collect()
+}
+
+/// The statements that add to `sections` the keys that have a meaning only with a choice, in these `tables`: those of parts, then those of
+/// the fields that name it.
+pub(crate) fn sections(fields: &[Field<'_>], list: &TokenStream, tables: &TokenStream) -> TokenStream {
+    let parts = fields.iter().filter_map(Field::part);
+    let parts = parts
+        .map(|part| quote!(sections.extend(<#part as ::asperity_base::table::Part>::sections(#tables));));
+    let mut kinds: Vec<&String> = Vec::new();
+    for kind in fields.iter().flat_map(|field| &field.with) {
+        if !kinds.contains(&kind) {
+            kinds.push(kind);
+        }
+    }
+    let own = kinds.into_iter().map(|kind| {
+        let keys = numbered(fields).filter(|(_, field)| field.with.contains(kind));
+        let keys = keys.map(|(index, _)| quote!(#list[#index]));
+        quote! {
+            sections.push(::asperity_base::table::Section { tables: #tables, kind: #kind, keys: vec![#(#keys),*].leak() });
+        }
+    });
+    parts.chain(own).collect()
 }
 
 /// The statements that read each field into a variable of its name.
@@ -255,7 +331,7 @@ pub(crate) fn checkers(
 /// The body of a function that reads a struct with these fields, and checks it.
 pub(crate) fn reader(fields: &[Field<'_>], list: &TokenStream, check: Option<&Path>) -> TokenStream {
     let (readers, names) = (readers(fields, list), fields.iter().map(|field| &field.name));
-    let check = check.map(|check| quote!(#check(&read, source)?;));
+    let check = check.map(|check| quote!(#check(&read, __source)?;));
     quote! {
         #readers
         let read = Self { #(#names),* };

@@ -25,13 +25,7 @@ pub(crate) fn derive(input: &DeriveInput) -> Result<TokenStream> {
     let declarations = part::declarations(&fields)?;
     let list = quote!(<Self as ::asperity_base::table::Table>::KEYS);
     let keys = part::keys(&fields, &list);
-    let sections = fields.iter().filter_map(Field::part).map(|part| {
-        quote! {
-            sections.extend(
-                <#part as ::asperity_base::table::Part>::sections(<Self as ::asperity_base::table::Table>::TABLES)
-            );
-        }
-    });
+    let sections = part::sections(&fields, &list, &quote!(<Self as ::asperity_base::table::Table>::TABLES));
     let read = part::reader(&fields, &list, check.as_ref());
     let check = part::checkers(&fields, &list, |name| quote!(&self.#name));
     let table = &input.ident;
@@ -67,11 +61,11 @@ pub(crate) fn derive(input: &DeriveInput) -> Result<TokenStream> {
                 };
                 #[allow(unused_mut, reason = "a table may have no parts")]
                 let mut sections = vec![own];
-                #(#sections)*
+                #sections
                 sections
             }
 
-            fn read(source: &dyn ::asperity_base::table::Source) -> ::asperity_base::error::Result<Self> {
+            fn read(__source: &dyn ::asperity_base::table::Source) -> ::asperity_base::error::Result<Self> {
                 #read
             }
 

@@ -7,7 +7,9 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::case::document::Document;
-use super::case::{Body, Case, GridMatch, Hardness, Mount, Source, TopographySpec, topography_alone};
+use super::case::{
+    Body, Case, GridMatch, Hardness, HardnessMap, Mount, Source, TopographySpec, topography_alone,
+};
 use super::given::SurfaceInput;
 use crate::io::{sha256, sha256_of};
 use crate::viscoelastic::{self, MasterCurve};
@@ -275,12 +277,12 @@ fn grid(
     let spec = &body.topography;
     let at = Place { document: case.document(), table: &table, spec, pitch };
     let (grid, preparation) = match &spec.source {
-        Source::File { path, .. } => {
-            let (scan, sha256) = read(path, &spec.source.reading()).map_err(|error| at.reading(error))?;
-            let (topography, _, preparation) = measured(at, path, scan, sha256)?;
+        Source::File { file, .. } => {
+            let (scan, sha256) = read(file, &spec.source.reading()).map_err(|error| at.reading(error))?;
+            let (topography, _, preparation) = measured(at, file, scan, sha256)?;
             (*topography.grid(), preparation)
         }
-        Source::Given { name } => {
+        Source::Given { given: name } => {
             let topography = given.topography(name).map_err(|error| at.not_supplied(error))?;
             (*topography.grid(), with_pitch(at, topography.grid().pitch)?)
         }
@@ -351,13 +353,13 @@ fn prepare_topography(
     let spec = at.spec;
     let grid = || spec.made_on(other);
     let (topography, origin, preparation) = match &spec.source {
-        Source::File { path, .. } => {
-            let (scan, sha256) = read(path, &spec.source.reading()).map_err(|error| at.reading(error))?;
+        Source::File { file, .. } => {
+            let (scan, sha256) = read(file, &spec.source.reading()).map_err(|error| at.reading(error))?;
             given.admit(&format!("{}.file", at.table), &sha256)?;
-            let (topography, origin, preparation) = measured(at, path, scan, sha256)?;
+            let (topography, origin, preparation) = measured(at, file, scan, sha256)?;
             (Ok(topography), Some(origin), preparation)
         }
-        Source::Given { name } => {
+        Source::Given { given: name } => {
             let topography = given.take_topography(name).map_err(|error| at.not_supplied(error))?;
             let preparation = with_pitch(at, topography.grid().pitch)?;
             let origin = Origin::supplied(name, &topography);
@@ -393,8 +395,8 @@ pub fn hardness(
     };
     let (mut values, sha256, file, key) = match &body.hardness {
         Hardness::Uniform(value) => return Ok((CellValues::Uniform(*value), None)),
-        Hardness::Map(map) => {
-            let (scan, sha256) = read(&map.path, &map.reading()).map_err(|source| {
+        Hardness::Map(map @ HardnessMap::File { file, unit, .. }) => {
+            let (scan, sha256) = read(file, &map.reading()).map_err(|source| {
                 let key = match &source {
                     Error::NoChannel { .. } => "channel",
                     Error::OptionOfText { option, .. } => option,
@@ -403,16 +405,16 @@ pub fn hardness(
                 error(key, source.to_string(), hint_for_key(&source))
             })?;
             given.admit(&format!("{name}.hardness.file"), &sha256)?;
-            let file = map.path.display().to_string();
+            let file = file.display().to_string();
             if scan.unit == LengthUnit::Known {
                 let hint = "give a file of numbers alone, such as npy or csv".to_owned();
                 return Err(error("file", format!("{file} holds lengths, expected a hardness"), Some(hint)));
             }
-            (scan.heights * map.unit, sha256, file, "file")
+            (scan.heights * *unit, sha256, file, "file")
         }
-        Hardness::Given(map) => {
+        Hardness::Map(HardnessMap::Given { given: name }) => {
             let values = given
-                .take_hardness(&map.name)
+                .take_hardness(name)
                 .map_err(|source| error("given", source.to_string(), source.hint()))?;
             let sha256 = sha256_of(values.iter().copied());
             (values, sha256, format!("the hardness of the {name} body"), "given")
@@ -599,8 +601,8 @@ impl Place<'_> {
     /// The file as named in the case, or the supplied name; empty for a generated surface.
     fn file(&self) -> String {
         match &self.spec.source {
-            Source::File { path, .. } => path.display().to_string(),
-            Source::Given { name } => name.clone(),
+            Source::File { file, .. } => file.display().to_string(),
+            Source::Given { given } => given.clone(),
             _ => String::new(),
         }
     }

@@ -11,7 +11,7 @@ use asperity_base::exists;
 use asperity_base::grid::{Field, Grid};
 use asperity_base::math::parallel;
 use asperity_base::table::{Bounds, Key, Kind, Source, Value, require, two};
-use asperity_base::units::{Dimension, Metre};
+use asperity_base::units::{Dimension, Metre, or_infs};
 use asperity_derive::Part;
 
 /// An ideal form, material's side up, with its apex in the centre of the grid at height 0.
@@ -75,6 +75,7 @@ pub enum Form {
             example = "\"64 um\"",
             exists = exists::WAVE
         )]
+        #[serde(serialize_with = "or_infs")]
         wavelength: [Metre; 2],
     },
     /// z = −d p(u), parallel grooves with ridges of height 0 between them. u is the distance from a ridge over the period,

@@ -9,9 +9,8 @@ use asperity_report::describe::{
 use asperity_report::draw::{self, Caption, Paper};
 use asperity_report::figures::RINGS;
 use asperity_report::page;
-use asperity_study::case::Source;
 use asperity_study::{PreparedTopography, SurfaceInput, topography, topography_spec};
-use asperity_surface::{LengthUnit, ReadOptions, Spectrum, Topography, Window};
+use asperity_surface::{LengthUnit, Spectrum, Topography, Window};
 use serde_json::{Value, json};
 
 use crate::{Failure, Result};
@@ -23,14 +22,7 @@ const POINTS: usize = 201;
 pub fn scan(name: &str, reading: &str) -> Result<Value> {
     let mut table = parsed(reading)?;
     table.insert("file".to_owned(), name.into());
-    let mut options = ReadOptions::default();
-    if let Source::File { channel, unit, lines, skip, .. } =
-        topography_spec(&wrapped(table), Path::new(""))?.source
-    {
-        (options.channel, options.unit, options.lines) = (channel, unit, lines);
-        options.skip = skip.unwrap_or_default();
-    }
-    let scan = options.scan(name)?;
+    let scan = topography_spec(&wrapped(table), Path::new(""))?.source.reading().scan(name)?;
     let (nx, ny) = scan.heights.dim();
     Ok(json!({
         "format": scan.format,

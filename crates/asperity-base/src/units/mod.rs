@@ -4,7 +4,7 @@ mod infinite;
 mod quantity;
 mod range;
 
-pub use infinite::or_inf;
+pub use infinite::{known_or_inf, or_inf, or_infs};
 pub use quantity::{
     CELSIUS, Dimension, Multiple, UnitError, format, format_digits, format_distinct, format_number,
     format_number_digits, format_within, parse,

@@ -3,6 +3,7 @@
 use super::Material;
 use crate::error::Result;
 use crate::units::Pascal;
+use asperity_base::Choice;
 
 /// Constants of a material at room temperature. Those that differ too much between grades are missing.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -212,6 +213,24 @@ pub const NAMES: &[&str] = &{
     }
     names
 };
+
+impl Choice for &'static NamedMaterial {
+    const NAMES: &'static [&'static str] = NAMES;
+
+    const WORDS: &'static [(&'static str, Self)] = &{
+        let mut words = [("", &MATERIALS[0]); MATERIALS.len()];
+        let mut index = 0;
+        while index < words.len() {
+            words[index] = (NAMES[index], &MATERIALS[index]);
+            index += 1;
+        }
+        words
+    };
+
+    fn word(self) -> &'static str {
+        self.name
+    }
+}
 
 #[cfg(test)]
 mod tests {

@@ -69,7 +69,7 @@ impl Profile {
         // Which body flows depends on the cell where one of them has a map of its hardness.
         let [lower, upper] = [&case.lower, &case.upper].map(|body| match body.hardness {
             Hardness::Uniform(hardness) => Some(hardness),
-            Hardness::Map(_) | Hardness::Given(_) => None,
+            Hardness::Map(_) => None,
         });
         let plastic = match (lower, upper) {
             (Some(lower), Some(upper)) => plastic_share(lower, upper),

@@ -2,79 +2,309 @@
 
 use std::path::Path;
 
-use super::cursor::Table;
-use super::running::{self, Used};
-use super::schema::body::{both, upper};
-use super::schema::tables::{self, known_in};
-use super::topography::topography;
-use super::{Body, Hardness, HardnessMap, Mount, Source};
-use asperity_base::error::Result;
-use asperity_base::table::Table as _;
-use asperity_contact::each_property;
-use asperity_contact::material::{Material, NamedMaterial};
+use serde::{Serialize, Serializer};
+
+use super::hardness::{Hardness, hardness};
+use super::source::{Source, TopographySpec};
+use asperity_base::choice::choice;
+use asperity_base::error::{Error, Result};
+use asperity_base::exists;
+use asperity_base::table::{self, Key, Table as _};
+use asperity_base::units::{Pascal, known_or_inf, or_inf};
+use asperity_contact::material::{Coating, Material, NamedMaterial};
+use asperity_contact::temperature::Thermal;
 use asperity_contact::with::plasticity::Yielding;
-use asperity_contact::with::{BodyProperties, BodyProperty as _, Listed as _};
+use asperity_contact::with::{
+    BodyConstants, BodyLaw as _, BodyLaws, BodyProperties, BodyProperty as _, Listed as _,
+};
+use asperity_contact::{each_law, each_property};
+use asperity_derive::Table;
 use asperity_surface::UNDERSIDE;
 
-/// Reads a body of a case, whose tables use some constants of a named material; files are relative to the `folder` of the case.
-pub(super) fn body(table: &Table<'_>, folder: &Path, used: Used) -> Result<Body> {
-    let is_upper = table.path() == "upper";
-    known_in(table)?;
-    let named = both::MATERIAL.of(table)?;
-    let young = both::YOUNG.of_material(table, named.map(|named| named.young))?;
-    let poisson = both::POISSON.of_material(table, named.map(|named| named.poisson))?;
-    // A body that flows below its surface has no hardness.
-    let hardness = hardness(table, folder, named.filter(|_| both::PLASTICITY.entry(table).is_none()))?;
-    let coating = tables::read(&both::COATING, table)?;
-    let plasticity = tables::read(&both::PLASTICITY, table)?.map(Yielding::resolved);
-    let mut properties = BodyProperties::default();
-    each_property!(P => if let Some(table) = table.table(P::NAME)? {
-        known_in(&table)?;
-        P::read(&table)?.in_folder(folder).give(&mut properties);
-    });
-    let laws = running::laws(table, &hardness)?;
-    let topography = topography(&both::TOPOGRAPHY.demand(table)?, folder)?;
-    let mount = match upper::MOUNT.of(table)? {
-        Some(mount) => Some(mount),
-        None if is_upper && may_be_an_underside(&topography.source) => None,
-        None if is_upper => Some(Mount::TurnedOver),
-        None => Some(Mount::AsIs),
-    };
-    // Checked above, entry by entry, so this cannot fail.
-    let material = Material { coating, ..Material::elastic(young, poisson)? };
-    let thermal = running::thermal(table, named, used)?;
-    let conducts = named.filter(|_| used.conduction);
-    let conductivity = match thermal {
-        None => both::CONDUCTIVITY.of(table)?.or(conducts.and_then(|named| named.conductivity)),
-        Some(_) => None,
-    };
-    let resistivity = both::RESISTIVITY.of(table)?.or(conducts.and_then(|named| named.resistivity));
-    Ok(Body {
-        material,
-        hardness,
-        plasticity,
-        properties,
-        thermal,
-        conductivity,
-        resistivity,
-        laws,
-        topography,
-        mount,
-    })
+/// One of the two bodies.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Body {
+    /// Elastic constants of the body. Its hardness is in [`Body::hardness`].
+    #[serde(flatten, serialize_with = "elastic")]
+    pub material: Material,
+    /// Largest pressure that the cells of the body can carry; infinite by default.
+    pub hardness: Hardness,
+    /// Plastic flow below the surface; elastic if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plasticity: Option<Yielding>,
+    /// Properties of the body that contacts do not change, each with its table.
+    #[serde(flatten)]
+    pub properties: BodyProperties,
+    /// Thermal constants of the body; unknown if absent.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub thermal: Option<Thermal>,
+    /// Thermal conductivity, W/(m K), of a body that has no other thermal constants, > 0 or infinite; unknown if absent.
+    #[serde(serialize_with = "known_or_inf", skip_serializing_if = "Option::is_none")]
+    pub conductivity: Option<f64>,
+    /// Electrical resistivity, Ω m, > 0; unknown if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resistivity: Option<f64>,
+    /// Laws by which contacts change the body, each with its table.
+    #[serde(flatten)]
+    pub laws: BodyLaws,
+    /// The body's surface.
+    pub topography: TopographySpec,
+    /// How the heights are mounted: always [`Mount::AsIs`] for the lower body. `None` leaves the decision to the file: as
+    /// they are if it describes an underside, see [`Scan::is_underside`](asperity_surface::Scan::is_underside), else turned
+    /// over.
+    #[serde(skip)]
+    pub mount: Option<Mount>,
 }
 
-/// Whether a results file there may contain the underside of a body.
-fn may_be_an_underside(source: &Source) -> bool {
-    matches!(source, Source::File { channel: Some(channel), .. } if channel == UNDERSIDE)
+/// The keys of a body. A named material gives those that are missing.
+#[derive(Table, Debug, Clone, PartialEq)]
+#[table("lower", "upper")]
+pub(super) struct BodyKeys {
+    /// Material by name, see [materials](#materials): its `young`, `poisson` and `hardness`, and the constants of heat and current where the
+    /// case uses them; keys given beside it replace them.
+    #[key(choice, absent = "none", example = "\"steel\"")]
+    material: Option<&'static NamedMaterial>,
+    /// Young's modulus; for a coated body, the modulus below the coating; at most one uncoated body may be rigid.
+    #[key(
+        quantity = Pressure,
+        range = AboveZeroOrInfinite("a rigid body"),
+        absent = "that of `material`; must be given without one",
+        example = "\"210 GPa\"",
+        exists = exists::YOUNG
+    )]
+    young: Option<Pascal>,
+    /// Poisson's ratio; for a coated body, the ratio below the coating.
+    #[key(
+        number = "a number",
+        range = Between { least: 0.0, most: 0.5, open: [false, false] },
+        absent = "that of `material`; must be given without one",
+        example = "0.3"
+    )]
+    poisson: Option<f64>,
+    /// Largest pressure of the body, or a map of it.
+    #[key(
+        special = hardness,
+        form = "pressure > 0, or `inf`: an elastic body, or a table: a [map](#a-map-of-the-hardness)",
+        dimension = Pressure,
+        written = "inf",
+        example = "\"4 GPa\"",
+        exists = exists::HARDNESS
+    )]
+    hardness: Option<Hardness>,
+    /// Elastic surface layer, see [below](#lowercoating-and-uppercoating).
+    #[key(table, absent = "none")]
+    coating: Option<Coating>,
+    /// Its surface.
+    #[key(table)]
+    topography: TopographySpec,
+    /// Plastic deformation below the surface, see [below](#plasticity).
+    #[key(table, absent = "elastic")]
+    plasticity: Option<Yielding>,
+    /// Thermal conductivity, for the flash temperature and for heat that passes a contact; give it for both bodies.
+    #[key(
+        quantity = Conductivity,
+        range = AboveZeroOrInfinite("no resistance, only where heat passes a contact"),
+        absent = "unknown",
+        example = "\"46 W/(m K)\"",
+        exists = exists::CONDUCTIVITY
+    )]
+    conductivity: Option<f64>,
+    /// Electrical resistivity, for a current that passes a contact; give it for both bodies.
+    #[key(
+        quantity = Resistivity,
+        range = AboveZero,
+        absent = "unknown",
+        example = "\"1.7e-8 ohm m\"",
+        exists = exists::RESISTIVITY
+    )]
+    resistivity: Option<f64>,
+    /// Heat capacity; required with `conductivity`.
+    #[key(
+        quantity = HeatCapacity,
+        range = AboveZero,
+        absent = "unknown",
+        example = "\"460 J/(kg K)\"",
+        exists = exists::HEAT_CAPACITY
+    )]
+    heat_capacity: Option<f64>,
+    /// Density; required with `conductivity`.
+    #[key(
+        quantity = Density,
+        range = AboveZero,
+        absent = "unknown",
+        example = "\"7850 kg/m3\"",
+        exists = exists::DENSITY
+    )]
+    density: Option<f64>,
 }
 
-/// Reads the hardness from the table of a body, by default that of a named material; files are relative to the folder of the case.
-fn hardness(table: &Table<'_>, folder: &Path, named: Option<&NamedMaterial>) -> Result<Hardness> {
-    if let (None, Some(hardness)) = (both::HARDNESS.entry(table), named.and_then(|named| named.hardness)) {
-        return Ok(Hardness::Uniform(hardness));
+/// The keys that only the upper body has.
+#[derive(Table, Debug, Clone, Copy, PartialEq)]
+#[table("upper")]
+pub(super) struct UpperKeys {
+    /// `[upper]` only: orientation of its heights.
+    #[key(choice, absent = "`\"turned-over\"`; `\"as-is\"` for an underside", example = "\"as-is\"")]
+    mount: Option<Mount>,
+}
+
+/// Conversion of the heights of a body to those of the case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mount {
+    /// Measured material side up, then turned over about y: mirrored in x, with the sign of the heights changed.
+    TurnedOver,
+    /// The heights are already those of the case.
+    AsIs,
+}
+
+choice!(Mount: "turned-over" => TurnedOver, "as-is" => AsIs);
+
+/// The constants beside the elastic ones that the tables of a case use.
+#[derive(Clone, Copy)]
+pub(super) struct Used {
+    /// Whether bodies are heated by friction as they slide.
+    pub(super) flash: bool,
+    /// Whether heat or current passes the contact, so that the conductivity may be given without the other constants of heat.
+    pub(super) conduction: bool,
+}
+
+impl UpperKeys {
+    /// Returns the mount of the upper body with this `source` of its heights.
+    pub(super) fn mount(&self, source: &Source) -> Option<Mount> {
+        // A results file may contain the underside of a body.
+        let may_be_an_underside =
+            matches!(source, Source::File { channel: Some(channel), .. } if channel == UNDERSIDE);
+        self.mount.or((!may_be_an_underside).then_some(Mount::TurnedOver))
     }
-    Ok(match both::HARDNESS.of(table)? {
-        Hardness::Map(map) => Hardness::Map(HardnessMap { path: folder.join(map.path), ..map }),
-        other => other,
+}
+
+impl BodyKeys {
+    /// Returns the body, as a lower one, from its table `source`, of which a case uses some constants of a named material. Files are relative to
+    /// the `folder` of the case.
+    pub(super) fn body(&self, source: &dyn table::Source, folder: &Path, used: Used) -> Result<Body> {
+        let named = self.material;
+        let young = elastic_constant(source, "young", self.young, named.map(|named| named.young))?;
+        let poisson = elastic_constant(source, "poisson", self.poisson, named.map(|named| named.poisson))?;
+        // A body that flows below its surface has no hardness.
+        let of_material = named.filter(|_| self.plasticity.is_none()).and_then(|named| named.hardness);
+        let hardness = match &self.hardness {
+            Some(hardness) => hardness.clone().in_folder(folder),
+            None => Hardness::Uniform(of_material.unwrap_or(Pascal::INFINITY)),
+        };
+        let one_hardness = match hardness {
+            Hardness::Uniform(hardness) => Some(hardness).filter(|hardness| hardness.is_finite()),
+            Hardness::Map(_) => None,
+        };
+        let (mut properties, mut laws) = (BodyProperties::default(), BodyLaws::default());
+        each_property!(P => if let Some(value) = source.value(P::NAME) {
+            P::read(value.table()?.as_ref())?.in_folder(folder).give(&mut properties);
+        });
+        each_law!(L => if let Some(value) = source.value(L::NAME) {
+            let table = value.table()?;
+            L::read(table.as_ref())?.on(one_hardness, table.as_ref())?.give(&mut laws);
+        });
+        // Checked above, key by key, so this cannot fail.
+        let material = Material { coating: self.coating, ..Material::elastic(young, poisson)? };
+        let thermal = self.thermal(source, used)?;
+        let conducts = named.filter(|_| used.conduction);
+        let conductivity = match thermal {
+            None => self.conductivity.or(conducts.and_then(|named| named.conductivity)),
+            Some(_) => None,
+        };
+        Ok(Body {
+            material,
+            hardness,
+            plasticity: self.plasticity.clone().map(Yielding::resolved),
+            properties,
+            thermal,
+            conductivity,
+            resistivity: self.resistivity.or(conducts.and_then(|named| named.resistivity)),
+            laws,
+            topography: self.topography.clone().in_folder(folder),
+            mount: Some(Mount::AsIs),
+        })
+    }
+
+    /// Returns the thermal constants of a body, all of them or none. Those of a named material count where they are used.
+    fn thermal(&self, source: &dyn table::Source, used: Used) -> Result<Option<Thermal>> {
+        let named = self.material;
+        let of_material = |constant: fn(&NamedMaterial) -> Option<f64>| named.and_then(constant);
+        let constants = [
+            ("conductivity", self.conductivity, of_material(|named| named.conductivity)),
+            ("heat_capacity", self.heat_capacity, of_material(|named| named.heat_capacity)),
+            ("density", self.density, of_material(|named| named.density)),
+        ];
+        let are_named = constants.iter().all(|(.., named)| named.is_some());
+        let counts = self.gives_heat(used) || (used.flash && are_named);
+        if !counts {
+            return Ok(None);
+        }
+        let constant = |(name, given, named): (&str, Option<f64>, Option<f64>)| {
+            given.or(named).ok_or_else(|| source.missing(key(name)))
+        };
+        let [conductivity, heat_capacity, density] = constants;
+        Thermal::new(constant(conductivity)?, constant(heat_capacity)?, constant(density)?).map(Some)
+    }
+
+    /// Whether the table gives constants of heat, without a conductivity that may be given alone.
+    fn gives_heat(&self, used: Used) -> bool {
+        let given = [self.conductivity, self.heat_capacity, self.density];
+        given[usize::from(used.conduction)..].iter().any(Option::is_some)
+    }
+
+    /// Leaves out the heat of a body that only its material knows, if the other body has none: friction heats both or neither.
+    pub(super) fn heat_together(&self, body: &mut Body, other: &Body, used: Used) {
+        if other.thermal.is_none() && !self.gives_heat(used) {
+            let thermal = body.thermal.take();
+            body.conductivity = body
+                .conductivity
+                .or_else(|| thermal.filter(|_| used.conduction).map(|thermal| thermal.conductivity));
+        }
+    }
+}
+
+impl Body {
+    /// Returns the constants of the body.
+    pub(super) fn constants(&self) -> BodyConstants {
+        BodyConstants {
+            material: self.material,
+            conductivity: self.thermal.map(|thermal| thermal.conductivity).or(self.conductivity),
+            resistivity: self.resistivity,
+            properties: self.properties.clone(),
+        }
+    }
+}
+
+/// Returns a constant that is given or that of a named material; one of them must be there.
+fn elastic_constant(
+    source: &dyn table::Source,
+    name: &str,
+    given: Option<f64>,
+    named: Option<f64>,
+) -> Result<f64> {
+    given.or(named).ok_or_else(|| match source.missing(key(name)) {
+        Error::Case(mut error) => {
+            error.hint = error.hint.map(|hint| hint + ", or `material = \"steel\"`");
+            Error::Case(error)
+        }
+        error => error,
     })
+}
+
+/// Returns the declaration of a key of a body.
+fn key(name: &str) -> &'static Key {
+    BodyKeys::KEYS.iter().find(|key| key.name == name).expect("a body has this key")
+}
+
+fn elastic<S: Serializer>(material: &Material, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Keys {
+        #[serde(serialize_with = "or_inf")]
+        young: Pascal,
+        poisson: f64,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        coating: Option<Coating>,
+    }
+    let Material { young, poisson, coating, .. } = *material;
+    Keys { young, poisson, coating }.serialize(serializer)
 }

@@ -5,7 +5,6 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 use super::document::{Document, join};
-use asperity_base::choice::Choice;
 use asperity_base::error::{Error, Result};
 use asperity_base::units::{self, Dimension, MAX_COUNT, NUMBERS};
 
@@ -54,11 +53,12 @@ impl<'a> Table<'a> {
     }
 
     pub(super) fn required_table(&self, key: &str) -> Result<Table<'a>> {
-        let missing = || {
-            let path = join(&self.path, key);
-            self.document.error(&path, self.span.clone(), format!("missing table [{path}]"), None)
-        };
-        self.table(key)?.ok_or_else(missing)
+        self.table(key)?.ok_or_else(|| self.missing_table(key))
+    }
+
+    pub(super) fn missing_table(&self, key: &str) -> Error {
+        let path = join(&self.path, key);
+        self.document.error(&path, self.span.clone(), format!("missing table [{path}]"), None)
     }
 
     /// Returns an error unless every key is among `known`. `elsewhere` explains a key that belongs to another table.
@@ -84,6 +84,10 @@ impl<'a> Table<'a> {
         given.sort_by_key(|(_, entry)| entry.span.start);
         match given.as_slice() {
             [(key, _)] => Ok(key),
+            [] if keys.len() == 1 => {
+                Err(self
+                    .error(format!("missing key '{}' in {}", keys[0], self.name()), Some(hint.to_owned())))
+            }
             [] => Err(self.error(
                 format!("{} names none of {}, expected one", self.name(), list(keys)),
                 Some(hint.to_owned()),
@@ -408,11 +412,6 @@ impl<'a> Entry<'a> {
     /// Returns a component along x, or an array of two along x and y.
     pub(super) fn vector(&self, expected: &str, read: impl Fn(&Self) -> Result<f64>) -> Result<[f64; 2]> {
         if self.is_array() { self.array(expected, read) } else { read(self).map(|x| [x, 0.0]) }
-    }
-
-    /// Returns the choice for a word.
-    pub(super) fn choice<T: Choice>(&self) -> Result<T> {
-        self.word(T::WORDS)
     }
 
     /// Returns the value that belongs to one of several words.

@@ -37,6 +37,7 @@ fn sections(table: &str) -> impl Iterator<Item = &'static Section> {
 fn table(path: &str) -> Value {
     let mut properties = Map::new();
     let mut required = Vec::new();
+    let has_one_kind = sections(path).count() == 1;
     for section in sections(path) {
         for key in section.keys {
             let value = property(path, key);
@@ -47,7 +48,7 @@ fn table(path: &str) -> Value {
                 // The same name with another choice.
                 Some(known) => add_alternative(known, value),
             }
-            if section.kind.is_empty() && key.default == Fallback::Required {
+            if (section.kind.is_empty() || has_one_kind) && key.default == Fallback::Required {
                 required.push(key.name);
             }
         }

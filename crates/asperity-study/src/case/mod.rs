@@ -22,39 +22,36 @@ pub mod schema;
 mod sliding;
 mod source;
 mod subsurface;
-mod topography;
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
 
+pub use self::body::{Body, Mount};
 pub use self::contact::{Contact, GridMatch};
 use self::document::Document;
 pub use self::friction::{FrictionSpec, InPlane, LoadingPath, StageSpec};
-pub use self::hardness::{Hardness, HardnessInput, HardnessMap};
+pub use self::hardness::{Hardness, HardnessMap};
 pub use self::json_schema::json_schema;
 pub use self::motion::{ControlKind, CounterBody, MotionSpec, Offset, StrategyKind};
 pub use self::output::Output;
 pub use self::prescribed::{ContactLoad, Prescribed};
 pub use self::sliding::SlidingSpec;
-pub use self::source::{Layer, Source, TopographySpec};
+pub use self::source::{Layer, Layout, Source, TopographySpec};
 pub use self::subsurface::{Side, SubsurfaceSpec};
 use crate::io::regular;
-use asperity_base::choice::choice;
 use asperity_base::error::{Error, Result};
 use asperity_base::units::{MetrePerSecond, SquareMetre};
-use asperity_contact::material::{Coating, Compliances, Material};
+use asperity_contact::material::Compliances;
 use asperity_contact::motion::{Acceleration, Motion, Strategy};
 pub use asperity_contact::operator::{Boundary, Edge};
 use asperity_contact::solver::{Coupling, Sliding};
 pub use asperity_contact::solver::{Device, Method};
-use asperity_contact::temperature::{Temperature, Thermal};
-use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
+use asperity_contact::temperature::Temperature;
+use asperity_contact::with::plasticity::PlasticRegion;
 use asperity_contact::with::viscoelastic::Steady;
-use asperity_contact::with::{
-    BodyConstants, BodyLaws, BodyProperties, Capabilities, Interfaces, Surroundings,
-};
+use asperity_contact::with::{Capabilities, Interfaces, Surroundings};
 
 /// A case, resolved to SI.
 #[derive(Debug, Clone, Serialize)]
@@ -107,65 +104,6 @@ pub struct Case {
     #[serde(skip)]
     document: Document,
 }
-
-/// One of the two bodies.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[non_exhaustive]
-pub struct Body {
-    /// Elastic constants of the body. Its hardness is in [`Body::hardness`].
-    #[serde(flatten, serialize_with = "with_infinities")]
-    pub material: Material,
-    /// Largest pressure that the cells of the body can carry; infinite by default.
-    pub hardness: Hardness,
-    /// Plastic flow below the surface; elastic if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub plasticity: Option<Yielding>,
-    /// Properties of the body that contacts do not change, each with its table.
-    #[serde(flatten)]
-    pub properties: BodyProperties,
-    /// Thermal constants of the body; unknown if absent.
-    #[serde(flatten, skip_serializing_if = "Option::is_none")]
-    pub thermal: Option<Thermal>,
-    /// Thermal conductivity, W/(m K), of a body that has no other thermal constants, > 0 or infinite; unknown if absent.
-    #[serde(serialize_with = "with_infinity", skip_serializing_if = "Option::is_none")]
-    pub conductivity: Option<f64>,
-    /// Electrical resistivity, Ω m, > 0; unknown if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub resistivity: Option<f64>,
-    /// Laws by which contacts change the body, each with its table.
-    #[serde(flatten)]
-    pub laws: BodyLaws,
-    /// The body's surface.
-    pub topography: TopographySpec,
-    /// How the heights are mounted: always [`Mount::AsIs`] for the lower body. `None` leaves the decision to the file: as
-    /// they are if it describes an underside, see [`Scan::is_underside`](asperity_surface::Scan::is_underside), else turned
-    /// over.
-    #[serde(skip)]
-    pub mount: Option<Mount>,
-}
-
-impl Body {
-    /// Returns the constants of the body.
-    fn constants(&self) -> BodyConstants {
-        BodyConstants {
-            material: self.material,
-            conductivity: self.thermal.map(|thermal| thermal.conductivity).or(self.conductivity),
-            resistivity: self.resistivity,
-            properties: self.properties.clone(),
-        }
-    }
-}
-
-/// Conversion of the heights of a body to those of the case.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Mount {
-    /// Measured material side up, then turned over about y: mirrored in x, with the sign of the heights changed.
-    TurnedOver,
-    /// The heights are already those of the case.
-    AsIs,
-}
-
-choice!(Mount: "turned-over" => TurnedOver, "as-is" => AsIs);
 
 /// Largest accepted case file.
 pub(crate) const MAX_CASE_BYTES: u64 = 4 << 20;
@@ -287,12 +225,12 @@ impl Case {
     pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
         [&self.lower, &self.upper].into_iter().flat_map(|body| {
             let surface = match &body.topography.source {
-                Source::File { path, .. } => Some(path),
+                Source::File { file, .. } => Some(file),
                 _ => None,
             };
             let map = match &body.hardness {
-                Hardness::Map(map) => Some(&map.path),
-                Hardness::Uniform(_) | Hardness::Given(_) => None,
+                Hardness::Map(HardnessMap::File { file, .. }) => Some(file),
+                Hardness::Map(HardnessMap::Given { .. }) | Hardness::Uniform(_) => None,
             };
             let curve = body.properties.viscoelastic.as_ref().and_then(|body| body.file.as_ref());
             surface.into_iter().chain(map).chain(curve)
@@ -303,39 +241,6 @@ impl Case {
 /// Reads the topography of a separate table `[topography]`; also returns its document.
 pub(crate) fn topography_alone(text: &str, folder: &Path) -> Result<(TopographySpec, Document)> {
     parse::topography_alone(text, folder)
-}
-
-/// A number of the case in its output: JSON has no infinities, so they are written as `inf`, as in the case file.
-#[derive(Serialize)]
-#[serde(untagged)]
-enum Number {
-    Finite(f64),
-    Infinite(&'static str),
-}
-
-impl From<f64> for Number {
-    fn from(value: f64) -> Self {
-        if value.is_finite() { Self::Finite(value) } else { Self::Infinite("inf") }
-    }
-}
-
-fn with_infinity<S: Serializer>(value: &Option<f64>, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-    value.map(Number::from).serialize(serializer)
-}
-
-fn with_infinities<S: Serializer>(
-    material: &Material,
-    serializer: S,
-) -> std::result::Result<S::Ok, S::Error> {
-    #[derive(Serialize)]
-    struct Keys {
-        young: Number,
-        poisson: f64,
-        #[serde(skip_serializing_if = "Option::is_none")]
-        coating: Option<Coating>,
-    }
-    let Material { young, poisson, coating, .. } = *material;
-    Keys { young: young.into(), poisson, coating }.serialize(serializer)
 }
 
 fn with_mount<S: Serializer>(upper: &Body, serializer: S) -> std::result::Result<S::Ok, S::Error> {

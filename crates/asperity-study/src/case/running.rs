@@ -1,85 +1,13 @@
 //! Laws that change the bodies, and the heat of friction.
 
-use super::cursor::Table;
-use super::schema::body::both as body;
-use super::schema::tables::known_in;
-use super::{Body, Case, Hardness};
+use super::{Body, Case};
 use asperity_base::error::Result;
-use asperity_base::table::Table as _;
 use asperity_base::units::PerPascal;
-use asperity_contact::material::NamedMaterial;
 use asperity_contact::motion::{Acceleration, Law, Pair, Simulation, SlidingContact, StagedLoading};
 use asperity_contact::solver::Params;
 use asperity_contact::temperature::Thermal;
-use asperity_contact::with::{self, BodyLaw, BodyLaws, Capability, Given, Listed};
+use asperity_contact::with::{self, BodyLaw, Capability, Given, Listed};
 use asperity_contact::{each_capability, each_law};
-
-/// The constants beside the elastic ones that the tables of a case use.
-#[derive(Clone, Copy)]
-pub(super) struct Used {
-    /// Whether bodies are heated by friction as they slide.
-    pub(super) flash: bool,
-    /// Whether heat or current passes the contact, so that the conductivity may be given without the other constants of heat.
-    pub(super) conduction: bool,
-}
-
-/// Reads the laws from the table of a body.
-pub(super) fn laws(table: &Table<'_>, hardness: &Hardness) -> Result<BodyLaws> {
-    let hardness = match hardness {
-        Hardness::Uniform(hardness) => Some(*hardness).filter(|hardness| hardness.is_finite()),
-        Hardness::Map(_) | Hardness::Given(_) => None,
-    };
-    let mut laws = BodyLaws::default();
-    each_law!(L => if let Some(table) = table.table(L::NAME)? {
-        known_in(&table)?;
-        L::read(&table)?.on(hardness, &table)?.give(&mut laws);
-    });
-    Ok(laws)
-}
-
-/// Reads the thermal constants of a body, all of them or none. Those of a named material count where they are used.
-pub(super) fn thermal(
-    table: &Table<'_>,
-    named: Option<&NamedMaterial>,
-    used: Used,
-) -> Result<Option<Thermal>> {
-    let keys = [body::CONDUCTIVITY, body::HEAT_CAPACITY, body::DENSITY];
-    let is_given = gives_heat(table, used);
-    let of_material = |constant: fn(&NamedMaterial) -> Option<f64>| named.and_then(constant);
-    let defaults = [
-        of_material(|named| named.conductivity),
-        of_material(|named| named.heat_capacity),
-        of_material(|named| named.density),
-    ];
-    if !is_given && (!used.flash || defaults.contains(&None)) {
-        return Ok(None);
-    }
-    let mut constants = [0.0; 3];
-    for ((constant, key), default) in constants.iter_mut().zip(keys).zip(defaults) {
-        *constant = match default {
-            None => key.required(table)?,
-            Some(default) => key.of(table)?.unwrap_or(default),
-        };
-    }
-    let [conductivity, heat_capacity, density] = constants;
-    Thermal::new(conductivity, heat_capacity, density).map(Some)
-}
-
-/// Whether the table of a body gives constants of heat, without a conductivity that may be given alone.
-fn gives_heat(table: &Table<'_>, used: Used) -> bool {
-    let keys = [body::CONDUCTIVITY, body::HEAT_CAPACITY, body::DENSITY];
-    keys[usize::from(used.conduction)..].iter().any(|key| key.entry(table).is_some())
-}
-
-/// Leaves out the heat of a body that only its material knows, if the other body has none: friction heats both or neither.
-pub(super) fn heat_together(body: &mut Body, table: &Table<'_>, other: &Body, used: Used) {
-    if other.thermal.is_none() && !gives_heat(table, used) {
-        let thermal = body.thermal.take();
-        body.conductivity = body
-            .conductivity
-            .or_else(|| thermal.filter(|_| used.conduction).map(|thermal| thermal.conductivity));
-    }
-}
 
 impl Case {
     /// Adds to a motion the laws that change its bodies.

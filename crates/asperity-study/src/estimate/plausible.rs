@@ -81,12 +81,12 @@ fn quantities(value: &Value, dimension: Option<Dimension>) -> Vec<(f64, String)>
 
 /// Warns of wide cells whose size comes from a file; a `pitch` is judged as a key.
 fn wide(case: &Case, grid: &Grid) -> Option<String> {
-    let path = [&case.lower, &case.upper].into_iter().find_map(|body| match &body.topography {
-        TopographySpec { source: Source::File { path, .. }, pitch: None, .. } => Some(path),
+    let file = [&case.lower, &case.upper].into_iter().find_map(|body| match &body.topography {
+        TopographySpec { source: Source::File { file, .. }, pitch: None, .. } => Some(file),
         _ => None,
     })?;
     let [x, y] = grid.pitch.map(|pitch| units::format(pitch, Dimension::Length));
-    Some(format!("cells of {x} × {y} see no roughness: check the unit of the lengths in {}", path.display()))
+    Some(format!("cells of {x} × {y} see no roughness: check the unit of the lengths in {}", file.display()))
 }
 
 /// Warns of a pair that is softer than rubber, unless its modulus is told as one that does not exist.
@@ -106,7 +106,7 @@ fn soft(case: &Case, estimate: &Estimate) -> Option<String> {
 fn hard(case: &Case, estimate: &Estimate) -> String {
     let bears = |body: &Body| match body.hardness {
         Hardness::Uniform(value) => value,
-        Hardness::Map(_) | Hardness::Given(_) => 0.0,
+        Hardness::Map(_) => 0.0,
     };
     let body = softer(bears(&case.lower), bears(&case.upper));
     let pressure = |value| units::format(value, Dimension::Pressure);

@@ -10,8 +10,8 @@ use asperity_contact::solver::{self, Coupling, Creep, Friction, Loading, Rolling
 use asperity_contact::with::adhesion::AdhesionRange;
 use asperity_study::bodies;
 use asperity_study::case::{
-    Boundary, Case, ControlKind, Edge, Hardness, InPlane, Layer, LoadingPath, Method, Mount, Prescribed,
-    Side, Source,
+    Boundary, Case, ControlKind, Edge, Hardness, InPlane, Layer, Layout, LoadingPath, Method, Mount,
+    Prescribed, Side, Source,
 };
 use asperity_study::demand;
 use asperity_surface::{
@@ -80,11 +80,10 @@ fn the_case_of_the_contract_is_read_in_si() {
     assert_eq!(
         lower.source,
         Source::File {
-            path: inputs("good").join("disc.x3p"),
+            file: inputs("good").join("disc.x3p"),
             channel: None,
             unit: None,
-            lines: None,
-            skip: None,
+            layout: Layout { lines: None, skip: None },
         }
     );
     let preparation = Preparation {

@@ -8,8 +8,11 @@ use super::window::within;
 use super::{Fill, Filter, Interpolation, Level, Round};
 use crate::{Axis, NEVER, Stop, Topography, check_stop};
 use asperity_base::error::{Result, check_in};
+use asperity_base::exists;
 use asperity_base::grid::Grid;
+use asperity_base::table::{Key, Kind, Source, Value, cells, list, require};
 use asperity_base::units::{Dimension, Metre};
+use asperity_derive::Part;
 
 /// Preparation steps of a topography; none by default.
 ///
@@ -17,41 +20,77 @@ use asperity_base::units::{Dimension, Metre};
 /// comes the form, which needs defined heights without spikes, then the direction. The filters follow, because they need a
 /// surface without form. Then comes the grid, whose cells may be as large as the shortest remaining wave allows, and last
 /// the taper.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Part, Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[part(check = filters_leave_waves)]
 pub struct Preparation {
-    /// The part to keep, `[x0, y0, nx, ny]` in samples.
+    /// Part to keep.
+    ///
+    /// `[x0, y0, nx, ny]` in samples.
+    #[key(
+        special = window,
+        form = "`[x0, y0, nx, ny]`, in samples: first sample from 0, number of samples ≥ 1",
+        absent = "everything",
+        example = "[0, 0, 96, 128]"
+    )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub window: Option<[usize; 4]>,
-    /// The factor of [`Topography::despike`]; `None` to keep spikes.
+    /// Turns spikes into missing heights: samples that deviate from their surroundings by more than this number of standard deviations, usually
+    /// 5 to 10.
+    ///
+    /// The factor of [`Topography::despike`].
+    #[key(number = "a number", range = AboveZero, absent = "nothing", example = "6", with = ["file", "given"])]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub despike: Option<f64>,
-    /// Method to fill undefined samples; with [`Fill::None`] they stay undefined.
+    /// Treatment of missing heights: with `"none"` they are an error, `"harmonic"` is a membrane over each hole.
+    ///
+    /// With [`Fill::None`] undefined samples stay undefined.
+    #[key(choice, default = Fill::None, example = "\"harmonic\"", with = ["file", "given"])]
     #[serde(skip_serializing_if = "is_default")]
     pub fill: Fill,
-    /// The form to subtract.
+    /// Form to subtract, fitted by least squares.
+    #[key(
+        special = level,
+        form = "`\"none\"`, `\"mean\"`, `\"plane\"`, `\"quadratic\"`, `\"polynomial-3\"` (all terms up to an order, 0 … 16), `\"sphere\"`, \
+                `\"cylinder\"`",
+        default = Level::None,
+        written = "\"none\"",
+        example = "\"plane\""
+    )]
     pub level: Level,
-    /// Direction of mirroring.
+    /// Direction to reverse.
+    #[key(choice, absent = "none", example = "\"x\"")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mirror: Option<Axis>,
-    /// Rotation angle, in radians, see [`Topography::rotate`].
+    /// Angle of rotation, from x towards y; a number without a unit is in radians.
+    ///
+    /// See [`Topography::rotate`].
+    #[key(quantity = Angle, default = 0.0, written = "0", example = "\"90 deg\"", exists = exists::ANGLE)]
     #[serde(skip_serializing_if = "is_default")]
     pub rotate: f64,
-    /// Nesting index of the S-filter, which removes short waves.
+    /// S-filter: nesting index below which waves are removed, at least two pitches and below `l_filter`.
+    #[key(quantity = Length, range = AboveZero, absent = "none", example = "\"2.5 um\"", exists = exists::LENGTH)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub s_filter: Option<Metre>,
-    /// Nesting index of the L-filter, which removes long waves; above that of the S-filter.
+    /// L-filter: nesting index above which waves are removed, at least two pitches.
+    #[key(quantity = Length, range = AboveZero, absent = "none", example = "\"0.8 mm\"", exists = exists::LENGTH)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub l_filter: Option<Metre>,
-    /// Smooth surface of both filters.
+    /// Kind of both filters.
+    #[key(choice, default = Filter::Gaussian, example = "\"robust\"")]
     #[serde(skip_serializing_if = "is_default")]
     pub filter: Filter,
-    /// The grid to resample to.
+    /// Number of cells after resampling to the same extent.
+    #[key(special = resample, form = "`[nx, ny]`, each ≥ 1", absent = "as it is", example = "[256, 256]")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub resample: Option<Resample>,
-    /// Interpolation between samples to smaller cells.
+    /// Interpolation of heights between samples on finer grids; the spline is cubic.
+    #[key(choice, default = Interpolation::Linear, example = "\"spline\"")]
     #[serde(skip_serializing_if = "is_default")]
     pub interpolate: Interpolation,
-    /// Width of the taper towards the mean, see [`Topography::taper`].
+    /// Width of the rim that tapers to the mean height, at most half of the topography.
+    ///
+    /// See [`Topography::taper`].
+    #[key(quantity = Length, range = AboveZero, absent = "none", example = "\"10 um\"", exists = exists::LENGTH)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub taper: Option<Metre>,
 }
@@ -157,6 +196,43 @@ impl Preparation {
         }
         Ok((topography, Findings { undefined, spikes, form }))
     }
+}
+
+/// Reads the part of a topography to keep.
+fn window(value: &dyn Value, key: &Key) -> Result<[usize; 4]> {
+    const EXPECTED: &str = "four whole numbers [x0, y0, nx, ny]";
+    const SAMPLES: Kind = Kind::Count { least: 0, most: u64::MAX };
+    let window: [usize; 4] = list(value, EXPECTED, |item| item.count(key, &SAMPLES))?
+        .try_into()
+        .map_err(|_| value.unexpected(EXPECTED, None))?;
+    match window[2..].contains(&0) {
+        true => Err(value.unexpected("a window [x0, y0, nx, ny] of at least one sample", None)),
+        false => Ok(window),
+    }
+}
+
+/// Reads a word of [`Level`]; each order of a polynomial has its own word.
+fn level(value: &dyn Value, _: &Key) -> Result<Level> {
+    let text = value.text();
+    if let Some(level) = text.as_ref().ok().and_then(|text| text.parse().ok()) {
+        return Ok(level);
+    }
+    if text.is_ok_and(|text| text.starts_with("polynomial")) {
+        let hint = format!("the order of a polynomial is from 0 to {}", Level::MAX_ORDER);
+        return Err(value.unexpected("a polynomial such as \"polynomial-3\"", Some(&hint)));
+    }
+    value.word(&Level::WORDS).map(|_| Level::None)
+}
+
+/// Reads the numbers of cells to resample to.
+fn resample(value: &dyn Value, key: &Key) -> Result<Resample> {
+    cells(value, key).map(Resample::Shape)
+}
+
+fn filters_leave_waves(read: &Preparation, source: &dyn Source) -> Result<()> {
+    let crossed =
+        matches!((read.s_filter, read.l_filter), (Some(shortest), Some(longest)) if shortest >= longest);
+    require(source, "s_filter", !crossed, "a wavelength below that of 'l_filter'", None)
 }
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {

@@ -3,21 +3,18 @@
 //! A declaration holds the name, the accepted values, the default, an example and the meaning. The reader of case files,
 //! its messages, the units of study axes and the tables of `docs/input` are derived from it.
 
-pub(crate) mod body;
-pub(crate) mod hardness;
-pub(crate) mod root;
+mod numbers;
+mod root;
 mod source;
 pub(crate) mod sweep;
 pub(crate) mod tables;
-pub(crate) mod topography;
-pub(crate) mod typed;
-pub(crate) mod values;
 
 use std::sync::LazyLock;
 
-use super::{Contact, FrictionSpec, MotionSpec, StageSpec, SubsurfaceSpec};
-use asperity_base::table::Table as _;
+use super::body::{BodyKeys, UpperKeys};
+use super::{Contact, FrictionSpec, HardnessMap, MotionSpec, StageSpec, SubsurfaceSpec, TopographySpec};
 pub use asperity_base::table::{Bounds, Exists, Fallback, Key, Kind, Section};
+use asperity_base::table::{Part as _, Table as _};
 use asperity_contact::material::Coating;
 use asperity_contact::temperature::Temperature;
 use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
@@ -36,13 +33,13 @@ use asperity_contact::{each_capability, each_interface, each_law, each_property}
 /// ```
 pub fn keys() -> &'static [Section] {
     static KEYS: LazyLock<Vec<Section>> = LazyLock::new(|| {
-        let (mut root, mut of_capabilities) = (root::SECTION.keys.to_vec(), Vec::new());
-        each_interface!(I => root.push(typed::table(I::NAME, Fallback::Absent("none"), I::MEANING).key));
+        let (mut root, mut of_capabilities) = (root::KEYS.to_vec(), Vec::new());
+        each_interface!(I => root.push(root::table(I::NAME, Fallback::Absent("none"), I::MEANING)));
         each_capability!(C => {
-            root.push(typed::table(C::NAME, Fallback::Absent("none"), C::MEANING).key);
+            root.push(root::table(C::NAME, Fallback::Absent("none"), C::MEANING));
             of_capabilities.extend(C::sections());
         });
-        let root = Section { keys: root.leak(), ..root::SECTION };
+        let root = Section { tables: &[], kind: "", keys: root.leak() };
         [vec![root], of_every_case(), of_capabilities].concat()
     });
     &KEYS
@@ -50,21 +47,22 @@ pub fn keys() -> &'static [Section] {
 
 /// Returns the sections other than those above all tables, and other than those of the capabilities.
 fn of_every_case() -> Vec<Section> {
-    let declared = |section: Section| vec![section];
-    let (mut both, mut of_laws) = (body::both::SECTION.keys.to_vec(), Vec::new());
+    let mut body = BodyKeys::sections();
+    let (mut of_both, mut of_laws) = (body[0].keys.to_vec(), Vec::new());
     let (mut of_properties, mut of_interfaces) = (Vec::new(), Vec::new());
     each_interface!(I => of_interfaces.extend(I::sections()));
     each_property!(P => {
-        both.push(typed::table(P::NAME, Fallback::Absent(P::WITHOUT), P::MEANING).key);
+        of_both.push(root::table(P::NAME, Fallback::Absent(P::WITHOUT), P::MEANING));
         of_properties.extend(P::sections());
     });
     each_law!(L => {
-        both.push(typed::table(L::NAME, Fallback::Absent("none"), L::MEANING).key);
+        of_both.push(root::table(L::NAME, Fallback::Absent("none"), L::MEANING));
         of_laws.extend(L::sections());
     });
+    body[0].keys = of_both.leak();
     [
-        declared(Section { keys: both.leak(), ..body::both::SECTION }),
-        declared(body::upper::SECTION),
+        body,
+        UpperKeys::sections(),
         Coating::sections(),
         Contact::sections(),
         of_interfaces,
@@ -80,16 +78,24 @@ fn of_every_case() -> Vec<Section> {
         Steady::sections(),
         Yielding::sections(),
         PlasticRegion::sections(),
-        declared(topography::every::SECTION),
-        declared(topography::file::SECTION),
-        declared(topography::given::SECTION),
-        topography::sections_of_kinds(),
+        merged(TopographySpec::sections()),
         StageSpec::sections(),
         sweep::Ends::sections(),
-        declared(hardness::map::SECTION),
-        declared(hardness::given::SECTION),
+        HardnessMap::sections(HardnessMap::TABLES),
     ]
     .concat()
+}
+
+/// Puts the keys of the same choice in one section.
+fn merged(sections: Vec<Section>) -> Vec<Section> {
+    let mut merged: Vec<Section> = Vec::new();
+    for section in sections {
+        match merged.iter_mut().find(|known| known.kind == section.kind) {
+            Some(known) => known.keys = [known.keys, section.keys].concat().leak(),
+            None => merged.push(section),
+        }
+    }
+    merged
 }
 
 #[cfg(test)]
@@ -108,6 +114,8 @@ mod tests {
 
     use super::super::cursor::Table as Written;
     use super::super::document::Document;
+    use super::sweep::Ends;
+    use super::{BodyKeys, HardnessMap, TopographySpec, UpperKeys};
     use crate::case::{Contact, FrictionSpec, MotionSpec, Output, SlidingSpec, StageSpec, SubsurfaceSpec};
 
     /// Reads a table of this dotted name and of these sections, once for each choice, with the examples of the required keys, and with the
@@ -141,11 +149,8 @@ mod tests {
             }
         };
         let read = |text: String| {
-            let (mut document, text) = (Document::default(), format!("[{path}]\n{one}\n{text}"));
-            let entries = document.parse(&text).unwrap();
-            let root = Written::root(&document, entries.get_ref());
-            let table = path.split('.').fold(root, |table, name| table.table(name).unwrap().unwrap());
-            read(&table).unwrap_or_else(|error| panic!("{text}{error}"))
+            read_text(path, &format!("{one}\n{text}"), &read)
+                .unwrap_or_else(|error| panic!("[{path}]\n{one}\n{text}{error}"))
         };
         texts.into_iter().map(read).collect()
     }
@@ -153,6 +158,39 @@ mod tests {
     fn check<T: Table + PartialEq + Debug>(one: &str) {
         let read = |told| read(T::TABLES[0], &T::sections(), one, told, T::read);
         assert_eq!(read(true), read(false));
+    }
+
+    /// Reads a table of this dotted name.
+    fn read_text<T>(path: &str, text: &str, read: impl Fn(&dyn Source) -> Result<T>) -> Result<T> {
+        let (mut document, text) = (Document::default(), format!("[{path}]\n{text}"));
+        let entries = document.parse(&text)?;
+        let root = Written::root(&document, entries.get_ref());
+        read(&path.split('.').fold(root, |table, name| table.table(name).unwrap().unwrap()))
+    }
+
+    /// Checks that a table reads the example of each key of the sections of a `kind`, beside the keys `beside` or in place of them.
+    fn check_examples<T>(
+        path: &str,
+        sections: &[Section],
+        kind: &str,
+        beside: &str,
+        read: impl Fn(&dyn Source) -> Result<T>,
+    ) {
+        let keys = sections.iter().filter(|section| section.kind == kind).flat_map(|section| section.keys);
+        let mut read_keys = 0;
+        for Key { name, example, .. } in keys.filter(|key| !key.example.is_empty()) {
+            let line = format!("{name} = {example}");
+            let others = beside.lines().filter(|other| !other.starts_with(&format!("{name} =")));
+            let all: String = others.chain([line.as_str()]).map(|line| line.to_owned() + "\n").collect();
+            let result = read_text(path, &all, &read).or_else(|_| read_text(path, &line, &read));
+            assert!(result.is_ok(), "[{path}]\n{all}{}", result.err().unwrap());
+            read_keys += 1;
+        }
+        assert!(read_keys > 0, "[{path}] has no key with {kind}");
+    }
+
+    fn check_table<T: Table>(beside: &str) {
+        check_examples(T::TABLES[0], &T::sections(), "", beside, T::read);
     }
 
     fn check_part<P: Part + PartialEq + Debug>() {
@@ -187,6 +225,39 @@ mod tests {
         assert_eq!(Output::default(), read("output", &[], "", true, Output::read)[0]);
         check_part::<Form>();
         check_part::<Generator>();
+    }
+
+    #[test]
+    fn a_table_reads_the_example_of_each_of_its_keys() {
+        check_table::<Contact>("load = 1");
+        check_table::<FrictionSpec>("coefficient = 0.3");
+        check_table::<StageSpec>("");
+        check_table::<MotionSpec>("");
+        check_table::<SlidingSpec>("distance = 1");
+        check_table::<SubsurfaceSpec>("to = 1");
+        check_table::<Output>("");
+        check_table::<Acceleration>("");
+        check_table::<Temperature>("bulk = 300");
+        check_table::<Coating>("thickness = 1\nyoung = 1e9\npoisson = 0.3");
+        check_table::<Steady>("speed = 1");
+        check_table::<PlasticRegion>("depth = 1\nlayers = 2");
+        check_table::<Yielding>("yield_stress = 1e9\nkinematic = 1e9");
+        check_table::<BodyKeys>("topography = { form = \"flat\" }");
+        check_table::<UpperKeys>("");
+        check_table::<Ends>("from = 1\nto = 2");
+        each_interface!(I => check_table::<I>("work = 0.05\nrange = 2e-9"));
+        let topography = |kind: &str, beside: &str| {
+            let path = TopographySpec::TABLES[0];
+            check_examples(path, &TopographySpec::sections(), kind, beside, TopographySpec::read);
+        };
+        topography("", "form = \"flat\"");
+        topography("file", "file = \"disc.x3p\"");
+        topography("given", "given = \"disc\"");
+        topography("generate", "generate = \"low-pass\"\nsq = 1e-6\ncutoff = 1e-5");
+        topography("form", "form = \"sphere\"\nradius = 1");
+        let map = HardnessMap::sections(HardnessMap::TABLES);
+        check_examples(HardnessMap::TABLES[0], &map, "file", "file = \"map.npy\"", HardnessMap::read);
+        check_examples(HardnessMap::TABLES[0], &map, "given", "", HardnessMap::read);
     }
 
     /// The defaults of these depend on the case: the table alone leaves them open.

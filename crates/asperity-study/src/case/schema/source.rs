@@ -1,8 +1,8 @@
 //! Case files as the source of tables whose struct declares the keys.
 
 use super::super::cursor::{Entry, Table, did_you_mean};
-use super::tables::suits;
-use super::typed::{count, missing, real};
+use super::numbers::{count, real};
+use super::tables::{GIVEN, known_in, suits};
 use super::{Key, Kind, sweep};
 use asperity_base::error::{Error, Result};
 use asperity_base::table::{self, Source, Spacing, expected};
@@ -14,11 +14,20 @@ impl Source for Table<'_> {
     }
 
     fn missing(&self, key: &Key) -> Error {
-        missing(key, self)
+        match key.kind {
+            Kind::Table => self.missing_table(key.name),
+            _ => {
+                let hint = format!("for example `{} = {}`", key.name, key.example);
+                self.error(format!("missing key '{}' in {}", key.name, self.name()), Some(hint))
+            }
+        }
     }
 
     fn exactly_one(&self, keys: &[&'static str], hint: &str) -> Result<&'static str> {
-        self.exactly_one(keys, hint)
+        // Only a program that calls the library can supply arrays, so messages do not mention it otherwise.
+        let keys: Vec<_> =
+            keys.iter().copied().filter(|key| *key != GIVEN || self.get(key).is_some()).collect();
+        self.exactly_one(&keys, hint)
     }
 
     fn suits(&self, choice: &str) -> Result<()> {
@@ -64,8 +73,31 @@ impl table::Value for Entry<'_> {
         }
     }
 
+    fn unit(&self, dimension: Dimension) -> Result<f64> {
+        self.unit(dimension)
+    }
+
     fn is_array(&self) -> bool {
         self.is_array()
+    }
+
+    fn is_table(&self) -> bool {
+        self.is_table()
+    }
+
+    fn table(&self) -> Result<Box<dyn Source + '_>> {
+        let table = self.clone().table()?;
+        known_in(&table)?;
+        Ok(Box::new(table))
+    }
+
+    fn tables(&self) -> Result<Vec<Box<dyn Source + '_>>> {
+        let mut tables = Vec::new();
+        for table in self.tables()? {
+            known_in(&table)?;
+            tables.push(Box::new(table) as Box<dyn Source>);
+        }
+        Ok(tables)
     }
 
     fn items(&self, expected: &str) -> Result<Vec<Box<dyn table::Value + '_>>> {

@@ -1,8 +1,8 @@
 //! Lists of values, or a table of their ends.
 
 use super::super::cursor::{Entry, Table};
+use super::numbers::real;
 use super::tables::known_in;
-use super::typed::real;
 use asperity_base::error::Result;
 use asperity_base::table::{self, Key, Kind, Spacing, Table as _, Value};
 use asperity_derive::Table;

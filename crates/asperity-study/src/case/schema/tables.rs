@@ -1,8 +1,7 @@
 //! Keys of each table, and hints for misplaced keys.
 
 use super::super::cursor::Table;
-use super::typed::Nested;
-use super::{Exists, Key, Section, keys, root};
+use super::{Exists, Key, Section, keys};
 use asperity_base::error::Result;
 use asperity_base::table;
 use asperity_base::units::Dimension;
@@ -61,16 +60,20 @@ pub(in crate::case) fn known_in(table: &Table<'_>) -> Result<()> {
 pub(crate) fn belongs(key: &str, table: &str) -> Option<(String, Option<String>)> {
     let here = if table.is_empty() { "outside a table".to_owned() } else { format!("in [{table}]") };
     let name = declared(table);
+    // A key of the same name is rarely meant in a table that stands in place of a value and names one of several kinds.
+    if sections(table).all(|section| !section.kind.is_empty()) {
+        return None;
+    }
     let elsewhere = |section: &&Section| section.has(key) && !section.tables.contains(&name.as_str());
     let hint = match keys().iter().filter(|section| !section.tables.is_empty()).find(elsewhere) {
         // A key of this name in another table is a word, and rarely meant.
-        _ if key == root::HISTORY.key.name => "write stages as separate tables: [[history]]".to_owned(),
+        _ if key == "history" => "write stages as separate tables: [[history]]".to_owned(),
         Some(section) => {
             let body = name.split('.').next();
             let of_body = section.tables.iter().find(|owner| owner.split('.').next() == body);
             format!("`{key}` belongs in [{}]", of_body.unwrap_or(&section.tables[0]))
         }
-        None if key == root::TITLE.key.name => "put `title` above all tables".to_owned(),
+        None if key == "title" => "put `title` above all tables".to_owned(),
         None if is_of_root(key) => format!("write it as a separate table: [{key}]"),
         None if table.is_empty() && OF_A_STUDY.contains(&key) => {
             "this is a study: `asperity study` computes it".to_owned()
@@ -108,9 +111,15 @@ pub(in crate::case) fn suits(table: &Table<'_>, kind: &str) -> Result<()> {
     })
 }
 
-/// Reads a table, if it is given, as the struct that declares its keys.
-pub(in crate::case) fn read<T: table::Table>(key: &Nested, root: &Table<'_>) -> Result<Option<T>> {
-    let Some(table) = key.of(root)? else { return Ok(None) };
+/// Reads a table of this name, if it is given, as the struct that declares its keys.
+pub(in crate::case) fn read<T: table::Table>(root: &Table<'_>, name: &str) -> Result<Option<T>> {
+    let Some(table) = root.table(name)? else { return Ok(None) };
     known_in(&table)?;
     T::read(&table).map(Some)
+}
+
+/// Returns a required table of this name, which has only known keys.
+pub(in crate::case) fn required<'a>(root: &Table<'a>, name: &str) -> Result<Table<'a>> {
+    let table = root.required_table(name)?;
+    known_in(&table).map(|()| table)
 }
