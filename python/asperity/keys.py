@@ -751,7 +751,7 @@ class Output(TypedDict, total=False):
         "Whether all fields, and the stress below the surface as a volume, are also written as VTK image data (`.vti`). By "
         "default `false`."]
     title: Annotated[str | None, "",
-        "A name for reports. Without it: file name without its extension."]
+        "Name for reports. Without it: file name without its extension."]
 
 
 def __dir__() -> list[str]:

@@ -396,12 +396,12 @@ pub fn cells(value: &dyn Value, _: &Key) -> Result<[usize; 2]> {
     }
 }
 
-/// Reads an array of tables.
+/// Reads each table of an array.
 ///
 /// # Errors
 /// As the methods of [`Value`].
-pub fn tables<P: Part>(value: &dyn Value) -> Result<Vec<P>> {
-    value.tables()?.iter().map(|table| P::read(table.as_ref())).collect()
+pub fn tables<T>(value: &dyn Value, read: impl Fn(&dyn Source) -> Result<T>) -> Result<Vec<T>> {
+    value.tables()?.iter().map(|table| read(table.as_ref())).collect()
 }
 
 /// Checks a number against the bounds of its key.

@@ -25,8 +25,8 @@ enum Accepts {
     Special(Path),
     /// A table within the table.
     Table,
-    /// Tables within the table, each with the keys of a part.
-    Tables,
+    /// Tables within the table, with the reader of one.
+    Tables(Path),
     /// The keys of another type.
     Part,
 }
@@ -120,7 +120,7 @@ impl<'a> Field<'a> {
                 "flag" => accepts = Some(Accepts::Flag),
                 "text" => accepts = Some(Accepts::Text),
                 "table" => accepts = Some(Accepts::Table),
-                "tables" => accepts = Some(Accepts::Tables),
+                "tables" => accepts = Some(Accepts::Tables(meta.value()?.parse()?)),
                 "part" => accepts = Some(Accepts::Part),
                 "count" => accepts = Some(Accepts::Count(meta.value()?.parse()?)),
                 "whole" => accepts = Some(Accepts::Whole(meta.value()?.parse()?)),
@@ -170,7 +170,7 @@ impl<'a> Field<'a> {
         let (kind, meaning) = (self.kind()?, &self.meaning);
         let example = match &self.example {
             Some(example) => quote!(#example),
-            None if matches!(self.accepts, Accepts::Table | Accepts::Tables) => quote!(""),
+            None if matches!(self.accepts, Accepts::Table | Accepts::Tables(_)) => quote!(""),
             None => return Err(Error::new_spanned(&self.name, "a key needs an example")),
         };
         let fallback = match (&self.absent, &self.default) {
@@ -270,7 +270,7 @@ impl<'a> Field<'a> {
             Accepts::Text => quote!(value.text().map(<#of>::from)),
             Accepts::Special(read) => quote!(#read(value, #key)),
             Accepts::Table => quote!(<#of as ::asperity_base::table::Table>::read(value.table()?.as_ref())),
-            Accepts::Tables => quote!(::asperity_base::table::tables(value)),
+            Accepts::Tables(read) => quote!(::asperity_base::table::tables(value, #read)),
             Accepts::Part => unreachable!("a part reads itself"),
         };
         quote!(::asperity_base::table::optional(__source, #key, |value| #read)?)
@@ -307,7 +307,7 @@ impl<'a> Field<'a> {
             (Accepts::Flag, _) => quote!(Flag),
             (Accepts::Text, _) => quote!(Text),
             (Accepts::Table, _) => quote!(Table),
-            (Accepts::Tables, _) => quote!(Tables),
+            (Accepts::Tables(_), _) => quote!(Tables),
             (Accepts::Count(least), _) => {
                 let most = self.most.as_ref().map_or(quote!(u64::MAX), |most| quote!(#most));
                 quote!(Count { least: #least, most: #most })

@@ -43,7 +43,7 @@ use syn::{DeriveInput, parse_macro_input};
 /// | `quantity = kind.drop(), form = "…"` | one whose dimension depends on the fields above, as the documentation describes it |
 /// | `text` | a text, or a type made from it |
 /// | `table` | a table, whose struct derives [`derive@Table`] |
-/// | `tables` | an array of tables, each with the keys of a type that derives [`derive@Part`] |
+/// | `tables = reader` | an array of tables, each of which a function reads |
 /// | `special = reader, form = "…"` | values that a function reads, of a `dimension`, if any |
 /// | `part` | the keys of a type that derives [`derive@Part`]; an `Option` of it is `None` if none of them is given |
 ///

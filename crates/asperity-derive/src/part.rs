@@ -230,6 +230,8 @@ fn named(ident: &Ident, fields: &[Field<'_>]) -> Result<(TokenStream, TokenStrea
 }
 
 /// The implementation of a part, which may be a choice, with the declarations of the own keys, and the bodies of its functions.
+///
+/// The source has a name that no key has, because the keys are variables beside it.
 fn implementation(
     part: &Ident,
     chooses: bool,

@@ -16,6 +16,7 @@ mod parse;
 mod plasticity;
 mod prescribed;
 mod read_back;
+mod root;
 pub mod rules;
 mod running;
 pub mod schema;

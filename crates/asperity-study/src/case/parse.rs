@@ -2,16 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use super::body::{BodyKeys, UpperKeys, Used};
+use super::body::{UpperKeys, Used};
 use super::cursor::Table;
 use super::document::Document;
 use super::plasticity::plasticity;
+use super::root::Root;
 use super::rules;
 use super::schema::tables::{self, belongs, known_in};
-use super::{Case, Contact, FrictionSpec, MotionSpec, StageSpec, TopographySpec};
+use super::{Case, StageSpec, TopographySpec};
 use asperity_base::error::Result;
 use asperity_base::table::Table as _;
-use asperity_contact::temperature::Temperature;
 use asperity_contact::with::{Capabilities, Capability, Interfaces, Listed, uses};
 use asperity_contact::{each_capability, each_interface};
 
@@ -45,84 +45,79 @@ pub(super) fn check_again(case: &Case) -> Result<()> {
 }
 
 /// Reads all tables of a case, still without its document.
-fn read(root: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
-    known_in(root)?;
+fn read(table: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
+    known_in(table)?;
+    let root = Root::read(table)?;
     let stem = || file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let title = root.get("title").map(|title| title.text().map(str::to_owned)).transpose()?;
-    let is_given = |name: &str| root.get(name).is_some();
     let used = Used {
-        flash: is_given("temperature") && is_given("friction") && (is_given("motion") || is_given("sliding")),
-        conduction: uses("conductivity", is_given),
+        flash: root.temperature.is_some()
+            && root.friction.is_some()
+            && (root.motion.is_some() || root.sliding.is_some()),
+        conduction: uses("conductivity", |name| table.get(name).is_some()),
     };
-    let lower_table = tables::required(root, "lower")?;
-    let lower_keys = BodyKeys::read(&lower_table)?;
-    let mut lower = lower_keys.body(&lower_table, folder, used)?;
-    let upper_table = tables::required(root, "upper")?;
-    let upper_keys = BodyKeys::read(&upper_table)?;
-    let mut upper = upper_keys.body(&upper_table, folder, used)?;
+    let [lower_table, upper_table] = [table.required_table("lower")?, table.required_table("upper")?];
+    let mut lower = root.lower.body(&lower_table, folder, used)?;
+    let mut upper = root.upper.body(&upper_table, folder, used)?;
     upper.mount = UpperKeys::read(&upper_table)?.mount(&upper.topography.source);
-    lower_keys.heat_together(&mut lower, &upper, used);
-    upper_keys.heat_together(&mut upper, &lower, used);
+    root.lower.heat_together(&mut lower, &upper, used);
+    root.upper.heat_together(&mut upper, &lower, used);
     one_tells_the_other(&lower.topography, &upper.topography, &upper_table)?;
-    let contact = Contact::read(&tables::required(root, "contact")?)?;
     let mut interface = Interfaces::default();
-    each_interface!(I => if let Some(table) = tables::read::<I>(root, I::NAME)? {
+    each_interface!(I => if let Some(table) = tables::read::<I>(table, I::NAME)? {
         table.give(&mut interface);
     });
-    let motion: Option<MotionSpec> = tables::read(root, "motion")?;
-    let mut motion = motion.map(|motion| motion.resolved(contact.prescribed()));
-    let sliding = tables::read(root, "sliding")?;
-    let mut friction = tables::read::<FrictionSpec>(root, "friction")?;
-    let plasticity = root
-        .table("plasticity")?
-        .map(|table| plasticity(&table, root, &mut motion, &mut friction))
-        .transpose()?;
+    let mut with = Capabilities::default();
+    each_capability!(C => if let Some(table) = tables::read::<C>(table, C::NAME)? {
+        table.give(&mut with);
+    });
+    let mut motion = root.motion.map(|motion| motion.resolved(root.contact.prescribed()));
+    let mut friction = root.friction;
+    let gives_increments =
+        table.table("friction")?.is_some_and(|friction| friction.get("increments").is_some());
+    let plasticity =
+        root.plasticity.map(|region| plasticity(region, &mut motion, &mut friction, gives_increments));
     // Later stages of elasto-plastic bodies have as many steps as the first one.
     let steps = match (&plasticity, &friction) {
         (None, _) => 1,
         (Some(_), Some(friction)) => friction.increments,
         (Some(plasticity), None) => plasticity.increments.unwrap_or(1),
     };
-    let history = stages(root, friction.is_some(), steps)?;
-    let acceleration = tables::read(root, "acceleration")?;
-    let temperature = tables::read(root, "temperature")?
-        .map(|temperature: Temperature| temperature.resolved(lower.thermal.is_some()));
-    let mut with = Capabilities::default();
-    each_capability!(C => if let Some(table) = tables::read::<C>(root, C::NAME)? {
-        table.give(&mut with);
-    });
     Ok(Case {
-        title: title.unwrap_or_else(stem),
+        title: root.title.unwrap_or_else(stem),
+        contact: root.contact,
+        interface,
+        history: stages(table, root.history, friction.is_some(), steps)?,
+        friction,
+        motion,
+        sliding: root.sliding,
+        steady: root.steady,
+        acceleration: root.acceleration,
+        temperature: root.temperature.map(|temperature| temperature.resolved(lower.thermal.is_some())),
         lower,
         upper,
-        contact,
-        interface,
-        friction,
-        history,
-        motion,
-        sliding,
-        steady: tables::read(root, "steady")?,
-        acceleration,
-        temperature,
         plasticity,
-        subsurface: tables::read(root, "subsurface")?,
+        subsurface: root.subsurface,
         with,
-        output: tables::read(root, "output")?.unwrap_or_default(),
+        output: root.output,
         document: Document::default(),
     })
 }
 
-/// Reads the stages after the first; by default each that takes no time has `steps` steps.
-fn stages(root: &Table<'_>, has_friction: bool, steps: usize) -> Result<Vec<StageSpec>> {
-    let Some(entry) = root.get("history") else { return Ok(Vec::new()) };
+/// Returns the stages after the first; by default each that takes no time has `steps` steps.
+fn stages(
+    root: &Table<'_>,
+    stages: Vec<StageSpec>,
+    has_friction: bool,
+    steps: usize,
+) -> Result<Vec<StageSpec>> {
     let keys = if has_friction { "'load', 'force' or another" } else { "'load' or another" };
-    let stage = |table: &Table<'_>| {
-        known_in(table)?;
-        StageSpec::read(table)?
+    let tables = root.get("history").map(|entry| entry.tables()).transpose()?.unwrap_or_default();
+    let stage = |(stage, table): (StageSpec, &Table<'_>)| {
+        stage
             .resolved(steps, keys)
             .map_err(|hint| table.error("[[history]] names nothing that changes".to_owned(), Some(hint)))
     };
-    entry.tables()?.iter().map(stage).collect()
+    stages.into_iter().zip(&tables).map(stage).collect()
 }
 
 /// Returns an error if both bodies take their shape or pitch from each other.

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use asperity_base::exists;
 use asperity_base::grid::Grid;
-use asperity_base::table::{self, cells, require, unit};
+use asperity_base::table::{self, Part as _, cells, require, unit};
 use asperity_base::units::Metre;
 use asperity_derive::{Part, Table};
 use asperity_surface::{Axis, Form, Generator, Preparation, ReadOptions, Topography};
@@ -41,7 +41,7 @@ pub struct TopographySpec {
     /// Further heights to add, see [below](#plus-roughness-on-a-form-and-other-sums).
     ///
     /// On the final grid.
-    #[key(tables, default = Vec::new(), absent = "nothing")]
+    #[key(tables = Layer::read, default = Vec::new(), absent = "nothing")]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub plus: Vec<Layer>,
 }

@@ -1,10 +1,9 @@
-//! Keys of a case file, each declared once.
+//! Keys of a case file, each declared once, as a field of the struct of its table.
 //!
 //! A declaration holds the name, the accepted values, the default, an example and the meaning. The reader of case files,
 //! its messages, the units of study axes and the tables of `docs/input` are derived from it.
 
 mod numbers;
-mod root;
 mod source;
 pub(crate) mod sweep;
 pub(crate) mod tables;
@@ -12,6 +11,7 @@ pub(crate) mod tables;
 use std::sync::LazyLock;
 
 use super::body::{BodyKeys, UpperKeys};
+use super::root::Root;
 use super::{Contact, FrictionSpec, HardnessMap, MotionSpec, StageSpec, SubsurfaceSpec, TopographySpec};
 pub use asperity_base::table::{Bounds, Exists, Fallback, Key, Kind, Section};
 use asperity_base::table::{Part as _, Table as _};
@@ -33,10 +33,10 @@ use asperity_contact::{each_capability, each_interface, each_law, each_property}
 /// ```
 pub fn keys() -> &'static [Section] {
     static KEYS: LazyLock<Vec<Section>> = LazyLock::new(|| {
-        let (mut root, mut of_capabilities) = (root::KEYS.to_vec(), Vec::new());
-        each_interface!(I => root.push(root::table(I::NAME, Fallback::Absent("none"), I::MEANING)));
+        let (mut root, mut of_capabilities) = (Root::sections()[0].keys.to_vec(), Vec::new());
+        each_interface!(I => root.push(table(I::NAME, "none", I::MEANING)));
         each_capability!(C => {
-            root.push(root::table(C::NAME, Fallback::Absent("none"), C::MEANING));
+            root.push(table(C::NAME, "none", C::MEANING));
             of_capabilities.extend(C::sections());
         });
         let root = Section { tables: &[], kind: "", keys: root.leak() };
@@ -52,11 +52,11 @@ fn of_every_case() -> Vec<Section> {
     let (mut of_properties, mut of_interfaces) = (Vec::new(), Vec::new());
     each_interface!(I => of_interfaces.extend(I::sections()));
     each_property!(P => {
-        of_both.push(root::table(P::NAME, Fallback::Absent(P::WITHOUT), P::MEANING));
+        of_both.push(table(P::NAME, P::WITHOUT, P::MEANING));
         of_properties.extend(P::sections());
     });
     each_law!(L => {
-        of_both.push(root::table(L::NAME, Fallback::Absent("none"), L::MEANING));
+        of_both.push(table(L::NAME, "none", L::MEANING));
         of_laws.extend(L::sections());
     });
     body[0].keys = of_both.leak();
@@ -84,6 +84,18 @@ fn of_every_case() -> Vec<Section> {
         HardnessMap::sections(HardnessMap::TABLES),
     ]
     .concat()
+}
+
+/// Declares a table of a list.
+fn table(name: &'static str, absent: &'static str, text: &'static str) -> Key {
+    Key {
+        name,
+        kind: Kind::Table,
+        default: Fallback::Absent(absent),
+        example: "",
+        text,
+        exists: Exists::Undeclared,
+    }
 }
 
 /// Puts the keys of the same choice in one section.

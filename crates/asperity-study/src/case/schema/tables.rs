@@ -117,9 +117,3 @@ pub(in crate::case) fn read<T: table::Table>(root: &Table<'_>, name: &str) -> Re
     known_in(&table)?;
     T::read(&table).map(Some)
 }
-
-/// Returns a required table of this name, which has only known keys.
-pub(in crate::case) fn required<'a>(root: &Table<'a>, name: &str) -> Result<Table<'a>> {
-    let table = root.required_table(name)?;
-    known_in(&table).map(|()| table)
-}
