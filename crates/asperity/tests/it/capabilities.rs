@@ -100,7 +100,7 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 5] = [
             "asperity/src/lib.rs",
             // A load that pulls the bodies apart, or may pull.
             "asperity-base/src/error.rs",
-            "asperity-study/src/case/friction.rs",
+            "asperity-study/src/case/stage.rs",
             "asperity-study/src/case/rules/loading.rs",
             // Tables that viscoelastic bodies do not support.
             "asperity-study/src/case/rules/viscoelastic.rs",
