@@ -8,7 +8,7 @@ use asperity_contact::motion::{LoadControl, OffsetY, Path, PlasticUpdate, Point,
 use asperity_contact::solver::{Control, Creep, Friction, Rolling, Tangential};
 use asperity_contact::with::{BodyLaw, Capability, Listed};
 use asperity_contact::{each_capability, each_law};
-use asperity_study::case::{Body, Boundary, CounterBody, LoadingPath, Mount, Side};
+use asperity_study::case::{Body, Boundary, CounterBody, Course, Mount, Side};
 use asperity_study::{Bodies, Case, Demand, Estimate, MountedSurface, Plan};
 
 use crate::words::closed_form;
@@ -28,12 +28,8 @@ pub fn rows(case: &Case, bodies: &Bodies, estimate: &Estimate, demand: &Demand) 
         ("time", time(demand)),
     ];
     let friction = case.friction.as_ref().map(|spec| ("friction", friction(&spec.law, estimate)));
-    let history = match &estimate.loading_path {
-        Some(LoadingPath::Stages(stages)) if case.friction.is_none() && stages.len() > 1 => {
-            Some(("history", loading_path(stages)))
-        }
-        _ => None,
-    };
+    let stages = estimate.course.stages();
+    let history = (case.friction.is_none() && stages.len() > 1).then(|| ("history", loading_path(stages)));
     let theory = estimate.closed_form.as_ref().map(|form| ("theory", closed_form::expected(form)));
     let interface = case.interface.describe(&estimate.interface);
     let stress = estimate.subsurface.as_ref().map(|plan| ("stress", stress(case, plan)));
@@ -132,8 +128,8 @@ fn contact(case: &Case, estimate: &Estimate) -> String {
         Boundary([x, y]) => format!("boundary {} along x, {} along y", x.word(), y.word()),
     };
     let method = case.contact.method.word();
-    let mut text = match &estimate.loading_path {
-        Some(LoadingPath::Sweep(points)) if !case.contact.sweep().is_empty() => swept(points),
+    let mut text = match &estimate.course {
+        Course::Sweep(points) if !case.contact.sweep().is_empty() => swept(points),
         _ => control,
     };
     if let (Control::Load(load), true) = (estimate.control, estimate.plastic_limit.is_finite()) {
@@ -166,19 +162,16 @@ fn swept(points: &[Point]) -> String {
 
 fn motion(case: &Case, estimate: &Estimate) -> String {
     let Some(motion) = case.motion else {
-        return match &estimate.loading_path {
-            Some(LoadingPath::Sweep(points)) if points[0].speed.is_some() => steady(points),
-            Some(LoadingPath::Sweep(points)) => {
+        return match &estimate.course {
+            Course::Sweep(points) if points[0].speed.is_some() => steady(points),
+            Course::Sweep(points) => {
                 format!("none: {}", plural(points.len(), "static contact", "static contacts"))
             }
-            None => match case.sliding {
-                Some(sliding) => format!(
-                    "in place over {}, {}",
-                    units::format(sliding.distance, Dimension::Length),
-                    plural(sliding.updates, "update", "updates")
-                ),
-                None => "none: one static contact".to_owned(),
-            },
+            Course::InPlace(slide) => format!(
+                "in place over {}, {}",
+                units::format(slide.ends.last().copied().unwrap_or(0.0), Dimension::Length),
+                plural(slide.ends.len(), "update", "updates")
+            ),
             _ => "none: one static contact".to_owned(),
         };
     };
@@ -223,11 +216,11 @@ fn friction(friction: &Friction, estimate: &Estimate) -> String {
     }
     let coupling = friction.coupling.word();
     let _ = write!(text, ", coupling {coupling}, Dundurs' β {:.3}; ", estimate.dundurs);
-    text + &match &estimate.loading_path {
-        None => "sliding at each position".to_owned(),
-        Some(LoadingPath::Rolling(at)) => rolling(*at),
-        Some(LoadingPath::Stages(stages)) => loading_path(stages),
-        Some(LoadingPath::Sweep(points)) => rolling_through(points),
+    text + &match &estimate.course {
+        Course::Passes(_) | Course::InPlace(_) => "sliding at each position".to_owned(),
+        Course::Rolling(at) => rolling(*at),
+        Course::Stages(stages) => loading_path(stages),
+        Course::Sweep(points) => rolling_through(points),
     }
 }
 

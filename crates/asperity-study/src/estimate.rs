@@ -8,7 +8,7 @@ pub(super) use contact::{CELLS_ACROSS, are_curved};
 pub use contact::{cut_off, spot, too_few_cells};
 pub use demand::{Demand, demand, memory_on_device};
 
-use super::case::{Body, Case, Hardness, Layer, LoadingPath, Source, TopographySpec};
+use super::case::{Body, Case, Course, Hardness, Layer, Source, TopographySpec};
 use super::closed_form::ClosedForm;
 use super::prepare::{Bodies, MountedSurface};
 use crate::subsurface::Plan;
@@ -20,7 +20,7 @@ use asperity_base::math::sum::sums;
 use asperity_base::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
 use asperity_contact::material::{Compliances, plastic_share};
 use asperity_contact::motion::{
-    LoadControl, Motion, Position, Stage, Strategy, check_limit, initial_gap, opposing_values,
+    LoadControl, Position, Stage, Strategy, check_limit, initial_gap, opposing_values,
 };
 use asperity_contact::reference::HertzSphere;
 use asperity_contact::solver::{Control, Coupling, Creep, Friction, Rolling, Tangential};
@@ -38,8 +38,8 @@ pub struct Estimate {
     pub modulus: Pascal,
     /// Dundurs' β of the pair.
     pub dundurs: f64,
-    /// Loading path of a static contact; `None` for a motion and for sliding in place.
-    pub loading_path: Option<LoadingPath>,
+    /// The course of the contact.
+    pub course: Course,
     /// Cap on the pressure: the smaller hardness, infinite for an elastic pair; the smallest value of hardness maps.
     pub hardness: Pascal,
     /// Largest cap on the pressure of any two cells; equal to `hardness` if no hardness is a map.
@@ -93,10 +93,10 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     let column_area = |columns: usize| columns as f64 * column;
     let apparent_area = facing as f64 * column;
     let control = case.contact.prescribed().control(apparent_area);
-    let load_control = case.motion(apparent_area).map_or(LoadControl::Step, |motion| motion.load_control);
     let [lower_hardness, upper_hardness] = [&bodies.lower.hardness, &bodies.upper.hardness];
     let hardness = lower_hardness.min().min(upper_hardness.min());
-    let loading_path = case.loading_path(apparent_area);
+    let course = case.course(apparent_area);
+    let load_control = load_control(&course);
     let law = case.friction.as_ref().map(|friction| &friction.law);
     // Hardness of opposing cells at a position: that of the softer one.
     let facing_hardness = |position: &Position| {
@@ -107,10 +107,8 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         let cells = position.columns * lower_grid.shape[1];
         facing_hardness(position).sum(cells) / cells as f64
     };
-    if let (None, Some(LoadingPath::Stages(stages))) = (case.motion(apparent_area), &loading_path) {
-        bears(law, stages, mean_hardness(&positions[0]), apparent_area)?;
-    }
-    let cap = |hardness| cap(case, apparent_area, loading_path.as_ref(), hardness);
+    bears(law, course.stages(), mean_hardness(&positions[0]), apparent_area)?;
+    let cap = |hardness| cap(case, &course, hardness);
     let bearable: Vec<Newton> = positions
         .iter()
         .map(|position| match facing_hardness(position) {
@@ -124,14 +122,14 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     };
     check_limit(control, plastic_limit)?;
     let compliances = Compliances::new(lower, upper)?;
-    if let (Some(law), Some(loading_path)) = (law, &loading_path) {
-        holds(law, loading_path, case.contact.prescribed().control(apparent_area), apparent_area)?;
+    if let Some(law) = law {
+        holds(law, &course, case.contact.prescribed().control(apparent_area), apparent_area)?;
     }
     let slopes = [&bodies.lower, &bodies.upper].map(|body| body.topography.sdq());
     let mut estimate = Estimate {
         modulus: compliances.modulus(),
         dundurs: compliances.dundurs(),
-        loading_path,
+        course,
         hardness,
         max_hardness: lower_hardness.max().min(upper_hardness.max()),
         lower_share: share_of_lower(lower_hardness, upper_hardness),
@@ -198,32 +196,35 @@ pub(super) fn check_plastic_limit(case: &Case, grids: [Grid; 2]) -> Result<()> {
     let [grid, other] = grids;
     let column = grid.shape[1] as f64 * grid.cell_area();
     let apparent_area = grid.shape[0].min(other.shape[0]) as f64 * column;
-    let motion = case.motion(apparent_area);
-    let loading_path = case.loading_path(apparent_area);
-    if let (None, Some(LoadingPath::Stages(stages))) = (&motion, &loading_path) {
-        bears(case.friction.as_ref().map(|friction| &friction.law), stages, hardness, apparent_area)?;
-    }
-    let cap = cap(case, apparent_area, loading_path.as_ref(), hardness);
+    let course = case.course(apparent_area);
+    bears(case.friction.as_ref().map(|friction| &friction.law), course.stages(), hardness, apparent_area)?;
+    let cap = cap(case, &course, hardness);
     let positions = positions(case, grids);
     let bearable: Vec<Newton> =
         positions.iter().map(|position| cap * position.columns as f64 * column).collect();
-    let load_control = motion.map_or(LoadControl::Step, |motion| motion.load_control);
-    check_limit(case.contact.prescribed().control(apparent_area), load_control.plastic_limit(&bearable))
+    check_limit(
+        case.contact.prescribed().control(apparent_area),
+        load_control(&course).plastic_limit(&bearable),
+    )
+}
+
+/// Whether a load is prescribed for each step or for the mean of a pass.
+fn load_control(course: &Course) -> LoadControl {
+    match course {
+        Course::Passes(motion) => motion.load_control,
+        _ => LoadControl::Step,
+    }
 }
 
 /// Largest pressure on cells of a hardness, reduced by the shear of sliding bodies.
-fn cap(
-    case: &Case,
-    apparent_area: SquareMetre,
-    loading_path: Option<&LoadingPath>,
-    hardness: Pascal,
-) -> Pascal {
+fn cap(case: &Case, course: &Course, hardness: Pascal) -> Pascal {
     let law = case.friction.as_ref().map(|friction| &friction.law);
-    match (case.motion(apparent_area), loading_path) {
-        (Some(Motion { friction: Some(friction), .. }), _) => friction.sliding_cap(hardness),
-        (None, None) => law.map_or(hardness, |friction| friction.sliding_cap(hardness)),
-        (None, Some(LoadingPath::Stages(stages))) => stage_cap(law, &stages[0], hardness),
-        _ => hardness,
+    match course {
+        Course::Passes(_) | Course::InPlace(_) => {
+            law.map_or(hardness, |friction| friction.sliding_cap(hardness))
+        }
+        Course::Stages(stages) => stage_cap(law, &stages[0], hardness),
+        Course::Rolling(_) | Course::Sweep(_) => hardness,
     }
 }
 
@@ -283,20 +284,16 @@ fn bears(
 
 /// Returns an error if the tangential force of a stage exceeds the friction limit under its load: at most μp and at most τ
 /// on each cell.
-fn holds(
-    friction: &Friction,
-    loading_path: &LoadingPath,
-    control: Control,
-    apparent_area: SquareMetre,
-) -> Result<()> {
-    let ends: Vec<_> = match loading_path {
-        LoadingPath::Stages(stages) => {
+fn holds(friction: &Friction, course: &Course, control: Control, apparent_area: SquareMetre) -> Result<()> {
+    let ends: Vec<_> = match course {
+        Course::Stages(stages) => {
             stages.iter().map(|Stage { loading, .. }| (loading.normal, loading.tangential)).collect()
         }
-        LoadingPath::Rolling(rolling) => pushed(control, *rolling).into_iter().collect(),
-        LoadingPath::Sweep(points) => {
+        Course::Rolling(rolling) => pushed(control, *rolling).into_iter().collect(),
+        Course::Sweep(points) => {
             points.iter().filter_map(|point| pushed(point.control, point.rolling?)).collect()
         }
+        Course::Passes(_) | Course::InPlace(_) => Vec::new(),
     };
     for end in ends {
         if let (Control::Load(load), Tangential::Force([x, y])) = end {
@@ -468,7 +465,7 @@ fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], estimate: &mut
     }
     let prediction = contact::predict(&gap, pitch, estimate.modulus, case.contact.boundary, control);
     // A motion and a load sweep leave only tables, which do not show where in a contact the pressure is.
-    let tabled = case.motion.is_some() || case.is_swept();
+    let tabled = estimate.course.moves() || estimate.course.is_sweep();
     let warnings = if tabled { &mut estimate.warnings } else { &mut estimate.predicted };
     warnings.extend(prediction.rim);
     estimate.predicted.extend(prediction.coarse);
@@ -492,9 +489,9 @@ fn frictional(
             "the bodies are dissimilar, Dundurs' β is {beta:.2}: `coupling = \"full\"` is exact"
         ));
     }
-    let stages = match &estimate.loading_path {
-        Some(LoadingPath::Stages(stages)) => stages,
-        Some(LoadingPath::Rolling(_) | LoadingPath::Sweep(_)) => {
+    let stages = match &estimate.course {
+        Course::Stages(stages) => stages,
+        Course::Rolling(_) | Course::Sweep(_) => {
             if !roll_alike(case, bodies) {
                 warnings.push(
                     "steady rolling of a rough surface: its roughness stays in the contact instead of moving through it; \
@@ -504,7 +501,7 @@ fn frictional(
             }
             return;
         }
-        None => return,
+        Course::Passes(_) | Course::InPlace(_) => return,
     };
     let first = &stages[0];
     let slips = !matches!(first.loading.tangential, Tangential::Sliding(_));
@@ -542,7 +539,7 @@ fn frictional(
 
 /// Warns of steady rolling of bodies that yield.
 fn rolls_plastically(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Option<String> {
-    estimate.loading_path.as_ref()?.rolling().next()?;
+    estimate.course.rolling().next()?;
     let pressure =
         rolling_pressure(case, bodies, estimate).filter(|pressure| *pressure > estimate.hardness)?;
     let [pressure, hardness] = [pressure, estimate.hardness].map(|p| units::format(p, Dimension::Pressure));

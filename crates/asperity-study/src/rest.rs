@@ -1,7 +1,7 @@
 //! A static contact of a case: solved in memory, or written to a results directory increment by increment and point by
 //! point.
 
-use crate::case::{Case, LoadingPath};
+use crate::case::{Case, Course};
 use crate::closed_form::ClosedFormRecord;
 use crate::elasto_plastic;
 use crate::estimate::{Estimate, estimate};
@@ -59,7 +59,7 @@ pub struct StaticResult {
 /// Every error of a case, its surfaces or the contact; [`Error::Unsupported`] for a motion. Stress under the surface is not
 /// computed, because it is written to a file.
 pub fn rest(case: &Case, given: SurfaceInput, watch: &dyn Watch) -> Result<StaticResult> {
-    if case.motion.is_some() {
+    if case.course(1.0).moves() {
         return Err(Error::Unsupported("a motion is not a static contact"));
     }
     let bodies = bodies_until(case, given, &|| watch.stop())?;
@@ -137,14 +137,12 @@ pub(super) fn solve(
     let control = case.contact.prescribed().control(apparent_area);
     let extent = pair.lower_grid().extent();
     let contact = StaticProblem { case, pair, estimate, law, control, params: params(case), writer, watch };
-    if let Some(slide) = case.slide(apparent_area) {
-        return contact.slide(slide);
-    }
-    let rest = match (case.loading_path(apparent_area), law, &case.plasticity) {
-        (Some(LoadingPath::Stages(stages)), _, Some(spec)) => contact.press_elasto_plastic(spec, stages),
-        (Some(LoadingPath::Sweep(points)), ..) => contact.sweep(&points),
-        (Some(LoadingPath::Rolling(rolling)), Some(friction), _) => contact.roll(friction, rolling),
-        (Some(LoadingPath::Stages(stages)), law, _) if law.is_some() || stages.len() > 1 => {
+    let rest = match (case.course(apparent_area), law, &case.plasticity) {
+        (Course::InPlace(slide), ..) => return contact.slide(slide),
+        (Course::Sweep(points), ..) => contact.sweep(&points),
+        (Course::Rolling(rolling), Some(friction), _) => contact.roll(friction, rolling),
+        (Course::Stages(stages), _, Some(spec)) => contact.press_elasto_plastic(spec, stages),
+        (Course::Stages(stages), law, _) if law.is_some() || stages.len() > 1 => {
             contact.load_in_stages(&stages)
         }
         _ => contact.press(),

@@ -46,7 +46,7 @@ pub(super) fn run_with(
     (existing, lock): (Existing, Option<Lock>),
     watch: &dyn Watch,
 ) -> Result<(Summary, Writer)> {
-    if case.motion.is_some() {
+    if case.course(1.0).moves() {
         let mut passes = Passes::enter_with(case, given, directory, (existing, lock), &|| watch.stop())?;
         passes.done()?.iter().for_each(|pass| watch.pass(pass));
         while let Some(pass) = passes.solve(watch)? {

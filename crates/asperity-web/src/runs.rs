@@ -81,12 +81,7 @@ struct Listener {
 
 impl Listener {
     fn new(case: &Case, tell: fn(&Value) -> bool) -> Self {
-        let step = match (&case.motion, case.is_swept(), case.sliding) {
-            (Some(_), ..) => "pass",
-            (None, true, _) => "point",
-            (None, false, Some(_)) => "update",
-            (None, false, None) => "increment",
-        };
+        let step = case.course(1.0).step();
         let passes = case.motion.map_or(1, |motion| motion.passes);
         Self { tell, step, passes, stop: AtomicBool::new(false), told: Mutex::new(None) }
     }

@@ -43,12 +43,7 @@ impl Display {
         let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let style = ProgressStyle::with_template("{bar:24.cyan/dim} {msg}").expect("a valid template");
         let bar = ProgressBar::with_draw_target(None, target).with_style(style);
-        let step = match (&case.motion, case.is_swept(), case.sliding) {
-            (Some(_), ..) => "pass",
-            (None, true, _) => "point",
-            (None, false, Some(_)) => "update",
-            (None, false, None) => "increment",
-        };
+        let step = case.course(1.0).step();
         let table = Table { rows: Rows::new(case), printed: Ok(()), began: Instant::now(), finished: None };
         let (directory, page) = (directory.to_owned(), Mutex::new(LivePage::begin()));
         let warned = Mutex::default();

@@ -9,10 +9,8 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
-use asperity::motion::Stage;
 use asperity::solver::Device;
 use asperity::study;
-use asperity::study::case::{Case, LoadingPath};
 use asperity::study::{Existing, Results};
 
 use crate::args::Run;
@@ -54,7 +52,7 @@ pub(crate) fn compute(
     machine::demand(&case)?;
     machine::device(&case)?;
     // A contact in one step has no results until it is solved, so Ctrl-C ends it at once.
-    let stop = Stop::at_ctrl_c(case.motion.is_some() || in_steps(&case));
+    let stop = Stop::at_ctrl_c(case.course(1.0).keeps_steps());
     let display = Display::new(is_quiet, &case, directory, stop.clone());
     let outcome = study::run(&case, study::SurfaceInput::default(), directory, existing, &display);
     let (printed, warned) = display.end();
@@ -95,15 +93,6 @@ pub(crate) fn compute(
         note(&format!("results, figures and report.html in {}", directory.display()));
     }
     printed
-}
-
-/// Whether a static contact is computed in increments or points, which are stored one by one.
-fn in_steps(case: &Case) -> bool {
-    match case.loading_path(1.0) {
-        Some(LoadingPath::Stages(stages)) => Stage::increments(&stages) > 1,
-        Some(LoadingPath::Sweep(points)) => points.len() > 1,
-        Some(LoadingPath::Rolling(_)) | None => false,
-    }
 }
 
 /// Returns the default results directory: `surfaces/disc.toml` → `surfaces/disc-results`; of the case file within results, these.

@@ -5,12 +5,12 @@
 
 mod body;
 mod contact;
+mod course;
 pub(crate) mod cursor;
 pub(crate) mod document;
 mod friction;
 mod hardness;
 mod json_schema;
-mod loading;
 mod motion;
 mod output;
 mod parse;
@@ -33,11 +33,11 @@ use serde::{Serialize, Serializer};
 
 pub use self::body::{Body, Mount};
 pub use self::contact::{Contact, GridMatch};
+pub use self::course::Course;
 use self::document::Document;
 pub use self::friction::{FrictionSpec, InPlane};
 pub use self::hardness::{Hardness, HardnessMap};
 pub use self::json_schema::json_schema;
-pub use self::loading::LoadingPath;
 pub use self::motion::{ControlKind, CounterBody, MotionSpec, Offset, StrategyKind};
 pub use self::output::Output;
 pub use self::prescribed::{ContactLoad, Prescribed};

@@ -2,7 +2,7 @@
 
 use web_time::Instant;
 
-use crate::case::{Body, Case, ControlKind, CounterBody, Layer, LoadingPath, MotionSpec, Source, StageSpec};
+use crate::case::{Body, Case, ControlKind, CounterBody, Course, Layer, MotionSpec, Source, StageSpec};
 use crate::given::SurfaceInput;
 use crate::prepare::grids;
 use crate::subsurface::Plan;
@@ -11,7 +11,7 @@ use asperity_base::grid::Grid;
 use asperity_base::units::Second;
 use asperity_contact::each_capability;
 use asperity_contact::material::Compliances;
-use asperity_contact::motion::{PlasticUpdate, Stage, memory_together};
+use asperity_contact::motion::{LoadControl, PlasticUpdate, Stage, memory_together};
 use asperity_contact::operator::{FreeFft, Operator};
 use asperity_contact::solver::{self, Control, Coupling, InterfaceCost, Method};
 use asperity_contact::with::{Capability, Listed};
@@ -318,8 +318,8 @@ impl Sizes<'_> {
 
     /// Whether tangential tractions are computed.
     fn is_coupled(&self) -> bool {
-        let rests = self.case.motion.is_none() && self.case.sliding.is_none();
-        self.case.friction.is_some() && (rests || self.case.shear_displaces_normally())
+        let slides = matches!(self.case.course(1.0), Course::Passes(_) | Course::InPlace(_));
+        self.case.friction.is_some() && (!slides || self.case.shear_displaces_normally())
     }
 
     /// Estimates the number of computed passes from the stability limit and the largest depth of an extrapolation.
@@ -374,10 +374,13 @@ impl Sizes<'_> {
         let normal = Cost { convolutions: method * size * normal.convolutions, ..normal };
         let unlike = self.compliances().is_some_and(|compliances| compliances.dundurs().abs() > 1e-3);
         let rolling = if unlike { ROLLING_UNLIKE } else { ROLLING };
-        let [convolutions, mut effort] = match (case.motion, &case.friction) {
-            (Some(motion), _) => {
+        let course = case.course(nx * ny * self.lower.cell_area());
+        let [convolutions, mut effort] = match &course {
+            Course::Passes(motion) => {
                 let changes = motion.plastic_update == PlasticUpdate::Step || case.relaxes();
-                let searches = if motion.control() == ControlKind::PassLoad && changes { 5.0 } else { 1.0 };
+                let is_searched =
+                    matches!(motion.control, Control::Load(_)) && motion.load_control == LoadControl::Pass;
+                let searches = if is_searched && changes { 5.0 } else { 1.0 };
                 let positions = self.solved().len();
                 let passes = self.computed_passes(motion.passes);
                 let mut cost = if self.is_coupled() { SLIDING } else { normal };
@@ -390,35 +393,28 @@ impl Sizes<'_> {
                 let together = if case.relaxes() { 1.0 } else { together(positions) };
                 [convolutions * positions as f64, effort / together + beside]
             }
-            (None, _) if case.sliding.is_some() => {
-                let updates = case.sliding.map_or(0, |sliding| sliding.updates) as f64;
-                of(normal, 2.0 + updates)
+            Course::InPlace(slide) => of(normal, 2.0 + slide.ends.len() as f64),
+            Course::Rolling(_) => of(rolling, 1.0),
+            Course::Stages(stages) => {
+                let shear = match case.friction.as_ref().map(|friction| friction.law.coupling) {
+                    Some(Coupling::Full | Coupling::Goodman) if unlike => SHEAR_UNLIKE,
+                    Some(_) => SHEAR,
+                    None => normal,
+                };
+                of(shear, self.increments(stages))
             }
-            (None, friction) => match case.loading_path(nx * ny * self.lower.cell_area()) {
-                Some(LoadingPath::Rolling(_)) => of(rolling, 1.0),
-                Some(LoadingPath::Stages(stages)) => {
-                    let increments = self.increments(&stages);
-                    let shear = match friction.as_ref().map(|friction| friction.law.coupling) {
-                        Some(Coupling::Full | Coupling::Goodman) if unlike => SHEAR_UNLIKE,
-                        Some(_) => SHEAR,
-                        None => normal,
-                    };
-                    of(shear, increments)
-                }
-                Some(LoadingPath::Sweep(points)) if case.steady.is_some() => {
-                    let larger = (nx * ny / LARGE).powf(STEADY_GROWTH);
-                    of(Cost { convolutions: larger * STEADY.convolutions, ..STEADY }, points.len() as f64)
-                }
-                Some(LoadingPath::Sweep(points)) => {
-                    let rolls = points.iter().filter(|point| point.rolling.is_some()).count() as f64;
-                    let [a, b] = [of(rolling, rolls), of(normal, points.len() as f64 - rolls)];
-                    // Only the stiffness of hard walls is computed.
-                    let each = if case.interface.is_empty() { STIFFNESS } else { 0.0 };
-                    let stiffness = each * boundary * digits * points.len() as f64 * all;
-                    [a[0] + b[0], a[1] + b[1] + stiffness]
-                }
-                None => of(normal, 1.0),
-            },
+            Course::Sweep(points) if case.steady.is_some() => {
+                let larger = (nx * ny / LARGE).powf(STEADY_GROWTH);
+                of(Cost { convolutions: larger * STEADY.convolutions, ..STEADY }, points.len() as f64)
+            }
+            Course::Sweep(points) => {
+                let rolls = points.iter().filter(|point| point.rolling.is_some()).count() as f64;
+                let [a, b] = [of(rolling, rolls), of(normal, points.len() as f64 - rolls)];
+                // Only the stiffness of hard walls is computed.
+                let each = if case.interface.is_empty() { STIFFNESS } else { 0.0 };
+                let stiffness = each * boundary * digits * points.len() as f64 * all;
+                [a[0] + b[0], a[1] + b[1] + stiffness]
+            }
         };
         if let Some(spec) = &case.subsurface {
             let passes = self.computed_passes(case.motion.map_or(1, |motion| motion.passes));
@@ -439,16 +435,12 @@ impl Sizes<'_> {
 
     /// Number of contacts that are solved: increments, updates, points, or positions of all computed passes.
     fn contacts(&self) -> f64 {
-        let case = self.case;
-        let [nx, ny] = self.facing();
-        match (case.motion, case.sliding) {
-            (Some(motion), _) => self.computed_passes(motion.passes) * self.overlaps.len() as f64,
-            (None, Some(sliding)) => 1.0 + sliding.updates as f64,
-            (None, None) => match case.loading_path(nx * ny * self.lower.cell_area()) {
-                Some(LoadingPath::Stages(stages)) => self.increments(&stages),
-                Some(LoadingPath::Sweep(points)) => points.len() as f64,
-                Some(LoadingPath::Rolling(_)) | None => 1.0,
-            },
+        match self.case.course(1.0) {
+            Course::Passes(motion) => self.computed_passes(motion.passes) * self.overlaps.len() as f64,
+            Course::InPlace(slide) => 1.0 + slide.ends.len() as f64,
+            Course::Stages(stages) => self.increments(&stages),
+            Course::Sweep(points) => points.len() as f64,
+            Course::Rolling(_) => 1.0,
         }
     }
 
@@ -565,7 +557,7 @@ impl Sizes<'_> {
             None => 9.0 + if case.friction.is_some() { 4.0 } else { 0.0 },
         };
         figures += maps + 2.0 * maps.min(1.0) + given(case.subsurface.is_some());
-        figures += 2.0 * given(case.plasticity.is_some()) + given(case.is_swept());
+        figures += 2.0 * given(case.plasticity.is_some()) + given(case.course(1.0).is_sweep());
         let [frames, kept, cells] = match case.motion {
             Some(motion) => {
                 let [fields, cells] = self.kept();

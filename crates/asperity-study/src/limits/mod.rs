@@ -9,7 +9,7 @@ mod bounds; // the bounds of a case
 mod findings; // the quantities of a step
 mod table; // the limits: what exceeds them, and what a warning says
 
-use crate::case::{Case, LoadingPath};
+use crate::case::{Case, Course};
 use crate::estimate::Estimate;
 use crate::limit::{BrokenLimit, LIMITS_TABLE};
 use crate::results::Writer;
@@ -32,19 +32,16 @@ impl BrokenLimit {
 
     /// Returns the place of the result as the beginning of a sentence; empty for a contact in one step.
     fn place(&self, case: &Case) -> String {
-        let several = match case.loading_path(1.0) {
-            Some(LoadingPath::Stages(stages)) => {
-                stages.iter().map(|stage| stage.increments).sum::<usize>() > 1
+        match (self.pass, self.step, case.course(1.0)) {
+            (Some(pass), Some(position), _) => format!("pass {pass}, position {position}: "),
+            (Some(pass), None, _) => format!("pass {pass}: "),
+            (None, Some(step), course @ (Course::InPlace(_) | Course::Sweep(_))) => {
+                format!("{} {step}: ", course.step())
             }
-            _ => false,
-        };
-        match (self.pass, self.step) {
-            (Some(pass), Some(position)) => format!("pass {pass}, position {position}: "),
-            (Some(pass), None) => format!("pass {pass}: "),
-            (None, Some(update)) if case.sliding.is_some() => format!("update {update}: "),
-            (None, Some(point)) if case.is_swept() => format!("point {point}: "),
-            (None, Some(increment)) if several => format!("increment {increment}: "),
-            (None, _) => String::new(),
+            (None, Some(step), course @ Course::Stages(_)) if course.keeps_steps() => {
+                format!("{} {step}: ", course.step())
+            }
+            (None, ..) => String::new(),
         }
     }
 }
@@ -76,7 +73,7 @@ impl Limits {
             return Ok(Self { case, bounds, broken: Vec::new(), new: 0, table: None });
         };
         let path = writer.results().observer_table(LIMITS_TABLE);
-        let column = if case.motion.is_some() { "pass" } else { "step" };
+        let column = if case.course(1.0).moves() { "pass" } else { "step" };
         let rows = done.map_or(Ok(0), |done| tables::rows_up_to(&path, column, done))?;
         let mut broken = writer.results().broken_limits()?;
         broken.truncate(rows);

@@ -10,8 +10,8 @@ use asperity_contact::solver::{self, Coupling, Creep, Friction, Loading, Rolling
 use asperity_contact::with::adhesion::AdhesionRange;
 use asperity_study::bodies;
 use asperity_study::case::{
-    Boundary, Case, ControlKind, Edge, Hardness, InPlane, Layer, Layout, LoadingPath, Method, Mount,
-    Prescribed, Side, Source,
+    Boundary, Case, ControlKind, Course, Edge, Hardness, InPlane, Layer, Layout, Method, Mount, Prescribed,
+    Side, Source,
 };
 use asperity_study::demand;
 use asperity_surface::{
@@ -334,14 +334,14 @@ fn what_a_stage_does_not_name_stays() {
         stage(1.0, Tangential::Displacement([0.1e-6, 0.0]), 1),
         stage(1.0, Tangential::Sliding([0.6, 0.8]), 1),
     ];
-    let course = case.loading_path(1.0).unwrap();
-    assert_eq!(course, LoadingPath::Stages(expected.to_vec()));
+    let course = case.course(1.0);
+    assert_eq!(course, Course::Stages(expected.to_vec()));
 }
 
 #[test]
 fn what_rolls_has_a_creepage_or_a_force() {
-    let rolling = |name| load(name).loading_path(1.0).unwrap();
-    let course = |creep, spin| LoadingPath::Rolling(Rolling { creep, spin });
+    let rolling = |name| load(name).course(1.0);
+    let course = |creep, spin| Course::Rolling(Rolling { creep, spin });
     assert_eq!(rolling("rolled"), course(Creep::Creepage([1e-3, -5e-4]), -20.0));
     assert_eq!(rolling("driven"), course(Creep::Force([0.2, 0.0]), 0.0));
 }
@@ -360,7 +360,7 @@ fn a_sweep_has_its_points_in_the_order_given_and_the_largest_is_prescribed() {
 
     let case = load("swept_pressures");
     assert_eq!(case.contact.sweep(), [10e6, 1e6, 2e6].map(Prescribed::MeanPressure));
-    let Some(LoadingPath::Sweep(points)) = case.loading_path(1e-6) else { panic!() };
+    let Course::Sweep(points) = case.course(1e-6) else { panic!() };
     let controls: Vec<_> = points.iter().map(|point| point.control).collect();
     assert_eq!(controls, [10e6, 1e6, 2e6].map(|pressure| solver::Control::Load(pressure * 1e-6)));
     assert_eq!(case.contact.prescribed(), Prescribed::MeanPressure(10e6));
@@ -373,7 +373,7 @@ fn a_sweep_has_its_points_in_the_order_given_and_the_largest_is_prescribed() {
         "{approaches:?}"
     );
 
-    let Some(LoadingPath::Sweep(points)) = load("swept_rolling").loading_path(1.0) else { panic!() };
+    let Course::Sweep(points) = load("swept_rolling").course(1.0) else { panic!() };
     let rolling = Some(Rolling { creep: Creep::Creepage([1e-3, 0.0]), spin: 0.0 });
     let point = |load| Point { control: solver::Control::Load(load), rolling, speed: None };
     assert_eq!(points, [point(2.0), point(4.0)]);
@@ -382,8 +382,8 @@ fn a_sweep_has_its_points_in_the_order_given_and_the_largest_is_prescribed() {
 #[test]
 fn creepages_are_points_of_a_sweep_under_one_load() {
     let case = load("swept_creepages");
-    assert!(case.is_swept() && !load("swept_rolling").friction.unwrap().sweeps());
-    let Some(LoadingPath::Sweep(points)) = case.loading_path(1.0) else { panic!() };
+    assert!(case.course(1.0).is_sweep() && !load("swept_rolling").friction.unwrap().sweeps());
+    let Course::Sweep(points) = case.course(1.0) else { panic!() };
     assert!(points.iter().all(|point| point.control == solver::Control::Load(2.0)));
     let creepages = |points: &[Point]| -> Vec<[f64; 2]> {
         let creepage = |point: &Point| match point.rolling.unwrap().creep {
@@ -401,8 +401,8 @@ fn creepages_are_points_of_a_sweep_under_one_load() {
     let through = |value: &str| {
         let line = text.lines().find(|line| line.starts_with("creepages")).unwrap();
         let text = text.replace(line, &format!("creepages = {value}"));
-        let Some(LoadingPath::Sweep(points)) =
-            Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap().loading_path(1.0)
+        let Course::Sweep(points) =
+            Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap().course(1.0)
         else {
             panic!()
         };

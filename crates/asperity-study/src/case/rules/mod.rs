@@ -15,7 +15,7 @@ mod temperature;
 mod viscoelastic;
 
 use super::cursor::{Entry, Table};
-use super::{Body, Case, FrictionSpec, LoadingPath, MotionSpec};
+use super::{Body, Case, FrictionSpec, MotionSpec};
 use asperity_base::error::{Error, Result};
 use asperity_base::table;
 use asperity_contact::motion::Strategy;
@@ -231,8 +231,7 @@ impl<'a> Tables<'a> {
 
     /// Whether the bodies slip on each other in the stages of a loading.
     fn frets(&self) -> bool {
-        let in_stages = matches!(self.case.loading_path(1.0), Some(LoadingPath::Stages(_)));
-        in_stages && self.case.friction.is_some()
+        !self.case.course(1.0).stages().is_empty() && self.case.friction.is_some()
     }
 
     /// Returns what the laws of a body need to know.

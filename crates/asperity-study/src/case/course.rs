@@ -1,0 +1,119 @@
+//! The course of a case: the contacts that are solved one after another, by whichever tables give them.
+
+use super::{Case, FrictionSpec, Prescribed};
+use asperity_base::units::SquareMetre;
+use asperity_contact::motion::{Motion, Point, Slide, Stage};
+use asperity_contact::solver::{Loading, Rolling, Tangential};
+
+/// Course of a case: the sequence of prescribed states.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Course {
+    /// Passes of one body over the other.
+    Passes(Motion),
+    /// Sliding in place.
+    InPlace(Slide),
+    /// Loading stage after stage.
+    Stages(Vec<Stage>),
+    /// One contact in steady rolling.
+    Rolling(Rolling),
+    /// Sweep of loads, creepages or speeds, each on virgin bodies.
+    Sweep(Vec<Point>),
+}
+
+impl Course {
+    /// The name of a step in messages and tables.
+    pub fn step(&self) -> &'static str {
+        match self {
+            Self::Passes(_) => "pass",
+            Self::InPlace(_) => "update",
+            Self::Stages(_) | Self::Rolling(_) => "increment",
+            Self::Sweep(_) => "point",
+        }
+    }
+
+    /// Whether a run that is stopped keeps the steps that are finished.
+    pub fn keeps_steps(&self) -> bool {
+        match self {
+            Self::Passes(_) => true,
+            Self::Stages(stages) => Stage::increments(stages) > 1,
+            Self::Sweep(points) => points.len() > 1,
+            Self::InPlace(_) | Self::Rolling(_) => false,
+        }
+    }
+
+    /// Whether it has passes.
+    pub fn moves(&self) -> bool {
+        matches!(self, Self::Passes(_))
+    }
+
+    /// Whether it is a sweep.
+    pub fn is_sweep(&self) -> bool {
+        matches!(self, Self::Sweep(_))
+    }
+
+    /// The stages of a loading; none for another course.
+    pub fn stages(&self) -> &[Stage] {
+        match self {
+            Self::Stages(stages) => stages,
+            _ => &[],
+        }
+    }
+
+    /// Returns the states of steady rolling.
+    pub fn rolling(&self) -> impl Iterator<Item = Rolling> + '_ {
+        let (one, points) = match self {
+            Self::Rolling(rolling) => (Some(*rolling), &[][..]),
+            Self::Sweep(points) => (None, points.as_slice()),
+            Self::Passes(_) | Self::InPlace(_) | Self::Stages(_) => (None, &[][..]),
+        };
+        one.into_iter().chain(points.iter().filter_map(|point| point.rolling))
+    }
+}
+
+impl Case {
+    /// Returns the course on this apparent area, on which a mean pressure acts.
+    ///
+    /// Without friction the first stage of a loading is a single increment, except for elasto-plastic bodies. The first loading of a
+    /// contact does not depend on its steps.
+    pub fn course(&self, apparent_area: SquareMetre) -> Course {
+        if let Some(motion) = self.motion(apparent_area) {
+            return Course::Passes(motion);
+        }
+        if let Some(slide) = self.slide(apparent_area) {
+            return Course::InPlace(slide);
+        }
+        let friction = self.friction.as_ref();
+        let mut rolling = friction.into_iter().flat_map(FrictionSpec::rolling);
+        let normal = self.contact.prescribed().control(apparent_area);
+        if friction.is_some_and(FrictionSpec::sweeps) {
+            let point = |rolling| Point { control: normal, rolling: Some(rolling), speed: None };
+            return Course::Sweep(rolling.map(point).collect());
+        }
+        if let Some(steady) = &self.steady {
+            let point = |speed| Point { control: normal, rolling: None, speed: Some(speed) };
+            return Course::Sweep(steady.all().into_iter().map(point).collect());
+        }
+        let rolling = rolling.next();
+        let sweep = self.contact.sweep();
+        if !sweep.is_empty() {
+            let point = |prescribed: &Prescribed| Point {
+                control: prescribed.control(apparent_area),
+                rolling,
+                speed: None,
+            };
+            return Course::Sweep(sweep.iter().map(point).collect());
+        }
+        if let Some(rolling) = rolling {
+            return Course::Rolling(rolling);
+        }
+        let tangential = friction.and_then(|friction| friction.prescribed.as_ref()?.tangential());
+        let mut loading = Loading { normal, tangential: tangential.unwrap_or(Tangential::Force([0.0; 2])) };
+        let flowing = self.plasticity.and_then(|plasticity| plasticity.increments).unwrap_or(1);
+        let increments = friction.map_or(flowing, |friction| friction.increments);
+        let mut stages = vec![Stage::new(loading, increments)];
+        for stage in &self.history {
+            stages.extend(stage.stages(&mut loading, apparent_area));
+        }
+        Course::Stages(stages)
+    }
+}
