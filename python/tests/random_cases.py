@@ -342,8 +342,6 @@ class RandomCase:
         steady = self.course in ("rolling", "traction")
         if self.coated:
             friction["coupling"] = "none"
-        elif self.course == "in-place":
-            friction["coupling"] = rng.choice(["none", "goodman"])
         elif rng.random() < 0.4:
             friction["coupling"] = rng.choice(["full", "goodman", "none"])
         if self.hardness < math.inf and rng.random() < 0.3 and not self.wears:

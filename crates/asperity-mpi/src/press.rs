@@ -35,7 +35,7 @@ pub fn press_slab(
     pair.interface().check_combined()?;
     pair.check_line(&slab.whole_grid(), boundary)?;
     let position = pair.at_rest();
-    let (gap, bounds) = (pair.initial_gap(&position), pair.bounds(&position, None));
+    let (gap, bounds) = (pair.initial_gap(&position), pair.bounds(&position));
     let mut operator = SlabFft::new(slab.clone(), pair.response().clone(), boundary);
     let solution = solve_normal(&mut operator, &gap, &bounds, control, None, params)?;
     Ok(SlabContact { record: record_of(&solution, slab), solution })

@@ -241,7 +241,7 @@ fn steady(points: &[Point]) -> String {
 
 /// Describes the rolling of a sweep: one creepage for all points, or a range.
 fn rolling_through(points: &[Point]) -> String {
-    let [Some(first), Some(last)] = [points[0].rolling, points[points.len() - 1].rolling] else {
+    let [Some(first), Some(last)] = [0, points.len() - 1].map(|point| points[point].regime.rolling()) else {
         return String::new();
     };
     match (first.creep, last.creep) {

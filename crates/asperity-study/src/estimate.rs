@@ -291,7 +291,7 @@ fn holds(friction: &Friction, course: &Course, control: Control, apparent_area: 
         }
         Course::Rolling(rolling) => pushed(control, *rolling).into_iter().collect(),
         Course::Sweep(points) => {
-            points.iter().filter_map(|point| pushed(point.control, point.rolling?)).collect()
+            points.iter().filter_map(|point| pushed(point.control, point.regime.rolling()?)).collect()
         }
         Course::Passes(_) | Course::InPlace(_) => Vec::new(),
     };

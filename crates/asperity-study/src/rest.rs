@@ -19,11 +19,11 @@ use asperity_base::error::{Error, Result};
 use asperity_base::grid::{CellValues, Field, check_finite};
 use asperity_contact::motion::{
     Body, ChangedBodies, ElastoPlasticContact, IncrementRecord, LoadedContact, Output, Pair, PlasticResult,
-    PlasticVolume, Point, Slide, SlidingContact, SlidingOutcome, SlidingState, Stage, StagedLoading,
-    StaticContact, StaticRecord, SweepRecord, UpdateRecord, Watch, press, press_elasto_plastic, roll, sweep,
+    PlasticVolume, Point, Slide, SlidingContact, SlidingOutcome, SlidingState, SlipRegime, Stage,
+    StagedLoading, StaticRecord, SweepRecord, UpdateRecord, Watch, press, press_elasto_plastic, sweep,
 };
 use asperity_contact::operator::Boundary;
-use asperity_contact::solver::{Control, Equilibrium, Friction, Params, Rolling, Solution};
+use asperity_contact::solver::{Control, Equilibrium, Friction, Params, Solution};
 use asperity_contact::with::plasticity::PlasticRegion;
 use asperity_contact::with::views::Kept;
 use asperity_contact::with::{self, InterfaceNumbers, Observations};
@@ -140,12 +140,14 @@ pub(super) fn solve(
     let rest = match (case.course(apparent_area), law, &case.plasticity) {
         (Course::InPlace(slide), ..) => return contact.slide(slide),
         (Course::Sweep(points), ..) => contact.sweep(&points),
-        (Course::Rolling(rolling), Some(friction), _) => contact.roll(friction, rolling),
+        (Course::Rolling(rolling), Some(friction), _) => {
+            contact.press(SlipRegime::Rolling(*friction, rolling))
+        }
         (Course::Stages(stages), _, Some(spec)) => contact.press_elasto_plastic(spec, stages),
         (Course::Stages(stages), law, _) if law.is_some() || stages.len() > 1 => {
             contact.load_in_stages(&stages)
         }
-        _ => contact.press(),
+        _ => contact.press(SlipRegime::Frictionless),
     }?;
     let interface = estimate.interface.after(&rest.increments);
     Ok(StaticResult { interface, closed_form: closed_form(case, extent, &rest.outcome), ..rest })
@@ -164,24 +166,11 @@ struct StaticProblem<'a> {
 }
 
 impl StaticProblem<'_> {
-    /// Solves in one step without friction.
-    fn press(self) -> Result<StaticResult> {
-        let case = self.case;
-        let StaticContact { record, solution, .. } =
-            press(&self.pair, self.boundary(), self.control, &self.params, self.watch)?;
-        self.begin()?;
-        let mut observers = self.observers(None)?;
-        observers.contact(&solution)?;
-        let warnings = [self.compare(&solution)?, self.review(&solution)].concat();
-        StaticResult { warnings, ..StaticResult::of(record, pressed(self.pair, solution)) }
-            .seen_by(case, observers)
-    }
-
-    /// Solves steady rolling.
-    fn roll(self, friction: &Friction, rolling: Rolling) -> Result<StaticResult> {
+    /// Solves in one step.
+    fn press(self, regime: SlipRegime) -> Result<StaticResult> {
         let case = self.case;
         let (boundary, control) = (self.boundary(), self.control);
-        let contact = roll(&self.pair, boundary, friction, control, rolling, &self.params, self.watch)?;
+        let contact = press(&self.pair, boundary, control, regime, &self.params, self.watch)?;
         self.begin()?;
         let mut observers = self.observers(None)?;
         observers.contact(contact.solution.normal())?;
@@ -220,7 +209,7 @@ impl StaticProblem<'_> {
         let (mut observers, mut limits) = (self.observers(last)?, self.limits(last)?);
         let (boundary, outputs) = (self.boundary(), &mut outputs(&mut observers, &mut limits, &mut kept));
         let (points, contact) =
-            sweep(&self.pair, boundary, self.law, points, &self.params, state, self.watch, outputs)?;
+            sweep(&self.pair, boundary, points, &self.params, state, self.watch, outputs)?;
         let warnings = [limits.all(), review::sweep(&points, &contact)].concat();
         let LoadedContact { solution, plastic, slip, .. } = contact;
         let fields = fields(self.pair, solution, plastic, slip);
@@ -347,12 +336,9 @@ pub fn pressed(pair: Pair, solution: Solution) -> RestFields {
 /// Creates the fields of a contact of the `pair` with this plastic interference of its cells.
 fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field; 2]>) -> RestFields {
     let (grid, hardness) = (pair.lower_grid(), pair.min_hardness());
-    let (normal, shear) = match solution {
-        Equilibrium::Frictionless(solution) => (*solution, None),
-        Equilibrium::Frictional(solution) => {
-            let solution = *solution;
-            (solution.normal, Some((solution.shear, solution.displacement, solution.stick)))
-        }
+    let (normal, shear) = match solution.into_frictional() {
+        Err(solution) => (*solution, None),
+        Ok(solution) => (solution.normal, Some((solution.shear, solution.displacement, solution.stick))),
     };
     let contact = (!pair.interface().is_hard()).then(|| normal.contact_field());
     // The heights are those of the prepared bodies, whatever the loading history did to them.

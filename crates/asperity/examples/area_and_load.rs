@@ -41,7 +41,7 @@
 
 use asperity::Grid;
 use asperity::material::Material;
-use asperity::motion::{Pair, press};
+use asperity::motion::{Pair, SlipRegime, press};
 use asperity::operator::Boundary;
 use asperity::solver::{Control, Params};
 use asperity::surface::{Amplitude, SelfAffine};
@@ -64,8 +64,8 @@ fn main() -> asperity::Result<()> {
 
     println!("  p̄ (MPa)     A/A₀      κ   convolutions");
     for mean_pressure in [5e6, 10e6, 20e6, 50e6, 100e6, 200e6, 500e6, 1e9, 2e9] {
-        let load = Control::Load(mean_pressure * grid.area());
-        let contact = press(&pair, Boundary::PERIODIC, load, &Params::default(), &())?.record;
+        let (load, params) = (Control::Load(mean_pressure * grid.area()), Params::default());
+        let contact = press(&pair, Boundary::PERIODIC, load, SlipRegime::Frictionless, &params, &())?.record;
         let area = contact.contact_area / contact.apparent_area;
         let kappa = area * pair.modulus() * slope / mean_pressure;
         println!("{:9.0} {area:8.4} {kappa:6.2} {:14.1}", mean_pressure / 1e6, contact.convolutions);

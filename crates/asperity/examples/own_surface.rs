@@ -25,7 +25,7 @@
 #![expect(clippy::print_stdout, reason = "an example prints its result")]
 
 use asperity::material::Material;
-use asperity::motion::{Pair, press};
+use asperity::motion::{Pair, SlipRegime, press};
 use asperity::operator::Boundary;
 use asperity::solver::{Control, Params};
 use asperity::surface::{Form, Topography};
@@ -40,7 +40,8 @@ fn main() -> asperity::Result<()> {
     for depth in [0.0, 0.02e-6, 0.05e-6, 0.1e-6, 0.3e-6] {
         let plate = Topography::new(grid, dimples(&grid, depth))?;
         let pair = Pair::new(plate, ball.clone(), [&steel, &steel])?;
-        let contact = press(&pair, Boundary::FREE, Control::Load(1.5), &Params::default(), &())?.record;
+        let (load, params) = (Control::Load(1.5), Params::default());
+        let contact = press(&pair, Boundary::FREE, load, SlipRegime::Frictionless, &params, &())?.record;
         let [depth, pressure, area] = [depth * 1e6, contact.max_pressure * 1e-9, contact.contact_area * 1e12];
         println!("{depth:13.2} {pressure:13.2} {area:12.0}");
     }

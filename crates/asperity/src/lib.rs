@@ -24,7 +24,7 @@
 //! | statistics or a shape | [`surface::Generator`], [`surface::Form`] | [`surface::Topography`] |
 //! | a topography | [`surface::Preparation`], [`surface::Parameters`] | a topography ready for a contact; its roughness parameters (ISO 25178) |
 //! | constants of two bodies | [`material::Material`], [`material::Compliances`] | E*, Dundurs' β |
-//! | two topographies and materials | [`motion::Pair`] | the argument of [`motion::press`], [`motion::load_in_stages`], [`motion::roll`], [`motion::SlidingContact`] and [`motion::Simulation`] |
+//! | two topographies and materials | [`motion::Pair`] | the argument of [`motion::press`], [`motion::load_in_stages`], [`motion::SlidingContact`] and [`motion::Simulation`] |
 //! | a grid and compliances | [`operator::Operators`] | an [`operator::Operator`]: pressure in, displacement out |
 //! | an operator and a gap | [`solver::solve_normal`], [`solver::Params`] | [`solver::Solution`] with its [`solver::Stats`] |
 //! | an attraction between the surfaces | [`adhesion::Adhesion`], [`motion::Pair::with_interface`], [`solver::solve_adhesive`] | the contact that the bodies reach on their way |
@@ -39,9 +39,10 @@
 //!
 //! ```
 //! use asperity::material::Material;
-//! use asperity::motion::{Pair, press};
+//! use asperity::motion::{Pair, SlipRegime, press};
 //! use asperity::surface::LowPass;
-//! use asperity::{Grid, operator::Boundary, solver};
+//! use asperity::solver::{Control, Params};
+//! use asperity::{Grid, operator::Boundary};
 //!
 //! let grid = Grid::new([64, 64], [1e-6; 2])?;
 //! let rough = LowPass::new(35e-9, [8e-6; 2]);
@@ -49,10 +50,10 @@
 //! let (lower, upper) = (rough.generate(&grid, 1)?, rough.generate(&grid, 2)?.underside());
 //! let pair = Pair::new(lower, upper, [&steel, &steel])?;
 //!
-//! let load = solver::Control::Load(0.3);
-//! let contact = press(&pair, Boundary::FREE, load, &solver::Params::default(), &())?;
+//! let load = Control::Load(0.3);
+//! let contact = press(&pair, Boundary::FREE, load, SlipRegime::Frictionless, &Params::default(), &())?;
 //! assert!(contact.record.residual < 1e-6 && contact.record.max_pressure <= 2.8e9);
-//! assert_eq!(contact.solution.load(), contact.record.load);
+//! assert_eq!(contact.solution.normal().load(), contact.record.load);
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //!

@@ -27,9 +27,8 @@ impl Solver<'_> {
         earlier: Option<&Vec<Contact>>,
     ) -> Result<Option<Pass>> {
         let count = self.positions.len() as f64;
-        let friction = self.motion.friction;
         let contacts: Vec<(Field, Bounds)> = parallel::tasks(self.positions, |position| {
-            (pair.initial_gap(position), pair.bounds(position, friction.as_ref()))
+            (pair.initial_gap(position), self.motion.bounds(pair, position))
         });
         let bearable: f64 = contacts.iter().map(|(gap, bounds)| bounds.upper().sum(gap.len())).sum();
         let total = match control {
@@ -66,11 +65,7 @@ impl Solver<'_> {
     }
 
     fn pass(&self, pair: &Pair, solutions: &[Solution]) -> Pass {
-        let contact = |(index, solution): (usize, &Solution)| {
-            let position = self.positions[index];
-            let sliding = self.motion.sliding(position.stroke);
-            Contact::new(position, sliding.as_ref(), solution).with_gap(solution, self.gaps[index])
-        };
+        let contact = |(index, solution): (usize, &Solution)| self.contact(index, solution);
         Pass {
             contacts: parallel::tasks(solutions.iter().enumerate(), contact),
             pair: pair.clone(),

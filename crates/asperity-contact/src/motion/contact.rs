@@ -8,11 +8,12 @@ use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::motion::record::{StaticRecord, StepRecord};
 use crate::motion::rim::Interior;
+use crate::motion::slip::SlipRegime;
 use crate::motion::spot::largest_spot;
-use crate::motion::watch::{OneOfMany, StaticWatch, Watch};
+use crate::motion::watch::{OneOfMany, Watch};
 use crate::operator::{Boundary, Operators};
 use crate::solver::{
-    Before, Control, InterfaceRecord, NormalProblem, Params, Sliding, Solution, Stats, solve_sliding,
+    ContactProblem, Control, Equilibrium, Guess, InterfaceRecord, Loading, Params, Sliding, Solution, Stats,
 };
 use crate::units::{CubicMetre, Kelvin, Metre, Newton, Pascal};
 
@@ -51,41 +52,34 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// Solves the contact of `pair` at `position`, in gross slip if there is friction, from the pressure `start` or from the contact
-    /// `last` on the same grid, if one is given.
+    /// Solves the contact of `pair` at `position` in a slip `regime`, near the pressure `start` or from the contact `last` on the same grid,
+    /// if one is given.
     #[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
     pub(super) fn solve(
         pair: &Pair,
         operators: &Operators,
         position: Position,
-        sliding: Option<&Sliding>,
+        regime: SlipRegime,
         control: Control,
         start: Option<&Field>,
-        last: Option<&Solution>,
+        last: Option<&Equilibrium>,
         params: &Params,
         watch: &dyn Watch,
-    ) -> Result<(Self, Solution)> {
+    ) -> Result<(Self, Equilibrium)> {
         let watch = &OneOfMany(watch);
         let gap = pair.initial_gap(&position);
         let shape = [position.columns, gap.ncols()];
-        let bounds = pair.bounds(&position, sliding.map(|sliding| &sliding.friction));
-        let solution = match sliding {
-            Some(sliding) if sliding.shear_displaces_normally(pair.couples()) => {
-                let mut operator = operators.coupled_on(shape);
-                solve_sliding(operator.as_mut(), &gap, &bounds, sliding, control, start, params, watch)?
-                    .normal
-            }
-            _ => {
-                let last = last.map(|last| Solution { initial_gap: gap.clone(), ..last.clone() });
-                let guess = start.map_or(Before::Apart, Before::Guess);
-                let before = last.as_ref().map_or(guess, Before::Contact);
-                let mut operator = params.device.operator(operators, shape);
-                let problem = NormalProblem { gap: &gap, bounds: &bounds, control, before, params, watch };
-                pair.interface().solve(operator.as_mut(), &problem)?
-            }
+        let bounds = pair.bounds(&position);
+        let moved = last.map(|last| last.clone().over(&gap));
+        let problem = ContactProblem {
+            before: moved.as_ref(),
+            guess: start.map(Guess::Pressure),
+            ..ContactProblem::new(&gap, &bounds, Loading::pressing(control), params, watch)
         };
-        let interface = InterfaceRecord::of(pair.interface(), &solution, last);
-        Ok((Self { interface, ..Self::new(position, sliding, &solution) }, solution))
+        let contact = regime.solver(pair, operators, shape, params.device)?.solve(&problem)?;
+        let before = last.map(Equilibrium::normal);
+        let interface = InterfaceRecord::of(pair.interface(), contact.normal(), before);
+        Ok((Self { interface, ..Self::new(position, contact.sliding(), contact.normal()) }, contact))
     }
 
     /// Keeps the gap of the `solution`, if it is `wanted`.
@@ -242,41 +236,6 @@ impl Contact {
     }
 }
 
-/// A static contact without friction.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct StaticContact {
-    /// The record of the contact.
-    pub record: StaticRecord,
-    /// The solution with its fields.
-    pub solution: Solution,
-}
-
-/// Presses a pair of bodies together at full overlap.
-///
-/// # Errors
-/// The errors of [`crate::solver::solve_normal`], and [`crate::Error::Interrupted`].
-///
-/// # Panics
-/// If the bodies have different shapes.
-pub fn press(
-    pair: &Pair,
-    boundary: Boundary,
-    control: Control,
-    params: &Params,
-    watch: &dyn Watch,
-) -> Result<StaticContact> {
-    let position = pair.at_rest();
-    let (operators, gap) = facing(pair, boundary)?;
-    let mut operator = params.device.operator(&operators, pair.lower_grid().shape);
-    let bounds = pair.bounds(&position, None);
-    let watch = StaticWatch::new(watch, 0, 1, control);
-    let before = Before::Apart;
-    let problem = NormalProblem { gap: &gap, bounds: &bounds, control, before, params, watch: &watch };
-    let solution = pair.interface().solve(operator.as_mut(), &problem)?;
-    Ok(StaticContact { record: StaticRecord::of(pair, &solution), solution })
-}
-
 /// Returns the operators of a pair at full overlap, and the gap between the bodies.
 pub(super) fn facing(pair: &Pair, boundary: Boundary) -> Result<(Operators, Field)> {
     assert_eq!(pair.lower.heights.dim(), pair.upper.heights.dim(), "shapes of the bodies");
@@ -304,10 +263,5 @@ impl StaticRecord {
             plastic: None,
             fretting: None,
         }
-    }
-
-    /// Returns the record of a contact without friction of a pair that comes from afar.
-    pub(super) fn of(pair: &Pair, solution: &Solution) -> Self {
-        Self { interface: InterfaceRecord::of(pair.interface(), solution, None), ..Self::new(solution) }
     }
 }

@@ -232,9 +232,7 @@ impl Solver<'_> {
                 &OneOfMany(self.watch),
             )
             .map_err(|error| self.at_position(index, error))?;
-            let sliding = self.motion.sliding(position.stroke);
-            let mut contact =
-                Contact::new(*position, sliding.as_ref(), &solution).with_gap(&solution, self.gaps[index]);
+            let mut contact = self.contact(index, &solution);
             if let Some(latest) = earlier.first() {
                 contact.stats.convolutions += latest[index].stats.convolutions;
             }

@@ -4,15 +4,16 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::facing;
 use crate::motion::course::{self, Course, Output, Step, StepRow};
-use crate::motion::loading::{shear_record, static_record};
 use crate::motion::pair::Pair;
 use crate::motion::plastic_volume::{self, PlasticSums, PlasticVolume};
+use crate::motion::press::{shear_record, static_record};
 use crate::motion::record::{IncrementRecord, PlasticRecord, PlasticStepRecord, StaticRecord};
+use crate::motion::slip::SlipRegime;
 use crate::motion::stage::{Origin, Stage};
 use crate::motion::watch::{StaticWatch, Watch};
 use crate::operator::Boundary;
-use crate::plasticity::{Interface, PlasticBody, PlasticContact, PlasticParams, RelativePosition};
-use crate::solver::{Control, Equilibrium, Friction, FrictionalSolution, Loading, Params, Tangential};
+use crate::plasticity::{PlasticBody, PlasticContact, PlasticParams, RelativePosition};
+use crate::solver::{Control, Equilibrium, Friction, Loading, Params, Tangential};
 use crate::units::Joule;
 
 /// Result of a static contact of elasto-plastic bodies.
@@ -110,15 +111,9 @@ pub fn press_elasto_plastic(
     pair.interface().check_combined()?;
     pair.check_elastic()?;
     let (operators, initial_gap) = facing(pair, boundary)?;
-    let shape = pair.lower_grid().shape;
-    let interface = match friction {
-        None => Interface::Frictionless(operators.on(shape)),
-        Some(friction) => {
-            pair.check_shear()?;
-            Interface::Frictional(operators.coupled_on(shape), *friction)
-        }
-    };
-    let facing = RelativePosition { interface, initial_gap, placements: pair.placements(&pair.at_rest()) };
+    let regime = SlipRegime::from(friction.copied());
+    let solver = regime.solver(pair, &operators, pair.lower_grid().shape, params.device)?;
+    let facing = RelativePosition { solver, initial_gap, placements: pair.placements(&pair.at_rest()) };
     let contact = PlasticContact::new(facing, bodies, path.plastic, *params);
     let mut yielding = ElastoPlasticLoading {
         contact,
@@ -162,8 +157,8 @@ impl LastLoad {
     /// Creates the unloading stage with `increments` steps.
     fn unloading(&self, increments: usize) -> Stage {
         // The force of bodies in gross slip is the whole friction force, also under each smaller load.
-        let slides = self.solution.frictional().filter(|solution| solution.stick.sum() == 0.0);
-        let tangential = match slides.map(FrictionalSolution::force) {
+        let slides = Some(&self.solution).filter(|solution| solution.stick_area() == 0.0);
+        let tangential = match slides.map(Equilibrium::force) {
             Some([x, y]) if x.hypot(y) > 0.0 => Tangential::Sliding([x, y].map(|part| part / x.hypot(y))),
             _ => Tangential::Force([0.0; 2]),
         };
@@ -240,20 +235,19 @@ impl ElastoPlasticLoading<'_> {
         watch: &StaticWatch<'_>,
     ) -> Result<IncrementRecord> {
         let contact = &mut self.contact;
-        let before = contact.equilibrium().and_then(Equilibrium::frictional).cloned();
+        let before = contact.equilibrium().cloned();
         let increment = contact.load(loading, watch)?;
         self.sums.add(&increment);
         let plastic = PlasticStepRecord::of(std::slice::from_ref(&increment), contact);
         let apart = || IncrementRecord { approach: f64::NAN, ..IncrementRecord::default() };
         let record = contact.equilibrium().map_or_else(apart, IncrementRecord::of);
-        let solution = contact.equilibrium().and_then(Equilibrium::frictional);
-        let dissipation = solution.map_or(0.0, |solution| solution.dissipation(before.as_ref()));
-        if let Some(solution) = solution {
-            let error = before.map_or(0.0, |before| solution.dissipation_error(&before));
-            self.dissipation_error += error;
+        let equilibrium = contact.equilibrium();
+        let [dissipation, error] = equilibrium.map_or([0.0; 2], |now| now.dissipation(before.as_ref()));
+        self.dissipation_error += error;
+        if let Some(slip) = equilibrium.and_then(Equilibrium::slip) {
             self.slip = Some(match self.slip.take() {
-                None => solution.slip.clone(),
-                Some([x, y]) => [x + &solution.slip[0], y + &solution.slip[1]],
+                None => slip.clone(),
+                Some([x, y]) => [x + &slip[0], y + &slip[1]],
             });
         }
         let increment = self.increments.len() + 1;
@@ -274,7 +268,7 @@ impl ElastoPlasticLoading<'_> {
         };
         let PlasticSums { products, mismatch, .. } = self.sums;
         let plastic = PlasticRecord { products, mismatch, residual: left, ..plastic };
-        let shear = solution.frictional().map(|solution| shear_record(solution, dissipation));
+        let shear = shear_record(&solution, dissipation);
         let interference = Field::zeros(solution.normal().pressure.raw_dim());
         let record =
             StaticRecord { plastic: Some(plastic), shear, ..static_record(&solution, &interference) };

@@ -42,17 +42,15 @@ impl Solver<'_> {
             (Control::Load(load), _) => Control::Load(load * positions as f64),
             (approach, _) => approach,
         };
-        let sliding = self.motion.sliding(Stroke::Forth);
-        if sliding.is_some_and(|sliding| sliding.shear_displaces_normally(pair.couples())) {
+        if self.motion.slip(Stroke::Forth).displaces_normally(pair) {
             return Err(Error::Unsupported(TOO_MUCH_REMOVAL));
         }
-        let friction = sliding.as_ref().map(|sliding| &sliding.friction);
         let grid = pair.grid(self.positions.iter().map(|position| position.columns).sum());
         let mut operator =
             WornPass { pair, positions: self.positions, operators: self.operators, grid, compliance };
         let gap = stacked(self.positions.iter().map(|position| pair.initial_gap(position)));
-        let bounds =
-            self.positions.iter().map(|position| pair.bounds(position, friction)).collect::<Vec<_>>();
+        let bounds: Vec<_> =
+            self.positions.iter().map(|position| self.motion.bounds(pair, position)).collect();
         let caps = Bounds::up_to(self.stacked_caps(pair, &bounds));
         let start = stacked(outcome.contacts.iter().map(|contact| contact.pressure_field(grid.shape[1])));
         let params = Params { method: Method::PolonskyKeer, device: Device::Cpu, ..*params };
@@ -74,8 +72,8 @@ impl Solver<'_> {
                     stats,
                     ..solution
                 };
-                let sliding = self.motion.sliding(position.stroke);
-                let contact = Contact::new(*position, sliding.as_ref(), &at_position)
+                let regime = self.motion.slip(position.stroke);
+                let contact = Contact::new(*position, regime.sliding(), &at_position)
                     .with_gap(&at_position, before.gap.is_some());
                 // The displacement of the solution includes the removal.
                 Contact { max_displacement: None, ..contact }

@@ -10,16 +10,18 @@ use crate::motion::extrapolation::Acceleration;
 use crate::motion::fretting::{ChangedBodies, Laws};
 use crate::motion::law::Law;
 use crate::motion::pair::Pair;
-use crate::motion::record::{CreepRecord, IncrementRecord, ShearRecord, StaticRecord};
+use crate::motion::press::{shear_record, static_record};
+use crate::motion::record::{CreepRecord, IncrementRecord, StaticRecord};
+use crate::motion::slip::SlipRegime;
 use crate::motion::stage::{Origin, Progress, Stage};
 use crate::motion::state::{Flattening, LoadedContact, LoadingState};
 use crate::motion::watch::{StaticWatch, Watch};
-use crate::operator::{Boundary, CoupledOperator, Operator};
+use crate::operator::Boundary;
 use crate::solver::{
-    self, Before, Control, Equilibrium, Friction, FrictionalSolution, InterfaceRecord, Loading,
-    NormalProblem, Params, Rolling, RollingSolution, solve_frictional_watched, solve_rolling_watched,
+    self, ContactProblem, ContactSolver, Control, Equilibrium, Friction, FrictionalSolution, InterfaceRecord,
+    Loading, Params,
 };
-use crate::units::{Joule, Kelvin, Second};
+use crate::units::Kelvin;
 use crate::viscoelastic::{CreepMemory, solve_in_time};
 
 /// Loads a pair at full overlap, stage after stage, from before contact or from a state `under_way`. A resumed loading
@@ -59,7 +61,7 @@ pub struct StagedLoading {
     pair: Pair,
     /// Initial gap of the undeformed bodies.
     gap: Field,
-    solver: Solver,
+    solver: Box<dyn ContactSolver>,
     params: Params,
     boundary: Boundary,
     stages: Vec<Stage>,
@@ -87,15 +89,7 @@ impl StagedLoading {
         pair.check_creep()?;
         let (operators, gap) = facing(&pair, boundary)?;
         let shape = pair.lower_grid().shape;
-        let solver = match friction {
-            None => Solver::Frictionless(params.device.operator(&operators, shape)),
-            Some(friction) => {
-                pair.interface().check_combined()?;
-                pair.check_elastic()?;
-                pair.check_shear()?;
-                Solver::Frictional(operators.coupled_on(shape), friction)
-            }
-        };
+        let solver = SlipRegime::from(friction).solver(&pair, &operators, shape, params.device)?;
         let (acceleration, bulk) = (Acceleration::NONE, [f64::NAN; 2]);
         Ok(Self { pair, gap, solver, params, boundary, stages, laws: Vec::new(), acceleration, bulk })
     }
@@ -144,7 +138,7 @@ impl StagedLoading {
         let mut state = under_way;
         let mut laws = match std::mem::take(&mut self.laws) {
             laws if laws.is_empty() => None,
-            _ if matches!(self.solver, Solver::Frictionless(_)) => {
+            _ if !self.solver.sticks() => {
                 return Err(Error::Unsupported(
                     "laws change the bodies of a loading by slip, which needs friction",
                 ));
@@ -224,89 +218,6 @@ impl Course for Increments {
     }
 }
 
-/// Solves the steady state of a pair that rolls along x, see [`solver::solve_rolling`].
-///
-/// # Errors
-/// The errors of [`solver::solve_rolling`].
-///
-/// # Panics
-/// If the bodies have different shapes.
-pub fn roll(
-    pair: &Pair,
-    boundary: Boundary,
-    friction: &Friction,
-    control: Control,
-    rolling: Rolling,
-    params: &Params,
-    watch: &dyn Watch,
-) -> Result<LoadedContact> {
-    let (operators, gap) = facing(pair, boundary)?;
-    pair.interface().check_combined()?;
-    pair.check_elastic()?;
-    pair.check_shear()?;
-    let mut operator = operators.coupled_on(pair.lower_grid().shape);
-    let watch = StaticWatch::new(watch, 0, 1, control);
-    LoadedContact::rolling(pair, operator.as_mut(), &gap, friction, control, rolling, params, &watch)
-}
-
-impl LoadedContact {
-    /// Presses together in one step, without friction, over the initial `gap`.
-    pub(super) fn pressed(
-        pair: &Pair,
-        operator: &mut dyn Operator,
-        gap: &Field,
-        control: Control,
-        params: &Params,
-        watch: &dyn solver::Watch,
-    ) -> Result<Self> {
-        let bounds = pair.bounds(&pair.at_rest(), None);
-        let before = Before::Apart;
-        let problem = NormalProblem { gap, bounds: &bounds, control, before, params, watch };
-        let solution = pair.interface().solve(operator, &problem)?;
-        let plastic = solution.plastic_interference();
-        let record = StaticRecord::of(pair, &solution);
-        let solution = Equilibrium::Frictionless(Box::new(solution));
-        Ok(Self::at_once(record, solution, plastic, None))
-    }
-
-    /// Solves the contact in steady rolling along x, over the initial `gap`.
-    #[expect(clippy::too_many_arguments, reason = "the contact, what is asked of it, and who looks on")]
-    pub(super) fn rolling(
-        pair: &Pair,
-        operator: &mut dyn CoupledOperator,
-        gap: &Field,
-        friction: &Friction,
-        control: Control,
-        rolling: Rolling,
-        params: &Params,
-        watch: &dyn solver::Watch,
-    ) -> Result<Self> {
-        let bounds = pair.bounds(&pair.at_rest(), None);
-        let rolled =
-            solve_rolling_watched(operator, gap, &bounds, friction, control, rolling, params, watch)?;
-        let slip_work = rolled.slip_work();
-        let RollingSolution { contact: solution, creepage, dissipation } = rolled;
-        let plastic = solution.normal.plastic_interference();
-        let shear = ShearRecord {
-            creepage: Some(creepage),
-            spin: Some(rolling.spin),
-            moment: Some(solution.moment()),
-            slip_work: Some(slip_work),
-            ..shear_record(&solution, dissipation)
-        };
-        let slip = Some(solution.slip.clone());
-        let solution = Equilibrium::Frictional(Box::new(solution));
-        let record = StaticRecord { shear: Some(shear), ..static_record(&solution, &plastic) };
-        Ok(Self::at_once(record, solution, plastic, slip))
-    }
-}
-
-/// The solver of an increment.
-enum Solver {
-    Frictionless(Box<dyn Operator>),
-    Frictional(Box<dyn CoupledOperator>, Friction),
-}
-
 /// Largest ignored decrease of a plastic interference, in tolerances relative to std(u). Both solutions have an error.
 const MAX_DECREASE: f64 = 4.0;
 
@@ -347,10 +258,21 @@ impl Increments {
             Some(ChangedBodies { pair, .. }) => (pair, Cow::Owned(pair.initial_gap(&pair.at_rest()))),
         };
         let duration = stages[next.stage].duration(next.step, share);
+        let bounds = pair.bounds(&pair.at_rest());
+        let solve = |solver: &mut dyn ContactSolver, gap: &Field| {
+            let before = last.as_ref();
+            solver.solve(&ContactProblem {
+                before,
+                ..ContactProblem::new(gap, &bounds, loading, params, watch)
+            })
+        };
         let mut contact = match &mut memory {
-            None => solver.solve(pair, &flattening.open(&gap), loading, last.as_ref(), params, watch)?,
+            None => solve(solver.as_mut(), &flattening.open(&gap))?,
             Some(memory) => {
-                solver.creep(pair, &gap, memory, (loading.normal, duration), last.as_ref(), params, watch)?
+                let (operator, start) = (solver.normal(), last.as_ref().map(|last| &last.normal().pressure));
+                let (modulus, control) = (pair.modulus(), loading.normal);
+                solve_in_time(operator, modulus, memory, &gap, control, duration, start, params, watch)
+                    .map(|solution| Equilibrium::Frictionless(Box::new(solution)))?
             }
         };
         let mut stats = contact.normal().stats;
@@ -358,21 +280,16 @@ impl Increments {
         let allowed = MAX_DECREASE * params.tolerance * contact.normal().displacement.std(0.0);
         if flattening.exceeds(&plastic, allowed) {
             flattening.keep();
-            contact = solver.solve(pair, &flattening.open(&gap), loading, last.as_ref(), params, watch)?;
+            contact = solve(solver.as_mut(), &flattening.open(&gap))?;
             stats = stats.and(&contact.normal().stats);
             plastic = contact.normal().plastic_interference();
         }
         flattening.deepen(&plastic);
-        let of_friction = contact.frictional().map(|solution| {
-            let last = last.as_ref().and_then(Equilibrium::frictional);
-            let error = last.map_or(0.0, |last| solution.dissipation_error(last));
-            [solution.dissipation(last), error]
-        });
-        let slip = match (slip, contact.frictional()) {
-            (Some([x, y]), Some(solution)) => Some([x + &solution.slip[0], y + &solution.slip[1]]),
-            (_, solution) => solution.map(|solution| solution.slip.clone()),
+        let [dissipation, more_error] = contact.dissipation(last.as_ref());
+        let slip = match (slip, contact.slip()) {
+            (Some([x, y]), Some(more)) => Some([x + &more[0], y + &more[1]]),
+            (_, slip) => slip.cloned(),
         };
-        let [dissipation, more_error] = of_friction.unwrap_or_default();
         let before = last.as_ref().map(Equilibrium::normal);
         let interface = InterfaceRecord::of(pair.interface(), contact.normal(), before);
         let area = pair.cell_area();
@@ -452,7 +369,7 @@ impl StagedLoading {
         let dissipation = changed.as_ref().map_or(computed, |changed| changed.work);
         let dissipation_error =
             if computed > 0.0 { dissipation_error * (dissipation / computed) } else { dissipation_error };
-        let shear = solution.frictional().map(|solution| shear_record(solution, dissipation));
+        let shear = shear_record(&solution, dissipation);
         let fretting = increments.last().and_then(|last| last.fretting);
         let of_interface = || increments.iter().filter_map(|increment| increment.interface.as_ref());
         let interface = of_interface().next_back().map(|last| last.after(of_interface()));
@@ -472,74 +389,12 @@ impl StagedLoading {
     }
 }
 
-impl Solver {
-    /// Solves an increment of viscoelastic bodies over the initial `gap` in this time, under this load or at this approach, and advances
-    /// their `memory`.
-    #[expect(clippy::too_many_arguments, reason = "the contact, its memory, and who looks on")]
-    fn creep(
-        &mut self,
-        pair: &Pair,
-        gap: &Field,
-        memory: &mut CreepMemory,
-        (control, duration): (Control, Second),
-        last: Option<&Equilibrium>,
-        params: &Params,
-        watch: &dyn solver::Watch,
-    ) -> Result<Equilibrium> {
-        let Self::Frictionless(operator) = self else {
-            return Err(Error::Unsupported("viscoelastic bodies are loaded without friction"));
-        };
-        let (operator, start) = (operator.as_mut(), last.map(|last| &last.normal().pressure));
-        solve_in_time(operator, pair.modulus(), memory, gap, control, duration, start, params, watch)
-            .map(|solution| Equilibrium::Frictionless(Box::new(solution)))
-    }
-
-    /// Solves an increment over the initial `gap`, from the `last` one.
-    fn solve(
-        &mut self,
-        pair: &Pair,
-        gap: &Field,
-        loading: Loading,
-        last: Option<&Equilibrium>,
-        params: &Params,
-        watch: &dyn solver::Watch,
-    ) -> Result<Equilibrium> {
-        let bounds = &pair.bounds(&pair.at_rest(), None);
-        match self {
-            Self::Frictionless(operator) => {
-                let before = Before::from(last.map(Equilibrium::normal));
-                let control = loading.normal;
-                let problem = NormalProblem { gap, bounds, control, before, params, watch };
-                pair.interface()
-                    .solve(operator.as_mut(), &problem)
-                    .map(|solution| Equilibrium::Frictionless(Box::new(solution)))
-            }
-            Self::Frictional(operator, friction) => {
-                let last = last.and_then(Equilibrium::frictional);
-                solve_frictional_watched(
-                    operator.as_mut(),
-                    gap,
-                    bounds,
-                    friction,
-                    loading,
-                    last,
-                    params,
-                    watch,
-                )
-                .map(|solution| Equilibrium::Frictional(Box::new(solution)))
-            }
-        }
-    }
-}
-
 impl IncrementRecord {
     /// Creates the record of an increment from the contact at its end.
     pub(super) fn of(contact: &Equilibrium) -> Self {
-        let (normal, shear) = (contact.normal(), contact.frictional());
-        let area = normal.grid.cell_area();
-        let [tangential_force_x, tangential_force_y] = shear.map_or([0.0; 2], FrictionalSolution::force);
-        let [tangential_displacement_x, tangential_displacement_y] =
-            shear.map_or([0.0; 2], |solution| solution.rigid_displacement);
+        let normal = contact.normal();
+        let [tangential_force_x, tangential_force_y] = contact.force();
+        let [tangential_displacement_x, tangential_displacement_y] = contact.rigid_displacement();
         Self {
             load: normal.load(),
             approach: normal.approach,
@@ -547,44 +402,15 @@ impl IncrementRecord {
             tangential_force_y,
             tangential_displacement_x,
             tangential_displacement_y,
-            contact_area: area * normal.contact_cells() as f64,
-            stick_area: area * shear.map_or(0.0, |solution| solution.stick.sum()),
+            contact_area: normal.grid.cell_area() * normal.contact_cells() as f64,
+            stick_area: contact.stick_area(),
             max_pressure: normal.max_pressure(),
-            max_shear: shear.map_or(0.0, FrictionalSolution::max_shear),
+            max_shear: contact.frictional().map_or(0.0, FrictionalSolution::max_shear),
             elastic_energy: contact.elastic_energy(),
             iterations: normal.stats.iterations,
             convolutions: normal.stats.convolutions,
             residual: normal.residual,
             ..Self::default()
         }
-    }
-}
-
-/// Returns the record of a contact with its plastic interference so far, without its shear.
-pub(super) fn static_record(contact: &Equilibrium, plastic: &Field) -> StaticRecord {
-    StaticRecord {
-        elastic_energy: contact.elastic_energy(),
-        plastic_volume: contact.normal().grid.cell_area() * plastic.sum(),
-        ..StaticRecord::new(contact.normal())
-    }
-}
-
-pub(super) fn shear_record(solution: &FrictionalSolution, dissipation: Joule) -> ShearRecord {
-    let force = solution.force();
-    let load = solution.normal.load();
-    let force_ratio = if load > 0.0 { force[0].hypot(force[1]) / load } else { 0.0 };
-    let sticks = solution.stick.sum();
-    ShearRecord {
-        tangential_force: force,
-        force_ratio,
-        friction_coefficient: (load > 0.0 && sticks == 0.0).then_some(force_ratio),
-        tangential_displacement: solution.rigid_displacement,
-        stick_area: solution.normal.grid.cell_area() * sticks,
-        max_shear: solution.max_shear(),
-        dissipation,
-        slip_work: None,
-        creepage: None,
-        spin: None,
-        moment: None,
     }
 }

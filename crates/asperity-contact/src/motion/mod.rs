@@ -19,6 +19,7 @@ mod observed;
 mod pair;
 mod pass;
 mod path;
+mod press;
 mod truncation;
 mod record;
 mod regime;
@@ -26,6 +27,7 @@ mod report;
 mod rim;
 mod simulation;
 mod sliding;
+mod slip;
 mod spot;
 mod stage;
 mod state;
@@ -40,7 +42,7 @@ mod worn_away;
 
 pub use asperity_base::record::{Column, Presence};
 pub use body::{Body, State};
-pub use contact::{Contact, StaticContact, press};
+pub use contact::Contact;
 pub use course::{Output, Step, StepRow};
 pub use elasto_plastic::{ElastoPlasticContact, PlasticPath, PlasticResult, press_elasto_plastic};
 pub use extrapolation::{Acceleration, LastExtrapolation};
@@ -48,7 +50,7 @@ pub use fretting::{ChangedBodies, LastCycle};
 pub use heat::FLASH;
 pub(crate) use law::largest;
 pub use law::{ContactCells, Law, Sums};
-pub use loading::{StagedLoading, load_in_stages, roll};
+pub use loading::{StagedLoading, load_in_stages};
 pub use memory::{Memory, WholePass};
 pub use observed::ObservedContact;
 pub use pair::Pair;
@@ -56,6 +58,7 @@ pub use pair::{initial_gap, opposing_values};
 use path::shift_positions_after;
 pub use path::{OffsetY, Path, Position, Stroke, overlap_positions, shift_positions};
 pub use plastic_volume::PlasticVolume;
+pub use press::press;
 pub use record::lost_volumes::{ENDINGS, is_volume_of_law};
 pub use record::{
     CreepRecord, DragRecord, FrettingRecord, HeatRecord, IncrementRecord, LawsInCycles, LawsInPass,
@@ -67,6 +70,7 @@ pub use report::PassReport;
 pub use rim::Interior;
 pub use simulation::{Simulation, SolvedPass};
 pub use sliding::{Slide, SlidingContact, SlidingOutcome};
+pub use slip::SlipRegime;
 pub use spot::largest_spot;
 pub use stage::{Cycles, Origin, Progress as StageProgress, Stage, StageTime};
 pub use state::{Flattening, LoadedContact, LoadingState, SlidingState};
@@ -79,7 +83,7 @@ pub use warm_start::{Guess, LoadedCells, WarmStart};
 pub use watch::{Progress, Watch};
 
 use crate::error::{Error, Result};
-use crate::solver::{Control, Friction, Sliding};
+use crate::solver::{Bounds, Control, Friction, Sliding};
 use crate::units::{Kelvin, Metre, MetrePerSecond, Newton, Second};
 use asperity_base::choice::choice;
 
@@ -370,6 +374,16 @@ impl Motion {
     pub fn sliding(&self, stroke: Stroke) -> Option<Sliding> {
         let direction = [stroke.sign() * self.strategy.direction(), 0.0];
         self.friction.map(|friction| Sliding { friction, direction })
+    }
+
+    /// Returns how the bodies slip on each other on a stroke.
+    pub fn slip(&self, stroke: Stroke) -> SlipRegime {
+        self.sliding(stroke).into()
+    }
+
+    /// Returns the pressure bounds of the cells of a `pair` at a position, under the shear of the sliding bodies.
+    fn bounds(&self, pair: &Pair, position: &Position) -> Bounds {
+        self.slip(position.stroke).sheared(pair.bounds(position))
     }
 
     /// Sliding distance from one position to the next, for a pitch along x.

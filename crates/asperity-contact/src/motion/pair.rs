@@ -10,7 +10,7 @@ use crate::math::{Bands, parallel};
 use crate::motion::body::{Body, State};
 use crate::motion::path::Position;
 use crate::operator::{Boundary, Operators};
-use crate::solver::{Bounds, Friction, HardWall, Interface};
+use crate::solver::{Bounds, HardWall, Interface};
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre, Pascal, SquareMetre, format_distinct};
 use crate::viscoelastic::{Creep, Relaxation};
@@ -144,6 +144,11 @@ impl Pair {
         self.interface.as_ref()
     }
 
+    /// The interface of the bodies, for a solver.
+    pub(super) fn shared_interface(&self) -> Arc<dyn Interface> {
+        Arc::clone(&self.interface)
+    }
+
     /// Size of a cell.
     pub fn pitch(&self) -> [Metre; 2] {
         self.pitch
@@ -168,6 +173,13 @@ impl Pair {
     /// shear is unknown.
     pub(super) fn couples(&self) -> bool {
         self.response.coupled().is_some_and(|coupled| coupled.couples())
+    }
+
+    /// Returns [`Error::Unsupported`] if contacts with stick are not solved between these bodies.
+    pub(super) fn check_stick(&self) -> Result<()> {
+        self.interface.check_combined()?;
+        self.check_elastic()?;
+        self.check_shear()
     }
 
     /// Returns [`Error::Unsupported`] if the response to shear is unknown.
@@ -237,22 +249,15 @@ impl Pair {
         self.lower.hardness.min().min(self.upper.hardness.min())
     }
 
-    /// Returns the pressure bounds on the cells of the overlap: the hardness of the softer cell, reduced by the shear of
-    /// bodies that slide under `friction`.
-    pub fn bounds(&self, position: &Position, friction: Option<&Friction>) -> Bounds {
-        self.bounds_of([&self.lower.hardness, &self.upper.hardness], position, friction)
+    /// Returns the pressure bounds on the cells of the overlap without shear: the hardness of the softer cell.
+    pub fn bounds(&self, position: &Position) -> Bounds {
+        self.bounds_of([&self.lower.hardness, &self.upper.hardness], position)
     }
 
     /// Returns the bounds for bodies on the same grids with this hardness, lower one first.
-    pub(super) fn bounds_of(
-        &self,
-        hardness: [&CellValues; 2],
-        position: &Position,
-        friction: Option<&Friction>,
-    ) -> Bounds {
+    pub(super) fn bounds_of(&self, hardness: [&CellValues; 2], position: &Position) -> Bounds {
         let shapes = [self.lower_grid().shape, self.upper_grid().shape];
-        let bounds = Bounds::up_to(opposing_values(hardness, shapes, position, f64::min));
-        friction.map_or_else(|| bounds.clone(), |friction| friction.sliding_bounds(&bounds))
+        Bounds::up_to(opposing_values(hardness, shapes, position, f64::min))
     }
 
     /// Returns the single position of a static contact at full overlap.

@@ -14,9 +14,10 @@ use crate::motion::path::Position;
 use crate::motion::plastic_volume::ElastoPlasticPass;
 use crate::motion::record::LostVolume;
 use crate::motion::rim::Interior;
+use crate::motion::slip::SlipRegime;
 use crate::motion::watch::{Progress, Watch};
 use crate::operator::Operators;
-use crate::solver::{Control, Params, Solution};
+use crate::solver::{Control, Equilibrium, Params, Solution};
 use crate::units::Newton;
 
 /// A pass at one prescribed load or approach: its contacts and the pair. The laws still have to change the pair, unless the
@@ -93,6 +94,18 @@ impl Solver<'_> {
         self.solve(pair, control, params, earlier)
     }
 
+    /// Returns the position of this index, with the slip of the bodies there.
+    pub(super) fn position(&self, index: usize) -> (Position, SlipRegime) {
+        let position = self.positions[index];
+        (position, self.motion.slip(position.stroke))
+    }
+
+    /// Returns the contact of a `solution` at the position of this index.
+    pub(super) fn contact(&self, index: usize, solution: &Solution) -> Contact {
+        let (position, regime) = self.position(index);
+        Contact::new(position, regime.sliding(), solution).with_gap(solution, self.gaps[index])
+    }
+
     /// Wraps an error as one at the position of this index, unless it is an interruption.
     pub(super) fn at_position(&self, index: usize, error: Error) -> Error {
         let source = match error {
@@ -119,16 +132,14 @@ impl Solver<'_> {
         let sampled: Vec<usize> = (0..self.positions.len()).filter(is_sampled).collect();
         let difference = |index: usize| {
             let pair = &pass.pair;
-            let solve = |index: usize, last: Option<&Solution>| {
-                let position = self.positions[index];
-                let sliding = self.motion.sliding(position.stroke);
+            let solve = |index: usize, last: Option<&Equilibrium>| {
+                let (position, regime) = self.position(index);
                 let control = Control::Approach(pass.contacts[index].approach);
-                let sliding = sliding.as_ref();
                 Contact::solve(
                     pair,
                     self.operators,
                     position,
-                    sliding,
+                    regime,
                     control,
                     None,
                     last,
@@ -155,18 +166,17 @@ impl Solver<'_> {
         earlier: &[Vec<Contact>],
     ) -> Result<Pass> {
         let solved = AtomicUsize::new(0);
-        let solve = |pair: &Pair, index: usize, last: Option<&Solution>| {
+        let solve = |pair: &Pair, index: usize, last: Option<&Equilibrium>| {
             if self.watch.stop() {
                 return Err(Error::Interrupted);
             }
-            let position = self.positions[index];
-            let sliding = self.motion.sliding(position.stroke);
+            let (position, regime) = self.position(index);
             let start = first_guess(earlier, index, control, pair.lower.width());
             let contact = Contact::solve(
                 pair,
                 self.operators,
                 position,
-                sliding.as_ref(),
+                regime,
                 control,
                 start.as_ref(),
                 last,
@@ -174,7 +184,7 @@ impl Solver<'_> {
                 self.watch,
             );
             let (contact, solution) = contact.map_err(|error| self.at_position(index, error))?;
-            let mut contact = contact.with_gap(&solution, self.gaps[index]);
+            let mut contact = contact.with_gap(solution.normal(), self.gaps[index]);
             if let Some(latest) = earlier.first() {
                 contact.stats.convolutions += latest[index].stats.convolutions;
             }

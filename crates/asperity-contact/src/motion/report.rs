@@ -46,7 +46,8 @@ impl PassReport<'_> {
 
     /// Returns the pressure bounds of a contact of the pass.
     pub fn bounds(&self, contact: &Contact) -> Bounds {
-        self.pair.bounds_of(self.hardness, &contact.position, self.motion.friction.as_ref())
+        let regime = self.motion.slip(contact.position.stroke);
+        regime.sheared(self.pair.bounds_of(self.hardness, &contact.position))
     }
 
     /// Computes the mean pressure over the positions of the pass on each cell of the lower and of the upper body, Pa; tension of

@@ -10,13 +10,16 @@ use crate::motion::pair::{Pair, opposing_values};
 use crate::motion::path::Position;
 use crate::motion::record::{LawsInUpdate, LostVolume, StaticRecord, UpdateRecord};
 use crate::motion::rim::Interior;
+use crate::motion::slip::SlipRegime;
 use crate::motion::spot::largest_spot;
 use crate::motion::state::SlidingState;
 use crate::motion::truncation::Truncation;
 use crate::motion::watch::{StaticWatch, Watch};
 use crate::motion::{Strategy, worn_away};
-use crate::operator::{Boundary, Compliant, Operator};
-use crate::solver::{Control, Friction, Params, Sliding, Solution, Stats, solve_normal_watched};
+use crate::operator::Boundary;
+use crate::solver::{
+    ContactProblem, ContactSolver, Control, Friction, Guess, Loading, Params, Sliding, Solution, Stats,
+};
 use crate::temperature::{FlashStep, SteadyTemperature, Thermal};
 use crate::units::{Dimension, Kelvin, Metre, MetrePerSecond, Second};
 
@@ -91,7 +94,12 @@ impl Slide {
         self.speed.map_or(f64::NAN, |speed| distance / speed)
     }
 
-    fn checked(self, pair: &Pair) -> Result<Self> {
+    /// Returns how the bodies slip on each other.
+    fn regime(&self) -> SlipRegime {
+        self.sliding().into()
+    }
+
+    fn checked(self) -> Result<Self> {
         check("updates", self.ends.len() as f64, !self.ends.is_empty(), "at least one update")?;
         let mut before = 0.0;
         for &end in &self.ends {
@@ -110,9 +118,6 @@ impl Slide {
         }
         if let Some(friction) = self.friction {
             friction.checked()?;
-            if self.sliding().is_some_and(|sliding| sliding.shear_displaces_normally(pair.couples())) {
-                return Err(Error::Unsupported("sliding in place needs coupling \"none\" or \"goodman\""));
-            }
         }
         Ok(self)
     }
@@ -142,7 +147,7 @@ pub struct SlidingOutcome {
 /// Two bodies that slide in place.
 ///
 /// An update is implicit (backward Euler): the contact is solved on the bodies at the end of the update, worn by κ p. This
-/// is the contact problem with [`Compliant`] cells, κ = Σ k |Δs| over both bodies, cell by cell. Pressures therefore stay
+/// is the contact problem with [`Compliant`](crate::operator::Compliant) cells, κ = Σ k |Δs| over both bodies, cell by cell. Pressures therefore stay
 /// smooth for any length of an update, and the worn volume is k W |Δs| to round-off. The coefficient of a cell under a film
 /// is evaluated at the mean film thickness of the update, found together with the contact. Film growth and plastic
 /// deformation use the bodies at the beginning of the update.
@@ -150,7 +155,7 @@ pub struct SlidingContact {
     slide: Slide,
     boundary: Boundary,
     params: Params,
-    operator: Box<dyn Operator>,
+    solver: Box<dyn ContactSolver>,
     interiors: [Interior; 2],
     laws: Vec<Box<dyn Law>>,
     heat: Option<SteadyTemperature>,
@@ -173,15 +178,15 @@ impl SlidingContact {
     /// # Panics
     /// If the bodies have different shapes.
     pub fn new(pair: Pair, boundary: Boundary, slide: Slide, params: Params) -> Result<Self> {
-        let slide = slide.checked(&pair)?;
+        let slide = slide.checked()?;
         pair.interface().check_combined()?;
         pair.check_elastic()?;
         let (operators, _) = facing(&pair, boundary)?;
         let shape = pair.lower_grid().shape;
-        let bounds = pair.bounds(&pair.at_rest(), slide.friction.as_ref());
+        let bounds = slide.regime().sheared(pair.bounds(&pair.at_rest()));
         check_limit(slide.control, pair.cell_area() * bounds.upper().sum(shape[0] * shape[1]))?;
         Ok(Self {
-            operator: operators.on(shape),
+            solver: slide.regime().solver(&pair, &operators, shape, params.device)?,
             interiors: Interior::of_bodies([shape; 2], boundary, Strategy::Overlap, 0.0),
             laws: vec![Box::new(Truncation)],
             heat: None,
@@ -337,16 +342,17 @@ impl SlidingContact {
         done: usize,
         watch: &dyn Watch,
     ) -> Result<(Solution, Contact)> {
-        let Slide { control, friction, .. } = self.slide;
-        let position = pair.at_rest();
-        let bounds = pair.bounds(&position, friction.as_ref());
-        let mut operator = Compliant::new(self.operator.as_mut(), compliance)?;
+        let (control, position) = (self.slide.control, pair.at_rest());
+        let (gap, bounds) = (pair.initial_gap(&position), pair.bounds(&position));
         let watch = StaticWatch::new(watch, done, self.slide.ends.len(), control);
-        let gap = pair.initial_gap(&position);
-        let solution =
-            solve_normal_watched(&mut operator, &gap, &bounds, control, start, &self.params, &watch)?;
-        let contact = Contact::new(position, self.slide.sliding().as_ref(), &solution);
-        Ok((solution, contact))
+        let problem = ContactProblem {
+            compliance: Some(&compliance),
+            guess: start.map(Guess::Pressure),
+            ..ContactProblem::new(&gap, &bounds, Loading::pressing(control), &self.params, &watch)
+        };
+        let solved = self.solver.solve(&problem)?;
+        let contact = Contact::new(position, solved.sliding(), solved.normal());
+        Ok((solved.into_normal(), contact))
     }
 
     /// Returns the depth κ that laws remove from each cell of both bodies per pressure over a `distance`, m/Pa, with these

@@ -1,7 +1,7 @@
 //! Stages of a loading: where the loading goes, in which steps, and how often it comes back.
 
 use crate::error::{Error, Result};
-use crate::solver::{Control, Equilibrium, FrictionalSolution, Loading, Tangential};
+use crate::solver::{Control, Equilibrium, Loading, Tangential};
 use crate::units::{Metre, Newton, Second};
 
 /// One stage of a loading: the values prescribed at its end, and the number of equal steps to reach them.
@@ -188,12 +188,12 @@ impl Origin {
 
     /// Creates the state of a contact in equilibrium.
     pub(super) fn of(contact: &Equilibrium) -> Self {
-        let (normal, shear) = (contact.normal(), contact.frictional());
+        let normal = contact.normal();
         Self {
             load: normal.load(),
             approach: normal.approach,
-            force: shear.map_or([0.0; 2], FrictionalSolution::force),
-            displacement: shear.map_or([0.0; 2], |solution| solution.rigid_displacement),
+            force: contact.force(),
+            displacement: contact.rigid_displacement(),
         }
     }
 

@@ -39,19 +39,6 @@ pub struct LoadedContact {
     pub changed: Option<ChangedBodies>,
 }
 
-impl LoadedContact {
-    /// Creates a contact that has been solved at once.
-    pub(super) fn at_once(
-        record: StaticRecord,
-        solution: Equilibrium,
-        plastic: Field,
-        slip: Option<[Field; 2]>,
-    ) -> Self {
-        let increments = Vec::new();
-        Self { record, increments, solution, plastic, slip, dissipation_error: 0.0, changed: None }
-    }
-}
-
 /// State of a loading: everything that its next increment depends on.
 #[derive(Debug, Clone)]
 pub struct LoadingState {
@@ -196,7 +183,7 @@ impl LoadingState {
         let flattening = Flattening { kept, deepest: from.field("deepest")? };
         let bounds = match restore_if(from, "cap", || from.field("cap"))? {
             Some(cap) => Bounds::up_to(cap),
-            None => pair.bounds(&pair.at_rest(), None),
+            None => pair.bounds(&pair.at_rest()),
         };
         let bounds = match restore_if(from, "least_pressure", || from.field("least_pressure"))? {
             Some(least) => bounds.above(least),

@@ -3,7 +3,7 @@
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::pair::Pair;
-use crate::motion::record::{StaticRecord, SteadyRecord};
+use crate::motion::record::SteadyRecord;
 use crate::motion::state::LoadedContact;
 use crate::operator::Boundary;
 use crate::solver::{Control, Equilibrium, Params, Watch};
@@ -94,15 +94,13 @@ impl LoadedContact {
     ) -> Result<(Self, SteadyRecord)> {
         let mut operator = pair.sliding_steadily(boundary, speed)?;
         let found = solve_steady(&mut operator, gap, control, start, params, watch)?;
-        let solution = found.solution;
-        let record = StaticRecord::new(&solution);
+        let contact = Self::at_once(pair, Equilibrium::Frictionless(Box::new(found.solution)));
+        let load = contact.record.load;
         // Rounding leaves some of a drag that is 0.
-        let drag = if found.drag.abs() > NOTHING * record.load { found.drag } else { 0.0 };
+        let drag = if found.drag.abs() > NOTHING * load { found.drag } else { 0.0 };
         // Bodies that do not touch have no drag.
-        let drag_coefficient = if record.load > 0.0 { drag / record.load } else { 0.0 };
+        let drag_coefficient = if load > 0.0 { drag / load } else { 0.0 };
         let steady = SteadyRecord { speed, drag, drag_coefficient, drag_power: drag * speed };
-        let plastic = pair.lower_grid().zeros();
-        let solution = Equilibrium::Frictionless(Box::new(solution));
-        Ok((Self::at_once(record, solution, plastic, None), steady))
+        Ok((contact, steady))
     }
 }

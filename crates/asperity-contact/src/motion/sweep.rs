@@ -5,13 +5,16 @@ use crate::grid::Field;
 use crate::motion::contact::facing;
 use crate::motion::course::{self, Course, Output, Step, StepRow};
 use crate::motion::pair::Pair;
-use crate::motion::record::{ShearRecord, StaticRecord, SteadyRecord, SweepRecord};
+use crate::motion::record::{ShearRecord, StaticRecord, SweepRecord};
+use crate::motion::slip::SlipRegime;
 use crate::motion::spot::largest_spot;
 use crate::motion::state::LoadedContact;
 use crate::motion::store::{CourseState, StateReader, StateWriter, restore_if};
 use crate::motion::watch::{StaticWatch, Watch};
-use crate::operator::{Boundary, CoupledOperator, Operator};
-use crate::solver::{Control, Friction, Params, Rolling, Solution, Stats, normal_stiffness};
+use crate::operator::{Boundary, Operators};
+use crate::solver::{
+    ContactProblem, ContactSolver, Control, Loading, Params, Solution, Stats, normal_stiffness,
+};
 use crate::units::MetrePerSecond;
 
 /// A prescribed point of a load sweep.
@@ -19,8 +22,8 @@ use crate::units::MetrePerSecond;
 pub struct Point {
     /// Prescribed load or approach.
     pub control: Control,
-    /// Rolling of the bodies, if they roll.
-    pub rolling: Option<Rolling>,
+    /// How the bodies slip on each other.
+    pub regime: SlipRegime,
     /// Speed of viscoelastic bodies that slide steadily.
     pub speed: Option<MetrePerSecond>,
 }
@@ -37,8 +40,8 @@ pub struct SweepState {
 /// Presses a pair at full overlap at each of the `points`. Returns the records of all points, and the contact of the last.
 /// Points that are `done` are not solved again, except the last.
 ///
-/// Each point is an independent contact of undeformed bodies, solved from zero. It has the bits of [`crate::motion::press`]
-/// or [`crate::motion::roll`], whatever the other points are. The pressures of another load are no better start than
+/// Each point is an independent contact of undeformed bodies, solved from zero. It has the bits of [`crate::motion::press`],
+/// whatever the other points are. The pressures of another load are no better start than
 /// those of coarser grids: if the loads differ by a factor of 1.5 or more, they cost more convolutions. Only the steady sliding of
 /// viscoelastic bodies starts at a speed from the pressures at the speed before.
 ///
@@ -47,12 +50,10 @@ pub struct SweepState {
 /// [`Error::Unsupported`] without points, [`Error::Interrupted`], and the errors of the outputs.
 ///
 /// # Panics
-/// If the bodies have different shapes, or a point rolls without friction.
-#[expect(clippy::too_many_arguments, reason = "the contact, its points, and who looks on")]
+/// If the bodies have different shapes.
 pub fn sweep(
     pair: &Pair,
     boundary: Boundary,
-    friction: Option<&Friction>,
     points: &[Point],
     params: &Params,
     under_way: SweepState,
@@ -60,28 +61,10 @@ pub fn sweep(
     outputs: &mut [&mut dyn Output],
 ) -> Result<(Vec<SweepRecord>, LoadedContact)> {
     let (operators, gap) = facing(pair, boundary)?;
-    let shape = pair.lower_grid().shape;
-    let rolls = points.iter().any(|point| point.rolling.is_some());
-    if rolls {
-        pair.interface().check_combined()?;
-        pair.check_elastic()?;
-        pair.check_shear()?;
-    }
     let mut state = under_way;
     state.records.truncate(points.len().saturating_sub(1));
     state.records.iter().for_each(|record| watch.point(record));
-    let mut sweep = Sweep {
-        pair,
-        boundary,
-        friction,
-        points,
-        params,
-        gap,
-        normal: params.device.operator(&operators, shape),
-        coupled: rolls.then(|| operators.coupled_on(shape)),
-        state,
-        last: None,
-    };
+    let mut sweep = Sweep { pair, boundary, points, params, operators, gap, solver: None, state, last: None };
     course::run(&mut sweep, watch, outputs)?;
     let last = sweep.last.ok_or(Error::Unsupported("a sweep needs at least one point"))?;
     Ok((sweep.state.records, last))
@@ -91,13 +74,12 @@ pub fn sweep(
 struct Sweep<'a> {
     pair: &'a Pair,
     boundary: Boundary,
-    friction: Option<&'a Friction>,
     points: &'a [Point],
     params: &'a Params,
+    operators: Operators,
     gap: Field,
-    normal: Box<dyn Operator>,
-    /// The coupled operator of bodies that roll.
-    coupled: Option<Box<dyn CoupledOperator>>,
+    /// The solver of the last point, with its regime.
+    solver: Option<(SlipRegime, Box<dyn ContactSolver>)>,
     /// The state after the last finished point.
     state: SweepState,
     /// The contact of the last finished point.
@@ -105,35 +87,33 @@ struct Sweep<'a> {
 }
 
 impl Sweep<'_> {
-    fn contact(
-        &mut self,
-        point: &Point,
-        watch: &StaticWatch<'_>,
-    ) -> Result<(LoadedContact, Option<SteadyRecord>)> {
+    /// Solves a point. Returns its contact and its record.
+    fn contact(&mut self, number: usize, watch: &StaticWatch<'_>) -> Result<(LoadedContact, SweepRecord)> {
         let Self { pair, boundary, params, gap, .. } = self;
-        let control = point.control;
-        if let Some(speed) = point.speed {
+        let Point { control, regime, speed } = self.points[number - 1];
+        if let Some(speed) = speed {
             let start = self.state.start.as_ref();
-            return LoadedContact::steady(pair, *boundary, gap, control, speed, start, params, watch)
-                .map(|(contact, steady)| (contact, Some(steady)));
+            let (contact, steady) =
+                LoadedContact::steady(pair, *boundary, gap, control, speed, start, params, watch)?;
+            let record = SweepRecord { steady: Some(steady), ..record(*boundary, number, &contact) };
+            return Ok((contact, record));
         }
-        let contact = match point.rolling.zip(self.coupled.as_mut()) {
-            None => LoadedContact::pressed(pair, self.normal.as_mut(), gap, control, params, watch),
-            Some((rolling, operator)) => {
-                let friction = self.friction.expect("what rolls has friction");
-                LoadedContact::rolling(
-                    pair,
-                    operator.as_mut(),
-                    gap,
-                    friction,
-                    control,
-                    rolling,
-                    params,
-                    watch,
-                )
-            }
+        let mut solver = match self.solver.take() {
+            Some((last, solver)) if last == regime => solver,
+            _ => regime.solver(pair, &self.operators, pair.lower_grid().shape, params.device)?,
         };
-        Ok((contact?, None))
+        let bounds = pair.bounds(&pair.at_rest());
+        let problem = ContactProblem::new(gap, &bounds, Loading::pressing(control), params, watch);
+        let contact = LoadedContact::at_once(pair, solver.solve(&problem)?);
+        let record = record(*boundary, number, &contact);
+        // A tension on open cells changes with the approach, too.
+        let (stiffness, stats) = match pair.interface().is_hard() {
+            false => (None, Stats::default()),
+            true => normal_stiffness(solver.normal(), &contact.solution.normal().elastic_cells(), params)?,
+        };
+        let convolutions = record.convolutions + stats.convolutions;
+        self.solver = Some((regime, solver));
+        Ok((contact, SweepRecord { stiffness, convolutions, ..record }))
     }
 }
 
@@ -154,15 +134,10 @@ impl Course for Sweep<'_> {
             return Err(Error::Interrupted);
         }
         let points = self.points.len();
-        let solved = self.contact(point, &StaticWatch::new(watch, done, points, point.control)).and_then(
-            |(contact, steady)| {
-                let operator = self.normal.as_mut();
-                let record = record(self.boundary, operator, done + 1, &contact, steady, self.params)?;
-                Ok((record, contact))
-            },
-        );
         let at = |source| Error::AtPoint { point: done + 1, points, source };
-        let (record, contact) = solved.map_err(|error| error.unless_interrupted(at))?;
+        let watch = StaticWatch::new(watch, done, points, point.control);
+        let (contact, record) =
+            self.contact(done + 1, &watch).map_err(|error| error.unless_interrupted(at))?;
         let start = record.steady.map(|_| contact.solution.normal().pressure.clone());
         let mut records = std::mem::take(&mut self.state.records);
         records.push(record);
@@ -203,27 +178,15 @@ impl SweepState {
     }
 }
 
-/// Creates the record of a contact, with its stiffness.
-fn record(
-    boundary: Boundary,
-    operator: &mut dyn Operator,
-    point: usize,
-    contact: &LoadedContact,
-    steady: Option<SteadyRecord>,
-    params: &Params,
-) -> Result<SweepRecord> {
-    // A tension on open cells changes with the approach, too.
-    let (stiffness, stats) = match contact.record.interface.is_some() || steady.is_some() {
-        true => (None, Stats::default()),
-        false => normal_stiffness(operator, &contact.solution.normal().elastic_cells(), params)?,
-    };
+/// Creates the record of a contact, without its stiffness and its drag.
+fn record(boundary: Boundary, point: usize, contact: &LoadedContact) -> SweepRecord {
     let StaticRecord { load, approach, contact_area, apparent_area, .. } = contact.record;
     let Solution { grid, pressure, bounds, .. } = contact.solution.normal();
     let cells = pressure.iter().enumerate();
     let contact_cells = cells.filter(|(cell, p)| bounds.touches(*cell, **p)).map(|(cell, _)| cell);
     let shear = contact.record.shear.as_ref();
     let of_shear = |value: fn(&ShearRecord) -> f64| shear.map_or(0.0, value);
-    Ok(SweepRecord {
+    SweepRecord {
         point,
         load,
         mean_pressure: load / apparent_area,
@@ -236,7 +199,7 @@ fn record(
         plastic_area: grid.cell_area() * contact.record.plastic_cells as f64,
         plastic_volume: contact.record.plastic_volume,
         elastic_energy: contact.record.elastic_energy,
-        stiffness,
+        stiffness: None,
         creepage_x: of_shear(|shear| shear.creepage.unwrap_or_default()[0]),
         creepage_y: of_shear(|shear| shear.creepage.unwrap_or_default()[1]),
         tangential_force_x: of_shear(|shear| shear.tangential_force[0]),
@@ -246,9 +209,9 @@ fn record(
         dissipation: of_shear(|shear| shear.dissipation),
         slip_work: of_shear(|shear| shear.slip_work.unwrap_or_default()),
         iterations: contact.record.iterations,
-        convolutions: contact.record.convolutions + stats.convolutions,
+        convolutions: contact.record.convolutions,
         residual: contact.record.residual,
         interface: contact.record.interface,
-        steady,
-    })
+        steady: None,
+    }
 }

@@ -13,7 +13,7 @@ use crate::motion::watch::{OneOfMany, Progress};
 use crate::motion::{LoadControl, Motion};
 use crate::operator::{Operator, Operators};
 use crate::solver::Control;
-use crate::solver::{Bounds, Friction, Method, Params, Residual, Site, coarse_site, solve_together};
+use crate::solver::{Bounds, Method, Params, Residual, Site, coarse_site, solve_together};
 use crate::units::Newton;
 
 /// Largest number of cells of all positions together that are stored at once.
@@ -63,11 +63,10 @@ impl Solver<'_> {
         params: &Params,
         earlier: Option<&Vec<Contact>>,
     ) -> Result<Vec<Contact>> {
-        let friction = self.motion.friction;
         let facing = |position: &Position| RelativePosition {
             pair,
             operators: self.operators,
-            friction,
+            motion: self.motion,
             position: *position,
         };
         let facing: Vec<RelativePosition> = self.positions.iter().map(facing).collect();
@@ -98,7 +97,7 @@ impl Solver<'_> {
 struct RelativePosition<'a> {
     pair: &'a Pair,
     operators: &'a Operators,
-    friction: Option<Friction>,
+    motion: &'a Motion,
     position: Position,
 }
 
@@ -112,7 +111,7 @@ impl Site for RelativePosition<'_> {
     }
 
     fn bounds(&self) -> Cow<'_, Bounds> {
-        Cow::Owned(self.pair.bounds(&self.position, self.friction.as_ref()))
+        Cow::Owned(self.motion.bounds(self.pair, &self.position))
     }
 
     fn with_operator(&self, task: &mut dyn FnMut(&mut dyn Operator)) {

@@ -10,12 +10,13 @@ use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Position;
 use crate::motion::plastic_volume::{ElastoPlasticPass, PlasticVolume, displace};
 use crate::motion::record::{LostVolume, PassPlasticRecord, PlasticStepRecord};
+use crate::motion::slip::SlipRegime;
 use crate::motion::watch::{OneOfMany, Progress};
 use crate::operator::{Boundary, Operators};
 use crate::plasticity::{
-    Increment, Interface, PlasticBody, PlasticContact, PlasticParams, PlasticState, RelativePosition,
+    Increment, PlasticBody, PlasticContact, PlasticParams, PlasticState, RelativePosition,
 };
-use crate::solver::{Control, Loading, Params, Tangential};
+use crate::solver::{Control, Loading, Params};
 use crate::units::Joule;
 
 /// Number of equal loading steps at the first position of a pass, which takes its load from zero.
@@ -42,17 +43,12 @@ impl Volumes {
         operators: &Operators,
         position: &Position,
         boundary: Boundary,
-        (plastic, params): (PlasticParams, Params),
-    ) -> Self {
-        let shape = [position.columns, pair.lower.width()];
-        let facing = RelativePosition {
-            interface: Interface::Frictionless(operators.on(shape)),
-            initial_gap: pair.initial_gap(position),
-            placements: pair.placements(position),
-        };
-        let mut contact = PlasticContact::new(facing, bodies, plastic, params);
+        (plastic, params): (PlasticParams, &Params),
+    ) -> Result<Self> {
+        let facing = facing(pair, operators, position, SlipRegime::Frictionless, params)?;
+        let mut contact = PlasticContact::new(facing, bodies, plastic, *params);
         let states = states(&mut contact);
-        Self { contact: Mutex::new(contact), states, boundary, states_under_load: None }
+        Ok(Self { contact: Mutex::new(contact), states, boundary, states_under_load: None })
     }
 
     /// The plastic state after the finished passes.
@@ -95,6 +91,7 @@ impl Solver<'_> {
         volumes: &Volumes,
         pair: &Pair,
         control: Control,
+        params: &Params,
     ) -> Result<Pass> {
         let mut contact = volumes.begin();
         // The bodies without their plastic displacement, which the contact adds.
@@ -107,17 +104,14 @@ impl Solver<'_> {
         let mut carrier = Carrier { body: 1, last: None };
         for (index, position) in self.positions.iter().enumerate() {
             let shifts = carrier.shifts(position, pair, volumes.boundary);
-            contact.move_to(self.facing(&undeformed, position), shifts);
+            contact.move_to(self.facing(&undeformed, position, params)?, shifts);
             let step = self.step(&mut contact, control, index);
             let increments = step.map_err(|error| self.at_position(index, error))?;
             carrier.arrive(position, contact.pressure());
             if volumes.states_under_load == Some(index) {
                 states_under_load = states(&mut contact);
             }
-            let sliding = self.motion.sliding(position.stroke);
-            let solution = contact.solution().expect("a contact at the position");
-            let here =
-                Contact::new(*position, sliding.as_ref(), solution).with_gap(solution, self.gaps[index]);
+            let here = self.contact(index, contact.solution().expect("a contact at the position"));
             let (solved, load) = (index + 1, here.load);
             course.contacts.push(here);
             course.add(&increments, &mut contact, pair, position, volumes.boundary);
@@ -140,20 +134,8 @@ impl Solver<'_> {
     }
 
     /// Returns how the bodies of a `pair` are placed at a position.
-    fn facing(&self, pair: &Pair, position: &Position) -> RelativePosition {
-        let shape = [position.columns, pair.lower.width()];
-        let interface = match self.motion.sliding(position.stroke) {
-            None => Interface::Frictionless(self.operators.on(shape)),
-            Some(sliding) if sliding.shear_displaces_normally(pair.couples()) => {
-                Interface::SlidingCoupled(self.operators.coupled_on(shape), sliding)
-            }
-            Some(sliding) => Interface::Sliding(self.operators.on(shape), sliding),
-        };
-        RelativePosition {
-            interface,
-            initial_gap: pair.initial_gap(position),
-            placements: pair.placements(position),
-        }
+    fn facing(&self, pair: &Pair, position: &Position, params: &Params) -> Result<RelativePosition> {
+        facing(pair, self.operators, position, self.motion.slip(position.stroke), params)
     }
 
     /// Loads the bodies at a position; the first position of the pass is loaded in steps.
@@ -168,9 +150,24 @@ impl Solver<'_> {
                 Control::Approach(touch + (approach - touch) * step as f64 / steps as f64)
             }
         };
-        let tangential = Tangential::Force([0.0; 2]);
-        (1..=steps).map(|step| contact.load(Loading { normal: at(step), tangential }, &watch)).collect()
+        (1..=steps).map(|step| contact.load(Loading::pressing(at(step)), &watch)).collect()
     }
+}
+
+/// Returns how the bodies of a `pair` are placed at a position, and how they slip on each other there.
+fn facing(
+    pair: &Pair,
+    operators: &Operators,
+    position: &Position,
+    regime: SlipRegime,
+    params: &Params,
+) -> Result<RelativePosition> {
+    let shape = [position.columns, pair.lower.width()];
+    Ok(RelativePosition {
+        solver: regime.solver(pair, operators, shape, params.device)?,
+        initial_gap: pair.initial_gap(position),
+        placements: pair.placements(position),
+    })
 }
 
 fn states(contact: &mut PlasticContact) -> Vec<PlasticState> {

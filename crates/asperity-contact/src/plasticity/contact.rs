@@ -4,10 +4,9 @@ use super::body::{Action, PlasticBody, PlasticState, SurfaceDisplacement};
 use super::increment::{self, Increment, PlasticParams, advance};
 use crate::error::{Error, Result};
 use crate::grid::{Field, Grid, Placement};
-use crate::operator::{CoupledOperator, Operator};
 use crate::solver::{
-    Bounds, Control, Equilibrium, Friction, FrictionalSolution, History, Loading, Params, Sliding, Solution,
-    Start, Stats, Tangential, Watch, solve_frictional_from, solve_normal_watched, solve_sliding,
+    Bounds, ContactProblem, ContactSolver, Control, Equilibrium, Guess, Loading, Params, Solution,
+    Tangential, Watch,
 };
 use crate::subsurface::Tractions;
 use crate::units::{Joule, Metre, Newton};
@@ -36,41 +35,19 @@ pub struct PlasticContact {
 
 /// Relative position of two bodies.
 pub struct RelativePosition {
-    /// The interface on the cells of the contact.
-    pub interface: Interface,
+    /// The solver of the contact, between hard walls.
+    pub solver: Box<dyn ContactSolver>,
     /// Gap h of the undeformed bodies, m.
     pub initial_gap: Field,
     /// Placement of the contact on the lower and on the upper body.
     pub placements: [Placement; 2],
 }
 
-/// Interface law between two bodies.
-pub enum Interface {
-    /// Pressure without shear.
-    Frictionless(Box<dyn Operator>),
-    /// Pressure, and the shear of gross slip, which displaces the surfaces only tangentially.
-    Sliding(Box<dyn Operator>, Sliding),
-    /// Pressure, and the shear of gross slip, which also displaces the surfaces normally.
-    SlidingCoupled(Box<dyn CoupledOperator>, Sliding),
-    /// Pressure, and friction with stick and slip.
-    Frictional(Box<dyn CoupledOperator>, Friction),
-}
-
-impl Interface {
-    /// The grid of the contact.
-    pub fn grid(&self) -> &Grid {
-        match self {
-            Self::Frictionless(operator) | Self::Sliding(operator, _) => operator.grid(),
-            Self::SlidingCoupled(operator, _) | Self::Frictional(operator, _) => operator.grid(),
-        }
-    }
-}
-
 impl PlasticContact {
     /// Creates a contact of bodies that do not touch yet, from the elasto-plastic ones: lower, upper.
     ///
     /// # Panics
-    /// If neither body is elasto-plastic, if the grid of the gap differs from that of the interface, or if the contact
+    /// If neither body is elasto-plastic, if the grid of the gap differs from that of the solver, or if the contact
     /// reaches beyond a body.
     pub fn new(
         facing: RelativePosition,
@@ -78,13 +55,13 @@ impl PlasticContact {
         flow: PlasticParams,
         contact: Params,
     ) -> Self {
-        let follows = matches!(facing.interface, Interface::Frictional(..));
+        let follows = facing.solver.sticks();
         let follow = |body: PlasticBody| if follows { body.followed_along() } else { body };
         let given = bodies.into_iter().enumerate();
         let (sides, bodies): (Vec<_>, Vec<_>) =
             given.filter_map(|(side, body)| Some((side, follow(body?)))).unzip();
         assert!(!bodies.is_empty(), "a body that may flow");
-        let zeros = facing.interface.grid().zeros();
+        let zeros = facing.solver.grid().zeros();
         let mut contact = Self {
             facing,
             bodies,
@@ -105,7 +82,7 @@ impl PlasticContact {
     /// by whole cells, `shifts`. Between the positions the bodies slide freely; a history of stick belongs to one position.
     ///
     /// # Panics
-    /// If the grid of the gap differs from that of the interface, or if the contact reaches beyond a body.
+    /// If the grid of the gap differs from that of the solver, or if the contact reaches beyond a body.
     pub fn move_to(&mut self, facing: RelativePosition, shifts: [[isize; 2]; 2]) {
         // The pressure moves with the load over the first of the bodies.
         let side = self.sides[0];
@@ -116,7 +93,7 @@ impl PlasticContact {
                 |index: usize, by: isize, n: usize| (index as isize - by).rem_euclid(n as isize) as usize;
             before[[back(i, dx, nx), back(j, dy, ny)]]
         });
-        self.pressure = facing.placements[side].under(&moved, facing.interface.grid().shape[0]);
+        self.pressure = facing.placements[side].under(&moved, facing.solver.grid().shape[0]);
         self.facing = facing;
         self.shifts = shifts;
         self.equilibrium = None;
@@ -125,7 +102,7 @@ impl PlasticContact {
     }
 
     fn check(&mut self) {
-        let grid = *self.facing.interface.grid();
+        let grid = *self.facing.solver.grid();
         assert_eq!(self.facing.initial_gap.shape(), grid.shape, "shape of the initial gap");
         for (body, side) in self.bodies.iter_mut().zip(&self.sides) {
             let volume = body.volume();
@@ -159,19 +136,20 @@ impl PlasticContact {
         self.load(Loading { normal: control, tangential: Tangential::Force([0.0; 2]) }, &())
     }
 
-    /// Applies a loading in one increment under a watch. Tangential loading counts only with an interface that can stick.
+    /// Applies a loading in one increment under a watch. Tangential loading counts only for surfaces that may stick.
     ///
     /// # Errors
     /// The errors of [`PlasticContact::go_to`] and of [`crate::solver::solve_frictional`]; [`Error::Interrupted`].
     pub fn load(&mut self, loading: Loading, watch: &dyn Watch) -> Result<Increment> {
         self.increments += 1;
+        let sticks = self.facing.solver.sticks();
         let mut pressing = ElasticStep {
             facing: &mut self.facing,
             sides: &self.sides,
             loading,
             params: &self.contact,
             watch,
-            before: self.equilibrium.as_ref().and_then(Equilibrium::frictional),
+            before: self.equilibrium.as_ref().filter(|_| sticks),
             along_before: self.along.clone(),
             pressure: self.pressure.clone(),
             equilibrium: None,
@@ -227,7 +205,7 @@ impl PlasticContact {
 
     /// The grid of the contact.
     pub fn grid(&self) -> &Grid {
-        self.facing.interface.grid()
+        self.facing.solver.grid()
     }
 
     /// Approach at which the bodies in their present state first touch, m.
@@ -273,8 +251,8 @@ struct ElasticStep<'a> {
     loading: Loading,
     params: &'a Params,
     watch: &'a dyn Watch,
-    /// The last increment, with the relative tangential displacement of the surfaces by plastic strain after it.
-    before: Option<&'a FrictionalSolution>,
+    /// The last increment of surfaces that may stick, with the relative tangential displacement of the surfaces by plastic strain after it.
+    before: Option<&'a Equilibrium>,
     along_before: Option<[Field; 2]>,
     /// The last pressure, as the start of the next solve.
     pressure: Field,
@@ -335,84 +313,27 @@ impl ElasticStep<'_> {
             self.equilibrium = None;
             return Ok(None);
         }
-        let start = self.pressure.iter().any(|p| *p > 0.0).then_some(&self.pressure);
+        let pressure = Some(&self.pressure).filter(|pressure| pressure.iter().any(|p| *p > 0.0));
+        let latest = self.equilibrium.as_ref();
+        // The displacement by plastic strain is no slip.
+        let drift = along
+            .zip(self.along_before.as_ref())
+            .map(|(now, then)| [0, 1].map(|axis| &now[axis] - &then[axis]));
+        let problem = ContactProblem {
+            before: self.before,
+            guess: latest.map(Guess::Contact).or(pressure.map(Guess::Pressure)),
+            drift: drift.as_ref(),
+            ..ContactProblem::new(gap, &Bounds::ELASTIC, self.loading, params, watch)
+        };
         // Cost of this increment so far.
-        let spent = self.equilibrium.as_ref().map_or(0.0, |last| last.normal().stats.convolutions);
-        let bounds = &Bounds::ELASTIC;
-        let sheared = |sliding: &Sliding, pressure: &Field| {
-            Some([0, 1].map(|axis| pressure.mapv(|p| sliding.shear(p)[axis])))
-        };
-        let (equilibrium, shear) = match &mut self.facing.interface {
-            Interface::Frictionless(operator) => {
-                let operator = operator.as_mut();
-                let mut solution =
-                    solve_normal_watched(operator, gap, bounds, control, start, params, watch)?;
-                solution.stats.convolutions += spent;
-                (Equilibrium::Frictionless(Box::new(solution)), None)
-            }
-            Interface::Sliding(operator, sliding) => {
-                let operator = operator.as_mut();
-                let mut solution =
-                    solve_normal_watched(operator, gap, bounds, control, start, params, watch)?;
-                let shear = sheared(sliding, &solution.pressure);
-                solution.stats.convolutions += spent;
-                (Equilibrium::Frictionless(Box::new(solution)), shear)
-            }
-            Interface::SlidingCoupled(operator, sliding) => {
-                let operator = operator.as_mut();
-                let sliding_contact =
-                    solve_sliding(operator, gap, bounds, sliding, control, start, params, watch)?;
-                let mut solution = sliding_contact.normal;
-                let shear = sheared(sliding, &solution.pressure);
-                solution.stats.convolutions += spent;
-                (Equilibrium::Frictionless(Box::new(solution)), shear)
-            }
-            Interface::Frictional(operator, friction) => {
-                let latest = self.equilibrium.as_ref().and_then(Equilibrium::frictional).or(self.before);
-                let history = history(self.before, along, self.along_before.as_ref());
-                let start = Start { history, ..latest.map_or_else(Start::default, Start::after) };
-                let operator = operator.as_mut();
-                let mut solution = solve_frictional_from(
-                    operator,
-                    gap,
-                    bounds,
-                    friction,
-                    self.loading,
-                    start,
-                    params,
-                    watch,
-                    &mut Stats::default(),
-                )?;
-                let shear = Some(solution.shear.clone());
-                solution.normal.stats.convolutions += spent;
-                (Equilibrium::Frictional(Box::new(solution)), shear)
-            }
-        };
+        let spent = latest.map_or(0.0, |latest| latest.normal().stats.convolutions);
+        let mut equilibrium = self.facing.solver.solve(&problem)?;
+        equilibrium.normal_mut().stats.convolutions += spent;
+        let shear = equilibrium.shear();
         self.pressure.assign(&equilibrium.normal().pressure);
         self.equilibrium = Some(equilibrium);
         Ok(shear)
     }
-}
-
-/// Returns the reference of the slip for an increment in which plastic strain changes the relative tangential displacement
-/// to `along`. That part of the rigid displacement is no slip.
-fn history(
-    before: Option<&FrictionalSolution>,
-    along: Option<&[Field; 2]>,
-    along_before: Option<&[Field; 2]>,
-) -> History {
-    let slip = before.map(FrictionalSolution::whole_slip);
-    let (Some(along), Some(along_before)) = (along, along_before) else {
-        return slip.map_or(History::None, History::Increment);
-    };
-    let moved = [0, 1].map(|axis| &along[axis] - &along_before[axis]);
-    History::Increment(match slip {
-        None => moved,
-        Some([x, y]) => {
-            let [dx, dy] = moved;
-            [x + dx, y + dy]
-        }
-    })
 }
 
 #[cfg(test)]

@@ -52,7 +52,7 @@ mod waves;
 
 pub use below::residual_below;
 pub use body::{Action, BodyIncrement, PlasticBody, PlasticState, SurfaceDisplacement};
-pub use contact::{Interface, PlasticContact, RelativePosition};
+pub use contact::{PlasticContact, RelativePosition};
 pub use hardening::Hardening;
 pub use increment::{Increment, Loading, PlasticParams, advance};
 pub use j2::J2;

@@ -3,8 +3,8 @@
 use std::fmt::Debug;
 
 use crate::error::Result;
-use crate::grid::Field;
-use crate::operator::Operator;
+use crate::grid::{CellValues, Field};
+use crate::operator::{Compliant, Operator};
 use crate::solver::{Bounds, Control, Params, Solution, Watch, solve_normal_watched};
 use crate::units::{JoulePerSquareMetre, Metre, Pascal};
 
@@ -57,6 +57,21 @@ pub struct NormalProblem<'a> {
     pub params: &'a Params,
     /// The watch of the computation.
     pub watch: &'a dyn Watch,
+}
+
+impl NormalProblem<'_> {
+    /// Solves it with an `interface` between bodies with an additional `compliance` of each cell under its own pressure, m/Pa.
+    pub(super) fn solve(
+        &self,
+        operator: &mut dyn Operator,
+        interface: &dyn Interface,
+        compliance: Option<&CellValues>,
+    ) -> Result<Solution> {
+        match compliance {
+            None => interface.solve(operator, self),
+            Some(compliance) => interface.solve(&mut Compliant::new(operator, compliance.clone())?, self),
+        }
+    }
 }
 
 /// Contact before another one of the same bodies.

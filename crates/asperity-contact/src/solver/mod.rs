@@ -5,9 +5,9 @@ pub mod adhesion;
 mod bounds;
 mod cascade;
 mod coarse_correction;
+mod contact;
 mod device;
 mod direct;
-mod equilibrium;
 mod feasible;
 mod friction;
 mod interface;
@@ -27,14 +27,13 @@ pub use adhesion::solve_adhesive;
 pub use adhesion::{AdhesionPassRecord as InterfacePassRecord, AdhesionRecord as InterfaceRecord};
 pub use asperity_base::watch::Watch;
 pub use bounds::Bounds;
+pub use contact::{
+    ContactProblem, ContactSolver, Equilibrium, Frictionless, GrossSliding, Guess, SteadyRolling, StickSlip,
+};
 pub use device::{Card, Device, memory_on_device};
-pub use equilibrium::Equilibrium;
 pub use friction::{
     Coupling, Creep, Friction, FrictionalSolution, Loading, Rolling, RollingSolution, Sliding, Tangential,
     solve_frictional, solve_rolling,
-};
-pub(crate) use friction::{
-    History, Start, solve_frictional_from, solve_frictional_watched, solve_rolling_watched, solve_sliding,
 };
 pub use interface::{Before, HardWall, Interface, InterfaceCost, NormalProblem};
 pub use residual::{Residual, residual};

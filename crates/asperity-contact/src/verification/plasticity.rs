@@ -11,10 +11,10 @@ use crate::grid::{Field, Grid, Placement};
 use crate::material::Material;
 use crate::operator::{Boundary, FreeFft, Operator, PeriodicFft};
 use crate::plasticity::{
-    Action, Hardening, Interface, J2, Layers, Loading, PlasticBody, PlasticContact, PlasticParams,
-    RelativePosition, SurfaceDisplacement, TensorField, Volume, advance,
+    Action, Hardening, J2, Layers, Loading, PlasticBody, PlasticContact, PlasticParams, RelativePosition,
+    SurfaceDisplacement, TensorField, Volume, advance,
 };
-use crate::solver::Control;
+use crate::solver::{Control, Frictionless, HardWall};
 use crate::stress::Stress;
 use crate::subsurface::Tractions;
 
@@ -52,9 +52,9 @@ impl Sphere {
         } else {
             Box::new(FreeFft::new(grid, modulus))
         };
-        let interface = Interface::Frictionless(operator);
+        let solver = Box::new(Frictionless::new(operator, Arc::new(HardWall)));
         let facing =
-            RelativePosition { interface, initial_gap: gap, placements: [Placement::flush(grid.shape); 2] };
+            RelativePosition { solver, initial_gap: gap, placements: [Placement::flush(grid.shape); 2] };
         let body = PlasticBody::new(volume, Arc::new(law));
         Ok(PlasticContact::new(facing, [Some(body), None], flow, PARAMS))
     }

@@ -53,7 +53,7 @@ fn carter() -> Result<Vec<Check>> {
         };
         let rolled = roll(Creep::Force([force, 0.0]))?;
         let slip_work = rolled.slip_work();
-        let RollingSolution { contact: driven, creepage: found, dissipation } = rolled;
+        let RollingSolution { contact: driven, creepage: found, dissipation, .. } = rolled;
         let energy = force * creepage * grid.pitch[0];
         let creepage_across = creepage * (1.0 + pair.lateral / pair.normal);
         let steered = roll(Creep::Creepage([0.0, creepage_across]))?;

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use asperity_contact::material::Material;
-use asperity_contact::motion::{Motion, Pair, Simulation, Stage, Strategy, load_in_stages, press};
+use asperity_contact::motion::{
+    Motion, Pair, Simulation, SlipRegime, Stage, Strategy, load_in_stages, press,
+};
 use asperity_contact::operator::{Boundary, Operator};
 use asperity_contact::solver::{
     Control, HardWall, Interface, Loading, NormalProblem, Params, Solution, Tangential, solve_normal,
@@ -70,16 +72,31 @@ fn suction_presses_as_a_load_does() {
     let (boundary, params) = (Boundary::PERIODIC, Params::new().with_tolerance(1e-9));
     let area = rough().lower_grid().area();
     let load = 0.02 * TENSION * area;
-    let heavier = press(&rough(), boundary, Control::Load(load + TENSION * area), &params, &()).unwrap();
-    let alone =
-        press(&rough().with_interface(Arc::new(HardWall)), boundary, Control::Load(load), &params, &())
-            .unwrap();
-    let contact = press(&sucked(), boundary, Control::Load(load), &params, &()).unwrap();
+    let heavier = press(
+        &rough(),
+        boundary,
+        Control::Load(load + TENSION * area),
+        SlipRegime::Frictionless,
+        &params,
+        &(),
+    )
+    .unwrap();
+    let alone = press(
+        &rough().with_interface(Arc::new(HardWall)),
+        boundary,
+        Control::Load(load),
+        SlipRegime::Frictionless,
+        &params,
+        &(),
+    )
+    .unwrap();
+    let contact =
+        press(&sucked(), boundary, Control::Load(load), SlipRegime::Frictionless, &params, &()).unwrap();
     assert_eq!(contact.record.contact_area, heavier.record.contact_area);
     assert!(contact.record.contact_area > 2.0 * alone.record.contact_area);
     assert!((contact.record.approach / heavier.record.approach - 1.0).abs() < 1e-6);
     let most = heavier.record.max_pressure;
-    for (p, q) in contact.solution.pressure.iter().zip(&heavier.solution.pressure) {
+    for (p, q) in contact.solution.normal().pressure.iter().zip(&heavier.solution.normal().pressure) {
         assert!((p + TENSION - q).abs() < 1e-6 * most, "{p} {q}");
     }
     // Its tension on the open cells is in the record; hard walls have none.
@@ -98,7 +115,8 @@ fn stages_and_passes_take_the_interface_of_the_pair() {
     let stage =
         Stage::new(Loading { normal: Control::Load(load), tangential: Tangential::Force([0.0; 2]) }, 3);
     let loaded = load_in_stages(&sucked(), boundary, None, &[stage], &params, None, &(), &mut []).unwrap();
-    let pressed = press(&sucked(), boundary, Control::Load(load), &params, &()).unwrap();
+    let pressed =
+        press(&sucked(), boundary, Control::Load(load), SlipRegime::Frictionless, &params, &()).unwrap();
     assert_eq!(loaded.record.contact_area, pressed.record.contact_area);
     assert_eq!(loaded.record.interface.unwrap().jumps, 0);
     let motion = Motion::new(Strategy::Shift { speed_lower: 0.0, speed_upper: 1.0 }, Control::Load(load))

@@ -5,7 +5,7 @@ use asperity_base::{Field, Grid};
 use asperity_contact::kernel::{HalfSpaces, Influence, Layering, Response};
 use asperity_contact::material::{Coating, Material};
 use asperity_contact::motion::{
-    LoadControl, Motion, Pair, PlasticUpdate, Simulation, Stage, Strategy, load_in_stages, press, roll,
+    LoadControl, Motion, Pair, PlasticUpdate, Simulation, SlipRegime, Stage, Strategy, load_in_stages, press,
 };
 use asperity_contact::operator::{Boundary, DirectSum, Edge, FreeFft, Operator, Operators, PeriodicFft};
 use asperity_contact::solver::{
@@ -56,6 +56,8 @@ fn graded(q: f64) -> f64 {
     2.0 / q * (1.0 - 0.75 * (1.0 + 0.5 * x) * (-x).exp())
 }
 
+const FRICTIONLESS: SlipRegime = SlipRegime::Frictionless;
+
 const GRID: Grid = Grid { shape: [20, 18], pitch: [1e-6, 1.3e-6] };
 
 fn rough_pair(materials: [&Material; 2]) -> Pair {
@@ -73,8 +75,8 @@ fn a_contact_of_ones_own_bodies_is_that_of_a_sum_of_ones_own_cells() {
     let (modulus, compliance) = (115e9, 2e-17);
     let pair = rough_pair([&steel(), &steel()]).with_response(Sprung { modulus, compliance });
     let params = Params::default().with_tolerance(1e-10).with_method(Method::ActiveSet);
-    let found = press(&pair, Boundary::FREE, Control::Load(0.3), &params, &()).unwrap();
-    let (record, solution) = (found.record, found.solution);
+    let found = press(&pair, Boundary::FREE, Control::Load(0.3), FRICTIONLESS, &params, &()).unwrap();
+    let (record, solution) = (found.record, found.solution.into_normal());
     // u = Cp from the coefficients of half-spaces, cell by cell, and from the springs. The gap is never below 0, and it is
     // 0 under pressure below the hardness.
     let mut displacement = Field::zeros(GRID.shape);
@@ -88,9 +90,16 @@ fn a_contact_of_ones_own_bodies_is_that_of_a_sum_of_ones_own_cells() {
     }
     assert!((record.load / 0.3 - 1.0).abs() < 1e-9 && record.contact_area > 0.0);
     // It differs from the contact without springs.
-    let plain = press(&rough_pair([&steel(), &steel()]), Boundary::FREE, Control::Load(0.3), &params, &())
-        .unwrap()
-        .record;
+    let plain = press(
+        &rough_pair([&steel(), &steel()]),
+        Boundary::FREE,
+        Control::Load(0.3),
+        FRICTIONLESS,
+        &params,
+        &(),
+    )
+    .unwrap()
+    .record;
     assert!(record.approach > plain.approach + 1e-3 * size);
 }
 
@@ -144,7 +153,10 @@ fn what_is_not_known_of_a_response_is_refused() {
         assert!(error.to_string().contains(word), "{error}");
     };
     let line = Boundary([Edge::Free, Edge::Periodic]);
-    unsupported(press(&pair(), line, load, &params, &()).unwrap_err(), "periodic along one axis");
+    unsupported(
+        press(&pair(), line, load, FRICTIONLESS, &params, &()).unwrap_err(),
+        "periodic along one axis",
+    );
     let friction = Friction::coulomb(0.2).unwrap();
     let loading = Loading { normal: load, tangential: Tangential::Force([0.01, 0.0]) };
     let stages = [Stage::new(loading, 1)];
@@ -152,7 +164,7 @@ fn what_is_not_known_of_a_response_is_refused() {
         load_in_stages(&pair(), Boundary::FREE, Some(&friction), &stages, &params, None, &(), &mut []);
     unsupported(loaded.map(|_| ()).unwrap_err(), "gross sliding");
     let rolling = Rolling { creep: Creep::Creepage([0.001, 0.0]), spin: 0.0 };
-    let rolled = roll(&pair(), Boundary::FREE, &friction, load, rolling, &params, &());
+    let rolled = press(&pair(), Boundary::FREE, load, SlipRegime::Rolling(friction, rolling), &params, &());
     unsupported(rolled.map(|_| ()).unwrap_err(), "gross sliding");
     for (coupling, slides) in [(Coupling::Full, false), (Coupling::None, true)] {
         let motion = Motion::new(Strategy::Overlap, Control::Load(0.05))

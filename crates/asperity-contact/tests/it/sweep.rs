@@ -3,7 +3,7 @@
 use asperity_base::{Error, Field, Grid};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    LoadedContact, Pair, Point, StaticContact, SweepRecord, SweepState, press, roll, sweep,
+    LoadedContact, Pair, Point, SlipRegime, SweepRecord, SweepState, press, sweep,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Creep, Friction, Method, Params, Rolling};
@@ -39,7 +39,7 @@ fn ball(cells: usize, pitch: f64) -> Pair {
 }
 
 fn at(control: Control) -> Point {
-    Point { control, rolling: None, speed: None }
+    Point { control, regime: SlipRegime::Frictionless, speed: None }
 }
 
 fn swept(
@@ -48,7 +48,7 @@ fn swept(
     points: &[Point],
     params: &Params,
 ) -> (Vec<SweepRecord>, LoadedContact) {
-    sweep(pair, boundary, None, points, params, SweepState::default(), &(), &mut []).unwrap()
+    sweep(pair, boundary, points, params, SweepState::default(), &(), &mut []).unwrap()
 }
 
 #[test]
@@ -72,8 +72,8 @@ fn in_any_order_each_point_is_the_contact_of_its_load_alone_bit_by_bit() {
         let points: Vec<_> = controls.iter().copied().map(at).collect();
         let (records, last) = swept(&pair, boundary, &points, &Params::default());
         for (record, control) in records.iter().zip(&controls) {
-            let StaticContact { record: alone, solution, .. } =
-                press(&pair, boundary, *control, &Params::default(), &()).unwrap();
+            let LoadedContact { record: alone, solution, .. } =
+                press(&pair, boundary, *control, SlipRegime::Frictionless, &Params::default(), &()).unwrap();
             let area = alone.apparent_area;
             assert_eq!(
                 (record.load, record.approach, record.mean_gap, record.contact_area, record.max_pressure),
@@ -89,7 +89,10 @@ fn in_any_order_each_point_is_the_contact_of_its_load_alone_bit_by_bit() {
             );
             assert_eq!(record.plastic_area, alone.plastic_cells as f64 * pair.cell_area());
             if record.point == points.len() {
-                assert_eq!((&last.record, &last.solution.normal().pressure), (&alone, &solution.pressure));
+                assert_eq!(
+                    (&last.record, &last.solution.normal().pressure),
+                    (&alone, &solution.normal().pressure)
+                );
             }
         }
     }
@@ -159,15 +162,13 @@ fn what_rolls_is_swept_as_it_rolls_alone() {
     let pair = ball(24, 1e-6);
     let friction = Friction::coulomb(0.3).unwrap();
     let rolling = Rolling { creep: Creep::Creepage([5e-4, 0.0]), spin: 0.0 };
-    let points =
-        [0.1, 0.03].map(|load| Point { control: Control::Load(load), rolling: Some(rolling), speed: None });
+    let regime = SlipRegime::Rolling(friction, rolling);
+    let points = [0.1, 0.03].map(|load| Point { control: Control::Load(load), regime, speed: None });
     let params = Params::default().with_tolerance(1e-4);
     let (records, _) =
-        sweep(&pair, Boundary::FREE, Some(&friction), &points, &params, SweepState::default(), &(), &mut [])
-            .unwrap();
+        sweep(&pair, Boundary::FREE, &points, &params, SweepState::default(), &(), &mut []).unwrap();
     for (record, point) in records.iter().zip(&points) {
-        let alone =
-            roll(&pair, Boundary::FREE, &friction, point.control, rolling, &params, &()).unwrap().record;
+        let alone = press(&pair, Boundary::FREE, point.control, regime, &params, &()).unwrap().record;
         let shear = alone.shear.unwrap();
         assert_eq!([record.tangential_force_x, record.tangential_force_y], shear.tangential_force);
         assert_eq!((record.stick_area, record.max_shear), (shear.stick_area, shear.max_shear));
@@ -182,10 +183,10 @@ fn a_point_without_an_answer_is_named() {
     let limit = pair.lower_grid().area() * 1e9;
     let points = [0.1, 1.1, 0.2].map(|share| at(Control::Load(share * limit)));
     let error =
-        sweep(&pair, Boundary::FREE, None, &points, &FINE, SweepState::default(), &(), &mut []).unwrap_err();
+        sweep(&pair, Boundary::FREE, &points, &FINE, SweepState::default(), &(), &mut []).unwrap_err();
     assert!(error.to_string().starts_with("point 2 of 3: load"), "{error}");
     assert!(matches!(
-        sweep(&pair, Boundary::FREE, None, &[], &FINE, SweepState::default(), &(), &mut []),
+        sweep(&pair, Boundary::FREE, &[], &FINE, SweepState::default(), &(), &mut []),
         Err(Error::Unsupported(_))
     ));
 }

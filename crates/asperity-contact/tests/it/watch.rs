@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use asperity_base::{Error, Grid};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    Motion, Pair, Point, Progress, Simulation, Strategy, SweepState, Watch, load_in_stages, press, roll,
-    sweep,
+    Motion, Pair, Point, Progress, Simulation, SlipRegime, Strategy, SweepState, Watch, load_in_stages,
+    press, sweep,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Creep, Friction, Loading, Method, Params, Rolling, Tangential};
@@ -54,17 +54,21 @@ fn a_contact_at_rest_tells_how_far_it_is_and_stops_when_it_is_asked_to() {
         let load = Control::Load(1e8 * pair.lower_grid().area());
         let params = Params::default().with_method(method);
         let patient = Patience::new(usize::MAX);
-        let solved = press(&pair, Boundary::FREE, load, &params, &patient).unwrap();
+        let solved = press(&pair, Boundary::FREE, load, SlipRegime::Frictionless, &params, &patient).unwrap();
         let [told, asked] = [&patient.told, &patient.asked].map(|count| count.load(Ordering::Relaxed));
         assert!(method == Method::Direct || told > 2, "{method:?}: told {told} times");
-        assert!(asked as f64 >= 0.5 * solved.solution.stats.convolutions, "{method:?}: asked {asked} times");
+        assert!(
+            asked as f64 >= 0.5 * solved.solution.normal().stats.convolutions,
+            "{method:?}: asked {asked} times"
+        );
         // Every stop is reported, and an uninterrupted computation is the same to the last bit.
         for most in [0, asked / 3, asked / 2, asked - 1] {
-            let stopped = press(&pair, Boundary::FREE, load, &params, &Patience::new(most));
+            let stopped =
+                press(&pair, Boundary::FREE, load, SlipRegime::Frictionless, &params, &Patience::new(most));
             assert!(matches!(stopped, Err(Error::Interrupted)), "{method:?}, {most} of {asked}: {stopped:?}");
         }
-        let alone = press(&pair, Boundary::FREE, load, &params, &()).unwrap();
-        assert_eq!(alone.solution.pressure, solved.solution.pressure);
+        let alone = press(&pair, Boundary::FREE, load, SlipRegime::Frictionless, &params, &()).unwrap();
+        assert_eq!(alone.solution.normal().pressure, solved.solution.normal().pressure);
     }
 }
 
@@ -83,7 +87,8 @@ fn friction_and_rolling_stop_within_an_increment() {
     let rolling = Rolling { creep: Creep::Creepage([1e-3, 0.0]), spin: 0.0 };
     let plain = Friction::coulomb(0.3).unwrap();
     let rolled = |watch: &Patience| {
-        roll(&pair, Boundary::FREE, &plain, Control::Load(load), rolling, &params, watch).map(|_| ())
+        press(&pair, Boundary::FREE, Control::Load(load), SlipRegime::Rolling(plain, rolling), &params, watch)
+            .map(|_| ())
     };
     let run = |n: usize, watch: &Patience| if n == 0 { staged(watch) } else { rolled(watch) };
     for n in [0, 1] {
@@ -107,10 +112,9 @@ fn motions_and_sweeps_that_stop_within_a_solution_say_so_alone() {
         let motion = Motion::new(Strategy::Overlap, load).with_stride(4);
         Simulation::new(pair.clone(), Boundary::FREE, motion, params)?.run(watch, &mut [])
     };
-    let points = [Point { control: load, rolling: None, speed: None }; 2];
+    let points = [Point { control: load, regime: SlipRegime::Frictionless, speed: None }; 2];
     let swept = |watch: &Patience| {
-        sweep(&pair, Boundary::FREE, None, &points, &params, SweepState::default(), watch, &mut [])
-            .map(|_| ())
+        sweep(&pair, Boundary::FREE, &points, &params, SweepState::default(), watch, &mut []).map(|_| ())
     };
     let run = |n: usize, watch: &Patience| if n == 0 { moved(watch) } else { swept(watch) };
     for n in [0, 1] {

@@ -2,7 +2,7 @@
 
 use super::{Case, FrictionSpec, Prescribed};
 use asperity_base::units::SquareMetre;
-use asperity_contact::motion::{Motion, Point, Slide, Stage};
+use asperity_contact::motion::{Motion, Point, Slide, SlipRegime, Stage};
 use asperity_contact::solver::{Loading, Rolling, Tangential};
 
 /// Course of a case: the sequence of prescribed states.
@@ -66,7 +66,7 @@ impl Course {
             Self::Sweep(points) => (None, points.as_slice()),
             Self::Passes(_) | Self::InPlace(_) | Self::Stages(_) => (None, &[][..]),
         };
-        one.into_iter().chain(points.iter().filter_map(|point| point.rolling))
+        one.into_iter().chain(points.iter().filter_map(|point| point.regime.rolling()))
     }
 }
 
@@ -84,13 +84,17 @@ impl Case {
         }
         let friction = self.friction.as_ref();
         let mut rolling = friction.into_iter().flat_map(FrictionSpec::rolling);
+        let regime = |rolling: Option<Rolling>| match friction.zip(rolling) {
+            None => SlipRegime::Frictionless,
+            Some((friction, rolling)) => SlipRegime::Rolling(friction.law, rolling),
+        };
         let normal = self.contact.prescribed().control(apparent_area);
         if friction.is_some_and(FrictionSpec::sweeps) {
-            let point = |rolling| Point { control: normal, rolling: Some(rolling), speed: None };
+            let point = |rolling| Point { control: normal, regime: regime(Some(rolling)), speed: None };
             return Course::Sweep(rolling.map(point).collect());
         }
         if let Some(steady) = &self.steady {
-            let point = |speed| Point { control: normal, rolling: None, speed: Some(speed) };
+            let point = |speed| Point { control: normal, regime: regime(None), speed: Some(speed) };
             return Course::Sweep(steady.all().into_iter().map(point).collect());
         }
         let rolling = rolling.next();
@@ -98,7 +102,7 @@ impl Case {
         if !sweep.is_empty() {
             let point = |prescribed: &Prescribed| Point {
                 control: prescribed.control(apparent_area),
-                rolling,
+                regime: regime(rolling),
                 speed: None,
             };
             return Course::Sweep(sweep.iter().map(point).collect());

@@ -393,7 +393,9 @@ impl Sizes<'_> {
                 let together = if case.relaxes() { 1.0 } else { together(positions) };
                 [convolutions * positions as f64, effort / together + beside]
             }
-            Course::InPlace(slide) => of(normal, 2.0 + slide.ends.len() as f64),
+            Course::InPlace(slide) => {
+                of(if self.is_coupled() { SLIDING } else { normal }, 2.0 + slide.ends.len() as f64)
+            }
             Course::Rolling(_) => of(rolling, 1.0),
             Course::Stages(stages) => {
                 let shear = match case.friction.as_ref().map(|friction| friction.law.coupling) {
@@ -408,7 +410,7 @@ impl Sizes<'_> {
                 of(Cost { convolutions: larger * STEADY.convolutions, ..STEADY }, points.len() as f64)
             }
             Course::Sweep(points) => {
-                let rolls = points.iter().filter(|point| point.rolling.is_some()).count() as f64;
+                let rolls = points.iter().filter(|point| point.regime.rolling().is_some()).count() as f64;
                 let [a, b] = [of(rolling, rolls), of(normal, points.len() as f64 - rolls)];
                 // Only the stiffness of hard walls is computed.
                 let each = if case.interface.is_empty() { STIFFNESS } else { 0.0 };

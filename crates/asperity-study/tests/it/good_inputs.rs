@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use asperity_base::Grid;
 use asperity_contact::adhesion::Potential;
 use asperity_contact::material::Coating;
-use asperity_contact::motion::{LoadControl, PlasticUpdate, Point, Stage, Strategy};
+use asperity_contact::motion::{LoadControl, PlasticUpdate, Point, SlipRegime, Stage, Strategy};
 use asperity_contact::solver::{self, Coupling, Creep, Friction, Loading, Rolling, Tangential};
 use asperity_contact::with::adhesion::AdhesionRange;
 use asperity_study::bodies;
@@ -374,8 +374,9 @@ fn a_sweep_has_its_points_in_the_order_given_and_the_largest_is_prescribed() {
     );
 
     let Course::Sweep(points) = load("swept_rolling").course(1.0) else { panic!() };
-    let rolling = Some(Rolling { creep: Creep::Creepage([1e-3, 0.0]), spin: 0.0 });
-    let point = |load| Point { control: solver::Control::Load(load), rolling, speed: None };
+    let rolling = Rolling { creep: Creep::Creepage([1e-3, 0.0]), spin: 0.0 };
+    let regime = SlipRegime::Rolling(load("swept_rolling").friction.unwrap().law, rolling);
+    let point = |load| Point { control: solver::Control::Load(load), regime, speed: None };
     assert_eq!(points, [point(2.0), point(4.0)]);
 }
 
@@ -386,13 +387,13 @@ fn creepages_are_points_of_a_sweep_under_one_load() {
     let Course::Sweep(points) = case.course(1.0) else { panic!() };
     assert!(points.iter().all(|point| point.control == solver::Control::Load(2.0)));
     let creepages = |points: &[Point]| -> Vec<[f64; 2]> {
-        let creepage = |point: &Point| match point.rolling.unwrap().creep {
+        let creepage = |point: &Point| match point.regime.rolling().unwrap().creep {
             Creep::Creepage(creepage) => creepage,
             Creep::Force(_) => panic!(),
         };
         points.iter().map(creepage).collect()
     };
-    assert!(points.iter().all(|point| point.rolling.unwrap().spin == 3.0));
+    assert!(points.iter().all(|point| point.regime.rolling().unwrap().spin == 3.0));
     let by_ratio = creepages(&points);
     for (k, [x, y]) in by_ratio.into_iter().enumerate() {
         assert!((x / 10f64.powf(-4.0 + 0.5 * k as f64) - 1.0).abs() < 1e-12 && y == 0.0, "{k}: {x}, {y}");

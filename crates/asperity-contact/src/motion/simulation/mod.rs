@@ -91,8 +91,7 @@ impl Simulation {
             None => pair.lower.columns().min(pair.upper.columns()),
             Some(_) => pair.lower.columns().max(pair.upper.columns()),
         });
-        let displaces =
-            motion.sliding(Stroke::Forth).is_some_and(|s| s.shear_displaces_normally(pair.couples()));
+        let displaces = motion.slip(Stroke::Forth).displaces_normally(&pair);
         pair.interface().check_passes(motion.strategy != Strategy::Overlap, displaces, &params)?;
         if displaces {
             params.device.only_processor(
@@ -257,6 +256,7 @@ impl Simulation {
     /// # Panics
     /// If no body is given, or if the grid of one differs from that of its surface.
     pub fn with_plastic(self, bodies: [Option<PlasticBody>; 2], plastic: PlasticParams) -> Result<Self> {
+        self.pair.interface().check_combined()?;
         let refused = if self.pair.creep().is_some() {
             "viscoelastic bodies do not flow plastically"
         } else if self.pair.yields() {
@@ -280,7 +280,7 @@ impl Simulation {
             return Err(Error::Unsupported(refused));
         }
         let Self { pair, operators, positions, params, boundary, .. } = &self;
-        let volumes = Volumes::new(bodies, pair, operators, &positions[0], *boundary, (plastic, *params));
+        let volumes = Volumes::new(bodies, pair, operators, &positions[0], *boundary, (plastic, params))?;
         Ok(Self { distinct: self.positions.len(), together: false, volumes: Some(volumes), ..self })
     }
 
@@ -550,12 +550,11 @@ fn check_creep(pair: &Pair, boundary: Boundary, motion: &Motion, params: &Params
     }
     pair.check_creep()?;
     params.device.only_processor("a device does not solve contacts of viscoelastic bodies")?;
-    let sliding = motion.sliding(Stroke::Forth);
     let refused = if !motion.step_time(pair.pitch()[0]).is_finite() {
         "viscoelastic bodies need the speed of their motion"
     } else if motion.strategy != Strategy::Overlap && !boundary.repeats(0) {
         "a viscoelastic body in a shift needs a boundary that is periodic along x"
-    } else if sliding.is_some_and(|sliding| sliding.shear_displaces_normally(pair.couples())) {
+    } else if motion.slip(Stroke::Forth).displaces_normally(pair) {
         "viscoelastic bodies are not solved together with shear that displaces them normally"
     } else {
         let is_time = motion.pause >= 0.0 && motion.pause.is_finite();
@@ -607,7 +606,7 @@ fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Pos
 
 /// Largest load that the cells at a position can carry together.
 fn max_load(pair: &Pair, motion: &Motion, position: &Position) -> Newton {
-    let bounds = pair.bounds(position, motion.friction.as_ref());
+    let bounds = motion.bounds(pair, position);
     pair.cell_area() * bounds.upper().sum(pair.grid(position.columns).cells())
 }
 

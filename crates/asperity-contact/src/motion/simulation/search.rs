@@ -9,6 +9,7 @@ use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Position;
+use crate::motion::slip::SlipRegime;
 use crate::motion::warm_start::Guess;
 use crate::motion::watch::Watch;
 use crate::solver::{Control, Device, Params};
@@ -107,7 +108,7 @@ impl Simulation {
         earlier: &[Vec<Contact>],
     ) -> Result<Option<Pass>> {
         match &self.volumes {
-            Some(volumes) => solver.solve_elasto_plastic(volumes, pair, control).map(Some),
+            Some(volumes) => solver.solve_elasto_plastic(volumes, pair, control, &self.params).map(Some),
             None if pair.creep().is_some() => {
                 solver.solve_creeping(pair, control, &self.params, earlier).map(Some)
             }
@@ -135,7 +136,7 @@ impl Simulation {
                 pair,
                 &self.operators,
                 *fullest,
-                None,
+                SlipRegime::Frictionless,
                 control,
                 start.as_ref(),
                 None,

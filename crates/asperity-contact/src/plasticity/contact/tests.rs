@@ -5,7 +5,7 @@ use crate::grid::Grid;
 use crate::material::Material;
 use crate::operator::{Boundary, PeriodicFft};
 use crate::plasticity::{Hardening, J2, Layers, Volume};
-use crate::solver::solve_normal;
+use crate::solver::{Friction, Frictionless, HardWall, StickSlip, solve_normal};
 
 /// A rigid sphere on a body with E = 1, ν = 0.3 that yields at 0.003 without hardening, period 1: the case of an
 /// independent program.
@@ -51,7 +51,8 @@ fn contact(n: usize, bodies: [Option<PlasticBody>; 2], flow: PlasticParams) -> P
 fn facing(operator: PeriodicFft, initial_gap: Field, first: [[usize; 2]; 2]) -> RelativePosition {
     let placements =
         first.map(|first| Placement::new([initial_gap.nrows(), initial_gap.ncols()], first, 0.0));
-    RelativePosition { interface: Interface::Frictionless(Box::new(operator)), initial_gap, placements }
+    let solver = Box::new(Frictionless::new(Box::new(operator), Arc::new(HardWall)));
+    RelativePosition { solver, initial_gap, placements }
 }
 
 fn sphere(n: usize, layers: usize) -> PlasticContact {
@@ -340,12 +341,9 @@ fn the_work_of_pressure_and_friction_is_stored_and_spent() {
             let law = J2::new(Hardening::linear(yields, 0.05).unwrap());
             Some(PlasticBody::new(Volume::new(grid, layers, boundary, material).unwrap(), Arc::new(law)))
         };
-        let interface = Interface::Frictional(operators.coupled_on(grid.shape), friction);
-        let facing = RelativePosition {
-            interface,
-            initial_gap: gap(n),
-            placements: [Placement::flush(grid.shape); 2],
-        };
+        let solver = Box::new(StickSlip::new(operators.coupled_on(grid.shape), Arc::new(HardWall), friction));
+        let facing =
+            RelativePosition { solver, initial_gap: gap(n), placements: [Placement::flush(grid.shape); 2] };
         let params = Params::default().with_tolerance(1e-9);
         let flow = PlasticParams::new().with_tolerance(1e-6);
         let mut contact =
@@ -403,9 +401,9 @@ fn friction_without_flow_is_that_of_elastic_bodies() {
     let layers = Layers::new(0.35, 4, 1.0).unwrap();
     let volume = Volume::new(grid, layers, Boundary::FREE, &steel()).unwrap();
     let strong = PlasticBody::new(volume, Arc::new(J2::new(Hardening::perfect(1.0).unwrap())));
-    let interface = Interface::Frictional(operators.coupled_on(grid.shape), friction);
+    let solver = Box::new(StickSlip::new(operators.coupled_on(grid.shape), Arc::new(HardWall), friction));
     let facing =
-        RelativePosition { interface, initial_gap: gap(n), placements: [Placement::flush(grid.shape); 2] };
+        RelativePosition { solver, initial_gap: gap(n), placements: [Placement::flush(grid.shape); 2] };
     let params = Params::default();
     let mut contact = PlasticContact::new(facing, [Some(strong), None], PlasticParams::new(), params);
     let mut before = None;

@@ -10,9 +10,9 @@ use crate::solver::friction::bodies::Bodies;
 use crate::solver::friction::shear::{Answer, Method, Rigid, Task, method};
 use crate::solver::friction::transport::History;
 use crate::solver::friction::yielding::{bounds_under_shear, shear_limits, start_within};
-use crate::solver::friction::{Friction, FrictionalSolution, Loading, Tangential, self_compliance};
+use crate::solver::friction::{Friction, FrictionalProblem, FrictionalSolution, Tangential, self_compliance};
 use crate::solver::residual::{Residual, residual};
-use crate::solver::{Bounds, Params, Solution, Stats, Watch, solve_normal_watched};
+use crate::solver::{Before, Bounds, Interface, NormalProblem, Params, Solution, Stats, Watch};
 use crate::units::Metre;
 use asperity_base::math::active_set::residual_scale;
 use asperity_base::watch::InnerWatch;
@@ -37,56 +37,54 @@ const MAX_ROUNDS: usize = 200;
 
 /// The state in which an increment begins.
 #[derive(Default)]
-pub(crate) struct Start {
+pub(super) struct Start {
     /// A pressure near the solution.
-    pub(crate) pressure: Option<Field>,
+    pub(super) pressure: Option<Field>,
     /// The bounds of that pressure.
-    pub(crate) bounds: Option<Bounds>,
+    pub(super) bounds: Option<Bounds>,
     /// The shear with this pressure.
-    pub(crate) shear: Option<[Field; 2]>,
+    pub(super) shear: Option<[Field; 2]>,
     /// Reference of the slip.
-    pub(crate) history: History,
+    pub(super) history: History,
 }
 
 impl Start {
-    /// After an increment.
-    pub(crate) fn after(before: &FrictionalSolution) -> Self {
+    /// Begins with the tractions of a contact, without its history.
+    pub(super) fn near(contact: &FrictionalSolution) -> Self {
         Self {
-            pressure: Some(before.normal.pressure.clone()),
-            bounds: Some(before.normal.bounds.clone()),
-            shear: Some(before.shear.clone()),
-            history: History::Increment(before.whole_slip()),
+            pressure: Some(contact.normal.pressure.clone()),
+            bounds: Some(contact.normal.bounds.clone()),
+            shear: Some(contact.shear.clone()),
+            history: History::None,
         }
+    }
+
+    /// Sets the reference of the slip.
+    pub(super) fn with_history(self, history: History) -> Self {
+        Self { history, ..self }
     }
 }
 
-/// Solves one increment. `unsheared` are the bounds of cells without shear; in sliding, the bounds under shear. If it
-/// fails, it adds its cost to `failed`.
-#[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
+/// Solves one increment. The bounds of the `problem` are those of cells without shear; in sliding, those under shear. If it fails, it adds
+/// its cost to `failed`.
 pub(super) fn alternate(
     operator: &mut dyn CoupledOperator,
-    initial_gap: &Field,
-    unsheared: Bounds,
+    interface: &dyn Interface,
     friction: Friction,
-    loading: Loading,
+    problem: &FrictionalProblem<'_>,
     start: Start,
-    params: &Params,
-    watch: &dyn Watch,
     failed: &mut Stats,
 ) -> Result<FrictionalSolution> {
-    let slides = matches!(loading.tangential, Tangential::Sliding(_));
-    let grows_junctions = friction.grows_junctions(unsheared.upper().min()) && !slides;
+    let slides = matches!(problem.tangential, Tangential::Sliding(_));
+    let grows_junctions = friction.grows_junctions(problem.normal.bounds.upper().min()) && !slides;
     let mut increment = Increment {
         bodies: Bodies { operator, coupling: friction.coupling, convolutions: 0.0 },
-        initial_gap,
+        interface,
         friction,
         grows_junctions,
-        loading,
+        problem,
         history: start.history,
-        params,
-        watch,
-        within: &InnerWatch(watch),
-        unsheared: &unsheared,
+        within: &InnerWatch(problem.normal.watch),
         shear_method: None,
         stats: Stats::default(),
     };
@@ -100,16 +98,12 @@ pub(super) fn alternate(
 /// An increment of the loading: data that are the same in all rounds, and the cost of the rounds.
 struct Increment<'a> {
     bodies: Bodies<'a>,
-    initial_gap: &'a Field,
-    /// Bounds of the pressure of cells without shear.
-    unsheared: &'a Bounds,
+    interface: &'a dyn Interface,
     friction: Friction,
     /// Whether shear lowers the pressure of plastic cells, so that their junctions grow.
     grows_junctions: bool,
-    loading: Loading,
+    problem: &'a FrictionalProblem<'a>,
     history: History,
-    params: &'a Params,
-    watch: &'a dyn Watch,
     /// The watch of the solutions within a round.
     within: &'a dyn Watch,
     shear_method: Option<Box<dyn Method>>,
@@ -124,13 +118,13 @@ impl Increment<'_> {
         bounds: Option<Bounds>,
         shear: Option<[Field; 2]>,
     ) -> Result<FrictionalSolution> {
-        let (params, unsheared) = (self.params, self.unsheared);
+        let NormalProblem { gap: initial_gap, bounds: unsheared, params, watch, .. } = self.problem.normal;
         let mut bounds = bounds.unwrap_or_else(|| unsheared.clone());
         let mut shear_displacement = shear.as_ref().and_then(|shear| self.bodies.normal_displacement(shear));
-        let shape = self.initial_gap.raw_dim();
+        let shape = initial_gap.raw_dim();
         let mut shear = shear.unwrap_or_else(|| [Field::zeros(shape), Field::zeros(shape)]);
         let mut combined = pressure.as_ref().and_then(|pressure| self.combined_bounds(pressure, &shear));
-        let alternates = self.bodies.shear_displaces_normally() || self.grows_junctions;
+        let alternates = self.alternates();
         let mut tolerance = if alternates {
             FIRST_TOLERANCE.max(MIN_TOLERANCE_SHARE * params.tolerance)
         } else {
@@ -161,9 +155,9 @@ impl Increment<'_> {
                 (normal.residual, normal.approach) = (state.eta, state.approach);
             }
             normal.residual = normal.residual.max(answer.residual);
-            self.watch.iteration(normal.residual, params.tolerance);
+            watch.iteration(normal.residual, params.tolerance);
             if normal.residual <= params.tolerance {
-                return Ok(self.finish(normal, bounds, limit, shear, answer.rigid));
+                return Ok(self.finish(normal, limit, shear, answer.rigid));
             }
             let reached = normal.residual;
             relaxation = if reached < last {
@@ -190,6 +184,11 @@ impl Increment<'_> {
         Err(Error::NotConverged { iterations, residual: last, tolerance })
     }
 
+    /// Whether shear changes the pressures, so that the two problems alternate.
+    fn alternates(&self) -> bool {
+        self.bodies.shear_displaces_normally() || self.grows_junctions
+    }
+
     /// Returns the cost so far.
     fn cost(&self) -> Stats {
         let mut stats = self.stats;
@@ -202,7 +201,8 @@ impl Increment<'_> {
 
     /// Returns the bounds of a `pressure` with a `shear`, if junctions grow.
     fn combined_bounds(&self, pressure: &Field, shear: &[Field; 2]) -> Option<Bounds> {
-        self.grows_junctions.then(|| bounds_under_shear(&self.friction, self.unsheared, pressure, shear))
+        self.grows_junctions
+            .then(|| bounds_under_shear(&self.friction, self.problem.normal.bounds, pressure, shear))
     }
 
     /// Solves the normal problem under a shear that displaces the surface normally by `shear_displacement`, with
@@ -215,9 +215,10 @@ impl Increment<'_> {
         bounds: &mut Bounds,
         tolerance: f64,
     ) -> Result<Solution> {
-        let displaced = shear_displacement.map(|u| self.initial_gap + u);
-        let gap = displaced.as_ref().unwrap_or(self.initial_gap);
-        let params = Params { tolerance, ..*self.params };
+        let NormalProblem { gap: initial_gap, bounds: unsheared, .. } = self.problem.normal;
+        let displaced = shear_displacement.map(|u| initial_gap + u);
+        let gap = displaced.as_ref().unwrap_or(initial_gap);
+        let params = &Params { tolerance, ..*self.problem.normal.params };
         let start = match (pressure, combined) {
             (Some(pressure), Some(combined)) => {
                 let start = start_within(pressure, bounds, &combined);
@@ -225,20 +226,14 @@ impl Increment<'_> {
                 Some(Cow::Owned(start))
             }
             (start, _) => {
-                *bounds = self.unsheared.clone();
+                *bounds = unsheared.clone();
                 start.map(Cow::Borrowed)
             }
         };
+        let before = start.as_deref().map_or(Before::Apart, Before::Guess);
+        let normal = NormalProblem { gap, bounds, before, params, watch: self.within, ..self.problem.normal };
         let operator = self.bodies.operator.normal();
-        let solution = solve_normal_watched(
-            operator,
-            gap,
-            bounds,
-            self.loading.normal,
-            start.as_deref(),
-            &params,
-            self.within,
-        )?;
+        let solution = normal.solve(operator, self.interface, self.problem.compliance)?;
         self.stats = self.stats.and(&solution.stats);
         Ok(solution)
     }
@@ -251,7 +246,7 @@ impl Increment<'_> {
         shear: &[Field; 2],
         tolerance: f64,
     ) -> Result<Answer> {
-        let control = match self.loading.tangential {
+        let control = match self.problem.tangential {
             Tangential::Displacement(displacement) => Rigid::Displacement(displacement),
             Tangential::Force(force) => Rigid::Force(force),
             Tangential::Sliding(direction) => {
@@ -263,7 +258,13 @@ impl Increment<'_> {
         let scale = shear_scale(normal, limit, self.bodies.operator);
         let solver = self.shear_method.get_or_insert_with(|| method(&self.history, self.bodies.operator));
         let task = Task { limit, free_slip: &free_slip, control, scale, tolerance };
-        solver.solve(self.bodies.operator, &task, shear, self.params.max_convolutions, self.within)
+        solver.solve(
+            self.bodies.operator,
+            &task,
+            shear,
+            self.problem.normal.params.max_convolutions,
+            self.within,
+        )
     }
 
     /// Computes the residual of the pressure under the shear that follows from it.
@@ -271,12 +272,12 @@ impl Increment<'_> {
         // The multiplier of the load does not depend on cells that leave their upper bounds by a small amount.
         let approach = match self.grows_junctions {
             true => Some(normal.approach),
-            false => self.loading.normal.approach(),
+            false => self.problem.normal.control.approach(),
         };
         residual(
             &normal.pressure,
             &normal.displacement,
-            self.initial_gap,
+            self.problem.normal.gap,
             bounds,
             self.bodies.operator.self_influence().zz,
             approach,
@@ -286,16 +287,14 @@ impl Increment<'_> {
     fn finish(
         &mut self,
         mut normal: Solution,
-        bounds: Bounds,
         shear_limit: Field,
         shear: [Field; 2],
         rigid: [Metre; 2],
     ) -> FrictionalSolution {
         let displacement = self.bodies.displacement(&shear, &normal.pressure);
-        normal.initial_gap.assign(self.initial_gap);
-        normal.bounds = bounds;
+        normal.initial_gap.assign(self.problem.normal.gap);
         normal.stats = self.cost();
-        let (slip, stick) = match self.loading.tangential {
+        let (slip, stick) = match self.problem.tangential {
             Tangential::Sliding(_) => {
                 let none = || Field::zeros(shear_limit.raw_dim());
                 ([none(), none()], none())

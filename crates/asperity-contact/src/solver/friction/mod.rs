@@ -6,22 +6,23 @@ mod disc;
 mod law;
 mod rolling;
 mod shear;
+mod sliding;
+mod stick_slip;
 mod transport;
 mod yielding;
 
 pub use law::{Coupling, Friction};
-pub(crate) use rolling::solve_rolling_watched;
+pub(super) use rolling::roll;
 pub use rolling::{Creep, Rolling, RollingSolution, solve_rolling};
+pub use sliding::Sliding;
+pub(super) use sliding::solve_sliding;
+pub use stick_slip::solve_frictional;
+pub(super) use stick_slip::solve_stick_slip;
 
-use crate::error::{Result, check, check_in};
-use crate::grid::{Field, in_rows};
+use crate::grid::{CellValues, Field};
 use crate::operator::CoupledOperator;
-use crate::solver::{Bounds, Control, Params, Solution, Stats, Watch};
-use crate::units::{Dimension, Joule, Metre, Newton, Pascal};
-
-pub(crate) use alternate::Start;
-use alternate::alternate;
-pub(crate) use transport::History;
+use crate::solver::{Control, NormalProblem, Solution};
+use crate::units::{Joule, Metre, Newton, Pascal};
 
 /// Prescribed displacement, force or sliding direction in the plane, along x and y.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,27 +35,6 @@ pub enum Tangential {
     Sliding([f64; 2]),
 }
 
-/// Gross sliding of two bodies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sliding {
-    /// Friction of the bodies.
-    pub friction: Friction,
-    /// Direction in which the upper body slides, a unit vector.
-    pub direction: [f64; 2],
-}
-
-impl Sliding {
-    /// Returns the shear on the lower body of a cell under `pressure`.
-    pub fn shear(&self, pressure: Pascal) -> [Pascal; 2] {
-        self.direction.map(|n| n * self.friction.shear_limit(pressure))
-    }
-
-    /// Whether the shear displaces these bodies normally.
-    pub fn shear_displaces_normally(&self, couples: bool) -> bool {
-        self.friction.coefficient > 0.0 && self.friction.coupling.shear_displaces_normally(couples)
-    }
-}
-
 /// Prescribed loading of a contact at the end of an increment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loading {
@@ -62,6 +42,24 @@ pub struct Loading {
     pub normal: Control,
     /// Tangential loading.
     pub tangential: Tangential,
+}
+
+impl Loading {
+    /// Creates a loading without tangential force.
+    pub const fn pressing(normal: Control) -> Self {
+        Self { normal, tangential: Tangential::Force([0.0; 2]) }
+    }
+}
+
+/// A contact with friction to be solved.
+#[derive(Clone, Copy)]
+pub(super) struct FrictionalProblem<'a> {
+    /// The normal problem, with the bounds of cells without shear.
+    pub(super) normal: NormalProblem<'a>,
+    /// The prescribed loading in the plane.
+    pub(super) tangential: Tangential,
+    /// Additional compliance of each cell under its own pressure, m/Pa.
+    pub(super) compliance: Option<&'a CellValues>,
 }
 
 /// A contact with friction in equilibrium, at the end of an increment of its loading.
@@ -138,118 +136,6 @@ impl FrictionalSolution {
             }
         }
         self.normal.grid.cell_area() * sum
-    }
-}
-
-/// Solves one implicit increment of a contact with friction: the normal contact of [`crate::solver::solve_normal`]
-/// together with
-///
-/// ```text
-/// |q| ≤ g = min(μp, τ);   |q| < g ⇒ Δs = 0;   |q| = g ⇒ Δs = λ q, λ ≥ 0
-/// s = D − u(q, p),   Δs = s − s₀
-/// ```
-///
-/// s₀ is the slip of the solution `before`; none for bodies that have not touched yet. Normal and tangential problems
-/// are solved alternately, each for the tractions of the other (Panagiotopoulos 1975), until both are solved. One
-/// round is enough if shear neither displaces the surface normally nor lowers its caps. Residuals are η of
-/// [`crate::solver::residual()`] and
-///
-/// ```text
-/// max |c (q − P(q + Δs/c))| / (f std(u_z)),   P onto |q| ≤ g,   f = min(1, Σg/Σp),   c = ½(C^xx + C^yy) of a cell
-/// ```
-///
-/// # Errors
-/// Returns the errors of [`crate::solver::solve_normal`]; [`crate::Error::BeyondFriction`] for a force that friction cannot hold.
-///
-/// # Panics
-/// If a field has another shape than the operator's grid.
-pub fn solve_frictional(
-    operator: &mut dyn CoupledOperator,
-    initial_gap: &Field,
-    bounds: &Bounds,
-    friction: &Friction,
-    loading: Loading,
-    before: Option<&FrictionalSolution>,
-    params: &Params,
-) -> Result<FrictionalSolution> {
-    solve_frictional_watched(operator, &in_rows(initial_gap), bounds, friction, loading, before, params, &())
-}
-
-/// [`solve_frictional`] with a watch.
-#[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
-pub(crate) fn solve_frictional_watched(
-    operator: &mut dyn CoupledOperator,
-    initial_gap: &Field,
-    bounds: &Bounds,
-    friction: &Friction,
-    loading: Loading,
-    before: Option<&FrictionalSolution>,
-    params: &Params,
-    watch: &dyn Watch,
-) -> Result<FrictionalSolution> {
-    let start = before.map_or_else(Start::default, Start::after);
-    let failed = &mut Stats::default();
-    solve_frictional_from(operator, initial_gap, bounds, friction, loading, start, params, watch, failed)
-}
-
-/// [`solve_frictional`] from a given state, with a watch. If it fails, it adds its cost to `failed`.
-#[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
-pub(crate) fn solve_frictional_from(
-    operator: &mut dyn CoupledOperator,
-    initial_gap: &Field,
-    bounds: &Bounds,
-    friction: &Friction,
-    loading: Loading,
-    start: Start,
-    params: &Params,
-    watch: &dyn Watch,
-    failed: &mut Stats,
-) -> Result<FrictionalSolution> {
-    params.device.only_processor("a device does not solve friction with stick")?;
-    let friction = friction.checked()?;
-    validate(&loading.tangential)?;
-    let bounds = match loading.tangential {
-        Tangential::Sliding(_) => friction.sliding_bounds(bounds),
-        _ => bounds.clone(),
-    };
-    alternate(operator, initial_gap, bounds, friction, loading, start, params, watch, failed)
-}
-
-/// Solves the contact of sliding bodies, like [`solve_frictional`] with [`Tangential::Sliding`], from a pressure near
-/// the solution. The `bounds` include the effect of the shear, see [`Friction::sliding_bounds`].
-#[expect(clippy::too_many_arguments, reason = "the contact, where it begins, and who looks on")]
-pub(crate) fn solve_sliding(
-    operator: &mut dyn CoupledOperator,
-    initial_gap: &Field,
-    bounds: &Bounds,
-    sliding: &Sliding,
-    normal: Control,
-    pressure: Option<&Field>,
-    params: &Params,
-    watch: &dyn Watch,
-) -> Result<FrictionalSolution> {
-    params
-        .device
-        .only_processor("a device does not solve sliding whose shear displaces the bodies normally")?;
-    let loading = Loading { normal, tangential: Tangential::Sliding(sliding.direction) };
-    let start = Start { pressure: pressure.cloned(), ..Start::default() };
-    let failed = &mut Stats::default();
-    alternate(operator, initial_gap, bounds.clone(), sliding.friction, loading, start, params, watch, failed)
-}
-
-/// Returns an error if the tangential loading is out of range.
-fn validate(tangential: &Tangential) -> Result<()> {
-    match *tangential {
-        Tangential::Displacement(displacement) => displacement.into_iter().try_for_each(|d| {
-            check_in(Dimension::Length, "tangential displacement", d, d.is_finite(), "a finite length")
-        }),
-        Tangential::Force(force) => force.into_iter().try_for_each(|f| {
-            check_in(Dimension::Force, "tangential force", f, f.is_finite(), "a finite force")
-        }),
-        Tangential::Sliding([x, y]) => {
-            let length = x.hypot(y);
-            check("length of the sliding direction", length, (length - 1.0).abs() < 1e-9, "a unit vector")
-        }
     }
 }
 

@@ -3,12 +3,12 @@
 use crate::error::{Error, Result, check};
 use crate::grid::{Field, Grid, in_rows};
 use crate::operator::{Boundary, CoupledOperator};
+use crate::solver::friction::alternate::Start;
 use crate::solver::friction::bodies::Bodies;
-use crate::solver::friction::transport::{ShiftByCell, SteadyMethod, Transport};
-use crate::solver::friction::{
-    Friction, FrictionalSolution, History, Loading, Start, Tangential, solve_frictional_from,
-};
-use crate::solver::{Bounds, Control, Params, Stats, Watch};
+use crate::solver::friction::stick_slip::solve_increment;
+use crate::solver::friction::transport::{History, ShiftByCell, SteadyMethod, Transport};
+use crate::solver::friction::{Friction, FrictionalProblem, FrictionalSolution, Tangential};
+use crate::solver::{Before, Bounds, Control, HardWall, Interface, NormalProblem, Params, Stats, Watch};
 use crate::units::{Joule, Newton};
 use asperity_base::watch::InnerWatch;
 
@@ -51,6 +51,8 @@ pub struct RollingSolution {
     pub contact: FrictionalSolution,
     /// Creepage ξ along x and y: velocity of the upper body relative to the lower one, over the rolling velocity.
     pub creepage: [f64; 2],
+    /// Prescribed spin φ, 1/m.
+    pub spin: f64,
     /// Energy dissipated by friction while the contact moves by one cell, from the work of the force Q and the
     /// moment M:
     ///
@@ -112,24 +114,25 @@ pub fn solve_rolling(
     rolling: Rolling,
     params: &Params,
 ) -> Result<RollingSolution> {
-    solve_rolling_watched(operator, &in_rows(initial_gap), bounds, friction, normal, rolling, params, &())
+    let gap = in_rows(initial_gap);
+    let (control, before) = (normal, Before::Apart);
+    let normal = NormalProblem { gap: &gap, bounds, control, before, params, watch: &() };
+    let problem = FrictionalProblem { normal, tangential: Tangential::Force([0.0; 2]), compliance: None };
+    roll(operator, &HardWall, friction, rolling, &problem)
 }
 
-/// [`solve_rolling`] with a watch.
-#[expect(clippy::too_many_arguments, reason = "the contact, what is asked of it, and who looks on")]
-pub(crate) fn solve_rolling_watched(
+/// Solves the steady state of bodies that roll under the normal loading of a `problem`.
+pub(in crate::solver) fn roll(
     operator: &mut dyn CoupledOperator,
-    initial_gap: &Field,
-    bounds: &Bounds,
+    interface: &dyn Interface,
     friction: &Friction,
-    normal: Control,
     rolling: Rolling,
-    params: &Params,
-    watch: &dyn Watch,
+    problem: &FrictionalProblem<'_>,
 ) -> Result<RollingSolution> {
     let grid = *operator.grid();
     let pitch = grid.pitch[0];
     let boundary = operator.normal().boundary();
+    let params = problem.normal.params;
     params.device.only_processor("a device does not solve rolling")?;
     check("spin", rolling.spin, rolling.spin.is_finite(), "a finite number")?;
     if rolling.spin != 0.0 && boundary != Boundary::FREE {
@@ -146,21 +149,12 @@ pub(crate) fn solve_rolling_watched(
     };
     let turn = [-lever(&grid, 1), lever(&grid, 0)].map(|arm| arm * (rolling.spin * pitch));
     let transport = Transport { ahead: ShiftByCell::on(operator), turn, method: SteadyMethod::Newton };
-    let loading = Loading { normal, tangential };
     let mut spent = Stats::default();
-    let mut solve = |loading, start, tolerance, watch: &dyn Watch| {
-        let params = Params { tolerance, ..*params };
-        let found = solve_frictional_from(
-            operator,
-            initial_gap,
-            bounds,
-            friction,
-            loading,
-            start,
-            &params,
-            watch,
-            &mut spent,
-        )?;
+    let mut solve = |tangential, start, tolerance, watch: &dyn Watch| {
+        let params = &Params { tolerance, ..*params };
+        let normal = NormalProblem { params, watch, ..problem.normal };
+        let problem = FrictionalProblem { normal, tangential, ..*problem };
+        let found = solve_increment(operator, interface, friction, &problem, start, &mut spent)?;
         spent = spent.and(&found.normal.stats);
         Ok(found)
     };
@@ -168,12 +162,13 @@ pub(crate) fn solve_rolling_watched(
         let history = History::Rolling(Transport { method, ..transport.clone() });
         Start { history, ..Start::default() }
     };
-    let mut found = solve(loading, steady(SteadyMethod::Newton), params.tolerance, watch);
+    let watch = problem.normal.watch;
+    let mut found = solve(tangential, steady(SteadyMethod::Newton), params.tolerance, watch);
     if matches!(found, Err(Error::NotConverged { .. })) {
-        found = cell_by_cell(&mut solve, loading, &transport, grid.shape[0], params.tolerance, watch);
+        found = cell_by_cell(&mut solve, tangential, &transport, grid.shape[0], params.tolerance, watch);
     }
     if matches!(found, Err(Error::NotConverged { .. })) {
-        found = solve(loading, steady(SteadyMethod::ProximalPoint), params.tolerance, watch);
+        found = solve(tangential, steady(SteadyMethod::ProximalPoint), params.tolerance, watch);
     }
     let mut contact = found?;
     contact.normal.stats = spent;
@@ -181,7 +176,7 @@ pub(crate) fn solve_rolling_watched(
     let given: f64 = creepage.iter().zip(contact.force()).map(|(xi, force)| xi * force).sum();
     let given = pitch * (given + rolling.spin * contact.moment());
     let dissipation = given + work_of_pressure(operator, friction, &mut contact);
-    Ok(RollingSolution { contact, creepage, dissipation })
+    Ok(RollingSolution { contact, creepage, spin: rolling.spin, dissipation })
 }
 
 /// Computes the work ΔA Σ q·[v(x + Δx) − v(x − Δx)]/2 while the contact moves by one cell, with v the tangential
@@ -230,8 +225,8 @@ fn work_of_pressure(
 /// Rolls cell by cell from the state without creepage until the relative change of the shear is below the tolerance.
 /// `solve` computes the increment of each cell.
 fn cell_by_cell(
-    solve: &mut impl FnMut(Loading, Start, f64, &dyn Watch) -> Result<FrictionalSolution>,
-    loading: Loading,
+    solve: &mut impl FnMut(Tangential, Start, f64, &dyn Watch) -> Result<FrictionalSolution>,
+    tangential: Tangential,
     transport: &Transport,
     length: usize,
     tolerance: f64,
@@ -239,14 +234,14 @@ fn cell_by_cell(
 ) -> Result<FrictionalSolution> {
     let within = InnerWatch(watch);
     let mut present = FIRST_TOLERANCE.max(tolerance);
-    let unloaded = Loading { tangential: Tangential::Force([0.0; 2]), ..loading };
+    let unloaded = Tangential::Force([0.0; 2]);
     let mut state = solve(unloaded, Start::default(), present, &within)?;
     let mut iterations = state.normal.stats.iterations;
     let (mut left, mut before) = (f64::INFINITY, f64::INFINITY);
     for cell in 1..=MAX_LENGTHS * length {
         let slip = transport.arriving(&state.displacement).map(|u| -u);
-        let start = Start { history: History::Increment(slip), ..Start::after(&state) };
-        let next = solve(loading, start, present, &within)?;
+        let start = Start::near(&state).with_history(History::Increment(slip));
+        let next = solve(tangential, start, present, &within)?;
         iterations += next.normal.stats.iterations;
         left = change(&next, &state);
         watch.iteration(left, tolerance);

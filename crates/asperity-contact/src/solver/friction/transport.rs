@@ -2,11 +2,12 @@
 
 use crate::grid::Field;
 use crate::operator::CoupledOperator;
+use crate::solver::friction::FrictionalSolution;
 use crate::units::Metre;
 
 /// Reference of the slip Δs of each cell.
 #[derive(Clone, Default)]
-pub(crate) enum History {
+pub(super) enum History {
     /// The bodies have not touched yet.
     #[default]
     None,
@@ -18,7 +19,7 @@ pub(crate) enum History {
 
 /// Transport of material through a contact that moves by one cell.
 #[derive(Clone)]
-pub(crate) struct Transport {
+pub(super) struct Transport {
     /// The cells from which the material arrives.
     pub(super) ahead: ShiftByCell,
     /// Displacement of the upper body by the spin meanwhile, m.
@@ -45,6 +46,18 @@ impl Transport {
 }
 
 impl History {
+    /// Returns the reference of the slip after a contact, with a `drift` of the lower surface relative to the upper one since then that is no
+    /// slip.
+    pub(super) fn since(before: Option<&FrictionalSolution>, drift: Option<&[Field; 2]>) -> Self {
+        let slip = before.map(FrictionalSolution::whole_slip);
+        match (slip, drift) {
+            (None, None) => Self::None,
+            (Some(slip), None) => Self::Increment(slip),
+            (None, Some(drift)) => Self::Increment(drift.clone()),
+            (Some([x, y]), Some([dx, dy])) => Self::Increment([x + dx, y + dy]),
+        }
+    }
+
     /// Computes the slip Δs under a rigid displacement D of surfaces with the displacement u: D − u − s₀; in
     /// rolling, D − u + S u plus the spin.
     pub(super) fn slip(&self, rigid: [Metre; 2], displacement: &[Field; 2]) -> [Field; 2] {

@@ -2,7 +2,7 @@
 
 use super::super::{ControlKind, CounterBody, Prescribed, Source};
 use super::Rule;
-use super::examples::{AT_ANY_SPEED, CHANGES, JUMPS, MOVES, RUBS, SLIDES, SWEEP};
+use super::examples::{AT_ANY_SPEED, CHANGES, JUMPS, MOVES, SLIDES, SWEEP};
 use asperity_contact::motion::OffsetY;
 
 pub(super) const RULES: &[Rule] = &[
@@ -140,15 +140,6 @@ pub(super) const RULES: &[Rule] = &[
         at: "acceleration",
         example: &[CHANGES, SLIDES, JUMPS],
         broken: |tables| tables.at("sliding").and(tables.at("acceleration")),
-    },
-    Rule {
-        this: "[sliding]",
-        with: "dissimilar bodies with `coupling = \"full\"`",
-        message: "[sliding] needs a friction that does not displace the bodies normally",
-        hint: "set `coupling = \"goodman\"` or `\"none\"` in [friction]",
-        at: "sliding",
-        example: &[r#"lower.young = "70 GPa""#, CHANGES, RUBS, SLIDES],
-        broken: |tables| tables.at("sliding").filter(|_| tables.case.shear_displaces_normally()),
     },
     Rule {
         this: "[sliding]",
