@@ -118,7 +118,8 @@ class RandomCase:
     def _adhesion(self, tables: Table, rng: random.Random) -> None:
         """Attraction of the bodies of some contacts, whose process zone has a cell or more."""
         moves = self.course in ("overlap", "shift") and "subsurface" not in tables
-        if not moves and (self.course not in ("press", "sweep", "history") or self.slides) or rng.random() < 0.6:
+        static = self.course in ("press", "sweep", "history", "friction", "rolling", "traction")
+        if not moves and not static or rng.random() < 0.6:
             return
         pitch, extents = max(self.pitch), [n * d for n, d in zip(self.shape[0], self.pitch)]
         work = self.modulus * pitch * self._slope() ** 2 * 10 ** rng.uniform(-1.2, 0.3)
@@ -131,8 +132,10 @@ class RandomCase:
             tables["adhesion"]["potential"] = "dugdale"
         if self.strategy == "shift" and rng.random() < 0.5:
             tables["adhesion"]["history"] = "path"
-        if moves and "friction" in tables:
+        if "friction" in tables:
             tables["friction"]["coupling"] = "none" if self.coated else rng.choice(["goodman", "none"])
+            if not moves:
+                tables["friction"].pop("junction_growth", None)
         last = tables.get("history", [{}])[-1]
         if self.control in last and rng.random() < 0.5:
             # Some of these loads pull the bodies apart.

@@ -286,7 +286,7 @@ def hold_rolling(case: RandomCase, results: Results) -> None:
     mu = case.tables["friction"]["coefficient"]
     fields = results.fields["fields.h5"][0]
     shear = np.hypot(fields["traction_x"], fields["traction_y"])
-    bound = np.minimum(mu * fields["pressure"], case.tables["friction"].get("shear_strength", math.inf))
+    bound = np.minimum(mu * np.maximum(fields["pressure"], 0), case.tables["friction"].get("shear_strength", math.inf))
     assert (shear <= bound * (1 + 1e-6) + 1e-9 * bound.max()).all()
     for point in points:
         pair = lambda key: point.get(key) or [point.get(f"{key}_x"), point.get(f"{key}_y")]  # noqa: E731

@@ -122,7 +122,8 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     };
     check_limit(control, plastic_limit)?;
     let compliances = Compliances::new(lower, upper)?;
-    if let Some(law) = law {
+    // An attraction presses bodies together by an unknown force.
+    if let Some(law) = law.filter(|_| case.interface.is_empty()) {
         holds(law, &course, case.contact.prescribed().control(apparent_area), apparent_area)?;
     }
     let slopes = [&bodies.lower, &bodies.upper].map(|body| body.topography.sdq());

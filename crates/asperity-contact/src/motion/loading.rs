@@ -143,6 +143,11 @@ impl StagedLoading {
                     "laws change the bodies of a loading by slip, which needs friction",
                 ));
             }
+            _ if !self.pair.interface().is_hard() => {
+                return Err(Error::Unsupported(
+                    "laws change the bodies of a loading only between hard walls without attraction",
+                ));
+            }
             laws => {
                 let (operators, _) = facing(&self.pair, self.boundary)?;
                 let with = (&operators, self.boundary, self.params);

@@ -177,7 +177,6 @@ impl Pair {
 
     /// Returns [`Error::Unsupported`] if contacts with stick are not solved between these bodies.
     pub(super) fn check_stick(&self) -> Result<()> {
-        self.interface.check_combined()?;
         self.check_elastic()?;
         self.check_shear()
     }

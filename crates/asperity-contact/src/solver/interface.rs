@@ -28,7 +28,7 @@ pub trait Interface: Debug + Send + Sync {
     /// Whether the contact at each position of a pass begins with that at the position before.
     fn follows_path(&self) -> bool;
 
-    /// Checks that this interface can be solved together with friction that sticks, rolling, sliding in place, plastic flow and ranks.
+    /// Checks that this interface can be solved together with sliding in place, plastic flow and ranks.
     ///
     /// # Errors
     /// [`Error::Unsupported`](crate::Error::Unsupported).

@@ -216,8 +216,9 @@ pub struct Surroundings {
     pub dragging_speed: Option<MetrePerSecond>,
     /// Whether there is friction.
     pub has_friction: bool,
-    /// Whether the friction may displace the bodies normally, if they differ: its coupling is full.
-    pub couples: bool,
+    /// Whether the shear changes the pressures in a way that depends on them: it displaces the bodies normally, or grows junctions of cells
+    /// that may stick.
+    pub shear_changes_pressures: bool,
     /// Whether the bodies slide in place.
     pub slides_in_place: bool,
     /// Whether a body deforms plastically below its surface.

@@ -1,6 +1,7 @@
 //! Tests across the modules of contact mechanics, as one program with a module for each subject.
 
 mod adhesion;
+mod adhesive_friction;
 mod bounds;
 mod closed_forms;
 mod conductance;

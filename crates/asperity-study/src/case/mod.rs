@@ -51,7 +51,7 @@ use asperity_base::units::{MetrePerSecond, SquareMetre};
 use asperity_contact::material::Compliances;
 use asperity_contact::motion::{Acceleration, Motion, Strategy};
 pub use asperity_contact::operator::{Boundary, Edge};
-use asperity_contact::solver::{Coupling, Sliding};
+use asperity_contact::solver::Sliding;
 pub use asperity_contact::solver::{Device, Method};
 use asperity_contact::temperature::Temperature;
 use asperity_contact::with::plasticity::PlasticRegion;
@@ -144,6 +144,11 @@ impl Case {
         })
     }
 
+    /// Whether shear lowers the pressures of cells that yield.
+    fn grows_junctions(&self) -> bool {
+        self.yields() && self.friction.as_ref().is_some_and(|friction| friction.law.junction_growth > 0.0)
+    }
+
     /// Returns what surrounds a contact of the case.
     pub fn surroundings(&self) -> Surroundings {
         Surroundings {
@@ -154,7 +159,8 @@ impl Case {
             repeats: self.motion.is_some_and(|motion| motion.repeats()),
             dragging_speed: self.dragging_speed(),
             has_friction: self.friction.is_some(),
-            couples: self.friction.as_ref().is_some_and(|friction| friction.law.coupling == Coupling::Full),
+            shear_changes_pressures: self.shear_displaces_normally()
+                || (self.motion.is_none() && self.grows_junctions()),
             slides_in_place: self.sliding.is_some(),
             flows: self.plasticity.is_some(),
             on_device: self.contact.device != Device::Cpu,

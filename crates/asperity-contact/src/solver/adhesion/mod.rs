@@ -109,7 +109,7 @@ impl Interface for Adhesion {
 
     fn check_combined(&self) -> Result<()> {
         Err(Error::Unsupported(
-            "adhesion is not solved together with coupled friction, rolling, sliding in place, plastic flow or ranks",
+            "adhesion is not solved together with sliding in place, plastic flow or ranks",
         ))
     }
 

@@ -88,6 +88,11 @@ pub(super) fn alternate(
         shear_method: None,
         stats: Stats::default(),
     };
+    if increment.alternates() && !interface.is_hard() {
+        return Err(Error::Unsupported(
+            "shear that changes the pressures, by its normal displacement or by growing junctions, needs hard walls without attraction",
+        ));
+    }
     let solution = increment.alternate(start.pressure, start.bounds, start.shear);
     if solution.is_err() {
         *failed = failed.and(&increment.cost());
@@ -230,7 +235,11 @@ impl Increment<'_> {
                 start.map(Cow::Borrowed)
             }
         };
-        let before = start.as_deref().map_or(Before::Apart, Before::Guess);
+        // The equilibrium of bodies that attract each other depends on the contact before.
+        let before = match self.interface.is_hard() {
+            true => start.as_deref().map_or(Before::Apart, Before::Guess),
+            false => self.problem.normal.before,
+        };
         let normal = NormalProblem { gap, bounds, before, params, watch: self.within, ..self.problem.normal };
         let operator = self.bodies.operator.normal();
         let solution = normal.solve(operator, self.interface, self.problem.compliance)?;
@@ -321,7 +330,9 @@ impl Increment<'_> {
 fn shear_scale(normal: &Solution, limit: &Field, operator: &dyn CoupledOperator) -> Metre {
     let local = operator.self_influence().zz * normal.max_pressure();
     let deviation = normal.displacement.std(0.0);
-    let share = (limit.sum() / normal.pressure.sum()).min(1.0);
+    // Cells under tension bear no shear.
+    let pressed = normal.pressure.mapv(|p| p.max(0.0));
+    let share = (limit.sum() / pressed.sum()).min(1.0);
     let largest = normal.displacement.iter().fold(local, |most, u| most.max(u.abs()));
     let scale = share * residual_scale(deviation, largest);
     // Without contact, or without friction, there is no scale.

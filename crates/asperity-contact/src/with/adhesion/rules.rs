@@ -14,21 +14,12 @@ const RUBS: &str = "friction = { coefficient = 0.3 }";
 pub(super) const RULES: &[Rule<Attraction>] = &[
     Rule {
         this: "[adhesion]",
-        with: "[friction] without [motion]",
-        message: "[adhesion] applies to a static contact without friction only",
-        hint: "leave [adhesion] or [friction] out",
+        with: "dissimilar bodies with friction of `coupling = \"full\"`; `junction_growth` without [motion]",
+        message: "[adhesion] needs a friction that does not change the pressures",
+        hint: "set `coupling = \"goodman\"` or `\"none\"` in [friction], and leave 'junction_growth' out",
         at: "adhesion",
-        example: &[STICKS, RUBS],
-        broken: |_, surroundings| surroundings.has_friction && !surroundings.moves,
-    },
-    Rule {
-        this: "[adhesion]",
-        with: "[friction] of a [motion], with `coupling = \"full\"`",
-        message: "[adhesion] needs a friction that does not displace the bodies normally",
-        hint: "set `coupling = \"goodman\"` or `\"none\"` in [friction]",
-        at: "adhesion",
-        example: &[STICKS, RUBS, MOVES],
-        broken: |_, surroundings| surroundings.couples,
+        example: &[STICKS, r#"lower.young = "70 GPa""#, RUBS],
+        broken: |_, surroundings| surroundings.shear_changes_pressures,
     },
     Rule {
         this: "`history` in [adhesion]",
