@@ -1,19 +1,59 @@
-//! Passes of viscoelastic bodies, whose memory moves with them.
+//! Viscoelastic bodies in stages and in passes, in which their memory moves with them.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_in};
 use crate::grid::{Field, Placement};
-use crate::motion::Strategy;
 use crate::motion::body::{Body, State};
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Drag, Pass, Solver, first_guess};
+use crate::motion::path::Stroke;
 use crate::motion::record::LostVolume;
 use crate::motion::watch::{OneOfMany, Progress};
-use crate::operator::{Operator, Operators};
-use crate::solver::{Control, Params};
-use crate::units::{Joule, Newton, Pascal, PerPascal, Second, SquareMetre};
+use crate::motion::{Motion, Strategy};
+use crate::operator::{Boundary, Operator, Operators};
+use crate::solver::{ContactProblem, Control, Equilibrium, Params};
+use crate::units::{Dimension, Joule, Newton, Pascal, PerPascal, Second, SquareMetre};
 use crate::viscoelastic::memory::solve_step;
-use crate::viscoelastic::{Creep, CreepMemory};
+use crate::viscoelastic::{Creep, CreepMemory, solve_in_time};
+
+/// Returns the memory of a pair at full overlap that has borne no load; `None` if neither body creeps.
+pub(super) fn memory(pair: &Pair) -> Option<CreepMemory> {
+    pair.creep_together().map(|creep| CreepMemory::new(creep, pair.lower_grid().shape))
+}
+
+/// Solves the contact at the end of a step in time of bodies with a composite `modulus`, and advances their `memory`.
+pub(super) fn load(
+    operator: &mut dyn Operator,
+    modulus: Pascal,
+    memory: &mut CreepMemory,
+    problem: &ContactProblem<'_>,
+    duration: Second,
+) -> Result<Equilibrium> {
+    let ContactProblem { gap, loading, before, params, watch, .. } = *problem;
+    let start = before.map(|before| &before.normal().pressure);
+    solve_in_time(operator, modulus, memory, gap, loading.normal, duration, start, params, watch)
+        .map(|solution| Equilibrium::Frictionless(Box::new(solution)))
+}
+
+/// Checks what viscoelastic bodies need to pass over each other.
+pub(super) fn check(pair: &Pair, boundary: Boundary, motion: &Motion, params: &Params) -> Result<()> {
+    if pair.creep().is_none() {
+        return Ok(());
+    }
+    pair.check_creep()?;
+    params.device.only_processor("a device does not solve contacts of viscoelastic bodies")?;
+    let refused = if !motion.step_time(pair.pitch()[0]).is_finite() {
+        "viscoelastic bodies need the speed of their motion"
+    } else if motion.strategy != Strategy::Overlap && !boundary.repeats(0) {
+        "a viscoelastic body in a shift needs a boundary that is periodic along x"
+    } else if motion.slip(Stroke::Forth).displaces_normally(pair) {
+        "viscoelastic bodies are not solved together with shear that displaces them normally"
+    } else {
+        let is_time = motion.pause >= 0.0 && motion.pause.is_finite();
+        return check_in(Dimension::Time, "pause", motion.pause, is_time, "a finite time of at least 0");
+    };
+    Err(Error::Unsupported(refused))
+}
 
 /// Name of the field of a memory with the displacement of an elastic half-space of a unit modulus.
 pub(super) const ELASTIC: &str = "crept_elastic";

@@ -6,6 +6,7 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::facing;
 use crate::motion::course::{self, Course, Output, Step, StepRow};
+use crate::motion::creeping;
 use crate::motion::extrapolation::Acceleration;
 use crate::motion::fretting::{ChangedBodies, Laws};
 use crate::motion::law::Law;
@@ -22,7 +23,6 @@ use crate::solver::{
     Loading, Params,
 };
 use crate::units::Kelvin;
-use crate::viscoelastic::{CreepMemory, solve_in_time};
 
 /// Loads a pair at full overlap, stage after stage, from before contact or from a state `under_way`. A resumed loading
 /// gives the same result, bit by bit.
@@ -252,8 +252,7 @@ impl Increments {
                 let deepest = Field::zeros(self.loading.gap.raw_dim());
                 let begun = self.laws.as_ref().map(|laws| laws.begin(self.loading.pair.clone()));
                 let pair = &self.loading.pair;
-                let creep = pair.creep_together();
-                let memory = creep.map(|creep| CreepMemory::new(creep, pair.lower_grid().shape));
+                let memory = creeping::memory(pair);
                 (None, Flattening { kept: None, deepest }, Vec::new(), None, 0.0, begun, memory)
             }
         };
@@ -274,10 +273,10 @@ impl Increments {
         let mut contact = match &mut memory {
             None => solve(solver.as_mut(), &flattening.open(&gap))?,
             Some(memory) => {
-                let (operator, start) = (solver.normal(), last.as_ref().map(|last| &last.normal().pressure));
-                let (modulus, control) = (pair.modulus(), loading.normal);
-                solve_in_time(operator, modulus, memory, &gap, control, duration, start, params, watch)
-                    .map(|solution| Equilibrium::Frictionless(Box::new(solution)))?
+                let before = last.as_ref();
+                let problem =
+                    ContactProblem { before, ..ContactProblem::new(&gap, &bounds, loading, params, watch) };
+                creeping::load(solver.normal(), pair.modulus(), memory, &problem, duration)?
             }
         };
         let mut stats = contact.normal().stats;

@@ -193,7 +193,7 @@ impl Pair {
     pub(super) fn check_elastic(&self) -> Result<()> {
         match self.creep {
             Some(_) => Err(Error::Unsupported(
-                "viscoelastic bodies slide steadily, or are loaded in time without friction; nothing else is computed for them",
+                "viscoelastic bodies slide steadily, pass over each other or are loaded in time without friction; nothing else is computed for them",
             )),
             None => Ok(()),
         }

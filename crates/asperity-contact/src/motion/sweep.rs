@@ -24,7 +24,7 @@ pub struct Point {
     pub control: Control,
     /// How the bodies slip on each other.
     pub regime: SlipRegime,
-    /// Speed of viscoelastic bodies that slide steadily.
+    /// Speed of bodies that creep and slide steadily.
     pub speed: Option<MetrePerSecond>,
 }
 
@@ -43,7 +43,7 @@ pub struct SweepState {
 /// Each point is an independent contact of undeformed bodies, solved from zero. It has the bits of [`crate::motion::press`],
 /// whatever the other points are. The pressures of another load are no better start than
 /// those of coarser grids: if the loads differ by a factor of 1.5 or more, they cost more convolutions. Only the steady sliding of
-/// viscoelastic bodies starts at a speed from the pressures at the speed before.
+/// bodies that creep starts at a speed from the pressures at the speed before.
 ///
 /// # Errors
 /// [`Error::AtPoint`] with the error of [`crate::solver::solve_normal`] or [`crate::solver::solve_rolling`],

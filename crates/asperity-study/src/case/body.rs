@@ -264,6 +264,11 @@ impl BodyKeys {
 }
 
 impl Body {
+    /// Number of its given relaxation times, 0 if they are fitted; `None` if it is elastic.
+    pub(crate) fn relaxation_terms(&self) -> Option<usize> {
+        self.properties.viscoelastic.as_ref().map(|body| body.moduli.len())
+    }
+
     /// Returns the constants of the body.
     pub(super) fn constants(&self) -> BodyConstants {
         BodyConstants {

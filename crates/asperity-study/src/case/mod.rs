@@ -55,8 +55,7 @@ use asperity_contact::solver::Sliding;
 pub use asperity_contact::solver::{Device, Method};
 use asperity_contact::temperature::Temperature;
 use asperity_contact::with::plasticity::PlasticRegion;
-use asperity_contact::with::viscoelastic::Steady;
-use asperity_contact::with::{Capabilities, Interfaces, Surroundings};
+use asperity_contact::with::{Capabilities, Interfaces, Steady, Surroundings};
 
 /// A case, resolved to SI.
 #[derive(Debug, Clone, Serialize)]
@@ -127,7 +126,7 @@ impl Case {
 
     /// Whether a body is viscoelastic.
     pub(crate) fn relaxes(&self) -> bool {
-        [&self.lower, &self.upper].into_iter().any(|body| body.properties.viscoelastic.is_some())
+        [&self.lower, &self.upper].into_iter().any(|body| body.relaxation_terms().is_some())
     }
 
     /// Whether a body yields at a hardness.

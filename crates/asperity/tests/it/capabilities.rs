@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::support::crates;
 
 /// A word, the folders of its capability, and the files outside them in which the word stands.
-const CAPABILITIES: [(&str, &[&str], &[&str]); 5] = [
+const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
     (
         "conductance",
         &["with/conductance"],
@@ -111,6 +111,45 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 5] = [
             "asperity/_html.py",
             "asperity/_viewed.py",
             "asperity/errors.py",
+            "asperity/keys.py",
+        ],
+    ),
+    (
+        "viscoelas",
+        &["src/viscoelastic/", "with/viscoelastic"],
+        &[
+            // The list, and its names in both libraries.
+            "asperity-contact/src/with/mod.rs",
+            "asperity-contact/src/lib.rs",
+            "asperity/src/lib.rs",
+            // A pair of bodies that creep, their memory in stages and passes, and their steady sliding.
+            "asperity-contact/src/motion/pair.rs",
+            "asperity-contact/src/motion/creeping.rs",
+            "asperity-contact/src/motion/state.rs",
+            "asperity-contact/src/motion/steady.rs",
+            "asperity-contact/src/motion/record/steady.rs",
+            // Laws that it excludes.
+            "with/film/rules.rs",
+            "with/wear/rules.rs",
+            // A case of such bodies: its keys and rules, its master curves, its memory.
+            "asperity-study/src/viscoelastic.rs",
+            "asperity-study/src/lib.rs",
+            "asperity-study/src/case/mod.rs",
+            "asperity-study/src/case/rules/mod.rs",
+            "asperity-study/src/case/rules/viscoelastic.rs",
+            "asperity-study/src/case/rules/temperature.rs",
+            "asperity-study/src/case/body.rs",
+            "asperity-study/src/case/motion.rs",
+            "asperity-study/src/case/root.rs",
+            "asperity-study/src/case/stage.rs",
+            "asperity-study/src/estimate.rs",
+            "asperity-study/src/finish.rs",
+            "asperity-study/src/identity.rs",
+            "asperity-study/src/prepare.rs",
+            // The caption of the drag, and a case that shows it.
+            "asperity-report/src/words/captions.rs",
+            "asperity-cli/src/example/kits.rs",
+            // The types that are made from its table.
             "asperity/keys.py",
         ],
     ),

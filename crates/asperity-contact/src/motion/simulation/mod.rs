@@ -13,6 +13,7 @@ use crate::error::{Error, Result, check, check_in};
 use crate::motion::body::Body;
 use crate::motion::contact::Contact;
 use crate::motion::course::{self, Course, Output, Step};
+use crate::motion::creeping;
 use crate::motion::extrapolation::{Acceleration, GridCompliance};
 use crate::motion::heat::PassHeat;
 use crate::motion::law::Law;
@@ -86,7 +87,7 @@ impl Simulation {
             Some(_) => positions.len(),
         };
         let columns: Vec<usize> = positions[..distinct].iter().map(|p| p.columns).collect();
-        // Viscoelastic bodies are displaced beyond the overlap, too.
+        // Bodies that creep are displaced beyond the overlap, too.
         let largest = pair.grid(match pair.creep() {
             None => pair.lower.columns().min(pair.upper.columns()),
             Some(_) => pair.lower.columns().max(pair.upper.columns()),
@@ -98,7 +99,7 @@ impl Simulation {
                 "a device does not solve sliding whose shear displaces the bodies normally",
             )?;
         }
-        check_creep(&pair, boundary, &motion, &params)?;
+        creeping::check(&pair, boundary, &motion, &params)?;
         let operators = pair.operators(largest, boundary)?;
         if motion.friction.is_some_and(|friction| friction.coupling != Coupling::None) {
             pair.check_shear()?;
@@ -257,9 +258,8 @@ impl Simulation {
     /// If no body is given, or if the grid of one differs from that of its surface.
     pub fn with_plastic(self, bodies: [Option<PlasticBody>; 2], plastic: PlasticParams) -> Result<Self> {
         self.pair.interface().check_combined()?;
-        let refused = if self.pair.creep().is_some() {
-            "viscoelastic bodies do not flow plastically"
-        } else if self.pair.yields() {
+        self.pair.check_elastic()?;
+        let refused = if self.pair.yields() {
             "elasto-plastic bodies do not take a hardness"
         } else if self.changes.laws.len() > 1 {
             "elasto-plastic bodies do not support laws that change them yet"
@@ -324,9 +324,7 @@ impl Simulation {
                 "a flash temperature needs friction, a speed and the temperatures of the bodies",
             ));
         };
-        if self.pair.creep().is_some() {
-            return Err(Error::Unsupported("viscoelastic bodies do not support a flash temperature"));
-        }
+        self.pair.check_elastic()?;
         if self.changes_at_every_step() {
             return Err(Error::Unsupported(
                 "a flash temperature needs plastic deformation that is applied after each pass",
@@ -541,26 +539,6 @@ impl Course for Simulation {
         }
         self.passes_done = pass.record.pass;
     }
-}
-
-/// Checks what viscoelastic bodies need to pass over each other.
-fn check_creep(pair: &Pair, boundary: Boundary, motion: &Motion, params: &Params) -> Result<()> {
-    if pair.creep().is_none() {
-        return Ok(());
-    }
-    pair.check_creep()?;
-    params.device.only_processor("a device does not solve contacts of viscoelastic bodies")?;
-    let refused = if !motion.step_time(pair.pitch()[0]).is_finite() {
-        "viscoelastic bodies need the speed of their motion"
-    } else if motion.strategy != Strategy::Overlap && !boundary.repeats(0) {
-        "a viscoelastic body in a shift needs a boundary that is periodic along x"
-    } else if motion.slip(Stroke::Forth).displaces_normally(pair) {
-        "viscoelastic bodies are not solved together with shear that displaces them normally"
-    } else {
-        let is_time = motion.pause >= 0.0 && motion.pause.is_finite();
-        return check_in(Dimension::Time, "pause", motion.pause, is_time, "a finite time of at least 0");
-    };
-    Err(Error::Unsupported(refused))
 }
 
 fn positions(pair: &Pair, boundary: Boundary, motion: &Motion) -> Result<Vec<Position>> {

@@ -2,11 +2,11 @@
 
 use asperity_contact::solver::{Device, Method};
 
-use super::examples::{AT_ANY_SPEED, CHANGES, FLOWS, MOVES, ON_DEVICE, RELAXES, RUBS, SLIDES, VOLUME};
+use super::examples::{AT_ANY_SPEED, CHANGES, FLOWS, ON_DEVICE, RUBS, SLIDES, VOLUME};
 use super::{Case, Entry, Rule, Tables};
 
 /// The hint of what only the processor solves.
-const ON_PROCESSOR: &str = "leave `device` out of [contact], and the processor solves it";
+pub(super) const ON_PROCESSOR: &str = "leave `device` out of [contact], and the processor solves it";
 
 pub(super) const RULES: &[Rule] = &[
     Rule {
@@ -56,15 +56,6 @@ pub(super) const RULES: &[Rule] = &[
         broken: |tables| tables.on_device("plasticity", |_| true),
     },
     Rule {
-        this: "[motion] of viscoelastic bodies",
-        with: "`device` in [contact]",
-        message: "a device does not solve passes of viscoelastic bodies",
-        hint: ON_PROCESSOR,
-        at: "motion",
-        example: &[ON_DEVICE, RELAXES, MOVES],
-        broken: |tables| tables.on_device("motion", Case::relaxes),
-    },
-    Rule {
         this: "[sliding]",
         with: "`device` in [contact]",
         message: "a device does not solve sliding in place",
@@ -77,7 +68,7 @@ pub(super) const RULES: &[Rule] = &[
 
 impl<'a> Tables<'a> {
     /// Returns the entry of a key of a case that a device solves, if it `is` so.
-    fn on_device(&self, key: &str, is: impl Fn(&Case) -> bool) -> Option<Entry<'a>> {
+    pub(super) fn on_device(&self, key: &str, is: impl Fn(&Case) -> bool) -> Option<Entry<'a>> {
         self.at(key).filter(|_| self.case.contact.device != Device::Cpu && is(self.case))
     }
 }

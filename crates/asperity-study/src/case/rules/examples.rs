@@ -54,9 +54,6 @@ pub(super) const RUBS: &str = "friction = { coefficient = 0.3 }";
 /// The bodies roll.
 pub(super) const ROLLS: &str = "friction = { coefficient = 0.3, creepage = 0.001 }";
 
-/// The lower body relaxes.
-pub(super) const RELAXES: &str = r#"lower.viscoelastic = { moduli = ["1 GPa"], times = ["1 s"] }"#;
-
 /// The bodies slide steadily.
 pub(super) const STEADY: &str = r#"steady = { speed = "1 m/s" }"#;
 

@@ -1,8 +1,12 @@
 //! Rules of viscoelastic bodies, their steady sliding and their passes.
 
-use super::super::StageSpec;
+use super::super::{Case, StageSpec};
 use super::Rule;
-use super::examples::{AT_ANY_SPEED, MOVES, RELAXES, RUBS, STEADY};
+use super::device::ON_PROCESSOR;
+use super::examples::{AT_ANY_SPEED, MOVES, ON_DEVICE, RUBS, STEADY};
+
+/// The lower body relaxes.
+const RELAXES: &str = r#"lower.viscoelastic = { moduli = ["1 GPa"], times = ["1 s"] }"#;
 
 /// Keys of the time of a stage that only viscoelastic bodies have.
 const TIMES: [&str; 2] = ["duration", "dwell"];
@@ -212,6 +216,15 @@ pub(super) const RULES: &[Rule] = &[
             let first = ["adhesion", "plasticity"].iter().find_map(|table| tables.at(table));
             first.or_else(|| tables.flash()).or_else(|| tables.at("friction").filter(|_| pushes))
         },
+    },
+    Rule {
+        this: "[motion] of viscoelastic bodies",
+        with: "`device` in [contact]",
+        message: "a device does not solve passes of viscoelastic bodies",
+        hint: ON_PROCESSOR,
+        at: "motion",
+        example: &[ON_DEVICE, RELAXES, MOVES],
+        broken: |tables| tables.on_device("motion", Case::relaxes),
     },
     Rule {
         this: "`pause` in [motion]",
