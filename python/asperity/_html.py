@@ -174,7 +174,8 @@ def contact(contact: Contact) -> str:
             rows.append(("pull-off", _quantity(contact.adhesion["pull_off"], "N")))
     force = numbers.get("tangential_force")
     if force is not None and any(force):
-        rows.append(("tangential force", f"{_quantity(float(np.hypot(*force)), 'N')} ({numbers['force_ratio']:.3g} of the load)"))
+        share = f" ({numbers['force_ratio']:.3g} of the load)" if numbers["load"] > 0.0 else ""
+        rows.append(("tangential force", _quantity(float(np.hypot(*force)), "N") + share))
     theory = contact.closed_form
     if theory is not None:
         names = {"largest pressure": "max_pressure", "approach": "approach"}

@@ -154,7 +154,11 @@ fn static_table(case: &Case, record: &StaticRecord) -> String {
         rows.extend([
             ("tangential force", both(shear.tangential_force, record.load, Dimension::Force)),
             ("displacement", both(shear.tangential_displacement, 0.0, Dimension::Length)),
-            ("traction coeff.", format_number(shear.force_ratio)),
+        ]);
+        if record.load > 0.0 {
+            rows.push(("traction coeff.", format_number(shear.force_ratio)));
+        }
+        rows.extend([
             ("stick area", format!("{} ({stick:.3} %)", format(shear.stick_area, Dimension::Area))),
             ("largest shear", format(shear.max_shear, Dimension::Pressure)),
             ("dissipation", format(shear.dissipation, Dimension::Energy)),

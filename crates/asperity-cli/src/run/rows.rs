@@ -151,13 +151,14 @@ impl Rows {
         cells.push(Cell::of("load", "load", point.load));
         if self.slides {
             // The rounding error of a zero force.
-            let force = |force: f64| if force.abs() < 1e-6 * point.load { 0.0 } else { force };
-            let [x, y] = [point.tangential_force_x, point.tangential_force_y].map(force);
+            let shown = |ratio: f64| if ratio.abs() < 1e-6 { 0.0 } else { ratio };
+            let traction = point.traction();
+            let along = |axis: usize| traction.map(|ratio| shown(ratio[axis]));
             cells.extend([
                 Cell::of("creep x", "creepage_x", point.creepage_x),
                 Cell::of("creep y", "creepage_y", point.creepage_y),
-                Cell::of("T/W x", "friction_coefficient", x / point.load),
-                Cell::of("T/W y", "friction_coefficient", y / point.load),
+                Cell::of("T/W x", "friction_coefficient", along(0)),
+                Cell::of("T/W y", "friction_coefficient", along(1)),
                 Cell::of("shear", "max_shear", point.max_shear),
                 Cell::share("stick", point.stick_area / point.contact_area),
                 Cell::share("area", point.contact_fraction),

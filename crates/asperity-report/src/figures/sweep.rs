@@ -46,7 +46,9 @@ pub(super) fn loads_in_words(points: &[SweepRecord]) -> String {
 /// All curves of a sweep of at least one point.
 pub(crate) fn curves(points: &[SweepRecord], case: &Case) -> Vec<Curves> {
     if let Some(friction) = case.friction.as_ref().filter(|friction| friction.sweeps()) {
-        return vec![traction(points, &friction.law)];
+        // Bodies that attract each other slide under more than their load.
+        let limit = case.interface.is_empty().then_some(&friction.law);
+        return traction(points, limit).into_iter().collect();
     }
     let (column, x): (_, Number) = match case.contact.prescribed() {
         _ if case.steady.is_some() => ("speed", |point| point.steady.map_or(f64::NAN, |steady| steady.speed)),
@@ -80,14 +82,15 @@ fn loads(points: &[SweepRecord]) -> [f64; 2] {
     [f64::min, f64::max].map(|pick| points.iter().map(|p| p.load).fold(f64::NAN, pick))
 }
 
-/// The force ratio over the creepage, along x and along y, under what all that slides bears.
+/// The force ratio over the creepage, along x and along y, under what all that slides bears by the law of friction, if one is given. `None` if there is no
+/// such ratio.
 ///
 /// Over the creepage with its sign where that has one direction, over its amount elsewhere.
-fn traction(points: &[SweepRecord], friction: &Friction) -> Curves {
+fn traction(points: &[SweepRecord], friction: Option<&Friction>) -> Option<Curves> {
     /// Component, creepage and traction coefficient along each axis.
     const ALONG: [(&str, Number, Number); 2] = [
-        ("along x", |p| p.creepage_x, |p| p.tangential_force_x / p.load),
-        ("along y", |p| p.creepage_y, |p| p.tangential_force_y / p.load),
+        ("along x", |p| p.creepage_x, |p| p.traction().map_or(f64::NAN, |[x, _]| x)),
+        ("along y", |p| p.creepage_y, |p| p.traction().map_or(f64::NAN, |[_, y]| y)),
     ];
     /// What rounding leaves of a component that is not there.
     const NOTHING: f64 = 1e-6;
@@ -106,11 +109,14 @@ fn traction(points: &[SweepRecord], friction: &Friction) -> Curves {
         .map(|(of, _)| of)
         .collect();
     let curve = |ratio: Number| ordered.iter().map(|point| [x(point), ratio(point)]).collect::<Vec<_>>();
+    if shown.is_empty() {
+        return None;
+    }
     let mut series: Vec<Series> =
         shown.iter().map(|(name, _, ratio)| Series::new(*name, curve(*ratio), Mark::LineAndPoints)).collect();
     // Under a film's shear strength what slides bears less.
-    let coefficient = friction.coefficient;
-    if coefficient.is_finite() && friction.shear_strength.is_infinite() {
+    let limit = friction.filter(|law| law.coefficient.is_finite() && law.shear_strength.is_infinite());
+    if let Some(Friction { coefficient, .. }) = limit {
         let signs = [1.0, -1.0].into_iter().filter(|sign| {
             points.iter().any(|point| shown.iter().any(|(.., ratio)| sign * ratio(point) > 0.0))
         });
@@ -129,7 +135,8 @@ fn traction(points: &[SweepRecord], friction: &Friction) -> Curves {
     };
     let [horizontal, vertical] =
         [across, "tangential force over load"].map(|l| Axis::linear(l, Unit::Number));
-    Curves::new("traction", "tangential force over creepage", Chart::new("", horizontal, vertical, series))
+    let chart = Chart::new("", horizontal, vertical, series);
+    Some(Curves::new("traction", "tangential force over creepage", chart))
 }
 
 /// From such a ratio of the largest to the least on what is swept is drawn by its logarithm.

@@ -169,7 +169,7 @@ fn of_points(points: &[SweepRecord]) -> Vec<Card> {
     };
     let largest = |value: fn(&SweepRecord) -> f64| points.iter().map(value).fold(0.0, f64::max);
     let pressure = format(largest(|point| point.max_pressure), Dimension::Pressure);
-    let traction = largest(|point| point.tangential_force_x.hypot(point.tangential_force_y) / point.load);
+    let traction = largest(|point| point.traction().map_or(0.0, |[x, y]| x.hypot(y)));
     if traction > 0.0 {
         let last = &points[points.len() - 1];
         let stick = |point: &SweepRecord| format_number(100.0 * point.stick_area / point.contact_area);
@@ -263,8 +263,15 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> Vec<Card> {
     }
     if let Some(shear) = &record.shear {
         let stick = format_number(100.0 * shear.stick_area / record.contact_area);
-        let about = format!("Tangential force over load; {stick} % of the contact sticks.");
-        cards.push(Card::new("traction coefficient", format_number(shear.force_ratio), about));
+        let sticks = format!("{stick} % of the contact sticks.");
+        let [x, y] = shear.tangential_force;
+        cards.push(match record.load > 0.0 {
+            true => {
+                let about = format!("Tangential force over load; {sticks}");
+                Card::new("traction coefficient", format_number(shear.force_ratio), about)
+            }
+            false => Card::new("tangential force", format(x.hypot(y), Dimension::Force), sticks),
+        });
     }
     if let Some(plastic) = record.plastic.as_ref().filter(|plastic| plastic.max_plastic_strain > 0.0) {
         let strain = format!("{} %", format_number(100.0 * plastic.max_plastic_strain));

@@ -136,8 +136,7 @@ fn of_regime(plastic: &PlasticRecord, shaken_down: Option<usize>) -> String {
 
 fn of_points(points: &[SweepRecord]) -> String {
     let (first, last) = (&points[0], &points[points.len() - 1]);
-    let traction =
-        |point: &SweepRecord| point.tangential_force_x.hypot(point.tangential_force_y) / point.load;
+    let traction = |point: &SweepRecord| point.traction().map_or(0.0, |[x, y]| x.hypot(y));
     if let Some(most) =
         points.iter().max_by(|a, b| traction(a).total_cmp(&traction(b))).filter(|p| traction(p) > 0.0)
     {
@@ -201,8 +200,12 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> String {
     }
     if let Some(shear) = &record.shear {
         let stick = format_number(100.0 * shear.stick_area / record.contact_area);
-        let ratio = format_number(shear.force_ratio);
-        text += &format!(" The tangential force is {ratio} of the load; {stick} % of the contact sticks.");
+        let [x, y] = shear.tangential_force;
+        let size = match record.load > 0.0 {
+            true => format!("{} of the load", format_number(shear.force_ratio)),
+            false => force(x.hypot(y)),
+        };
+        text += &format!(" The tangential force is {size}; {stick} % of the contact sticks.");
     }
     if let Some(plastic) = &record.plastic {
         text += &match plastic.max_plastic_strain {

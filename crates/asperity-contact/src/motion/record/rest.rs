@@ -59,7 +59,7 @@ columns! {
     pub struct ShearRecord {
         /// Force of the upper body on the lower one, along x and y.
         pub tangential_force: [Newton; 2],
-        /// Magnitude of the tangential force over the load; 0 without load.
+        /// Magnitude of the tangential force over the load; 0 unless the load is above 0.
         pub force_ratio: f64,
         /// Force ratio if no cell sticks, that is the friction coefficient of the whole contact; otherwise unknown.
         pub friction_coefficient: Option<f64>,

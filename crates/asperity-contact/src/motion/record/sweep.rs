@@ -69,3 +69,12 @@ columns! {
         pub steady: Option<SteadyRecord>,
     }
 }
+
+impl SweepRecord {
+    /// Tangential force over the load, along x and along y; `None` unless the load is above 0, as under a load that pulls at bodies that
+    /// attract each other.
+    pub fn traction(&self) -> Option<[f64; 2]> {
+        let force = [self.tangential_force_x, self.tangential_force_y];
+        (self.load > 0.0).then(|| force.map(|force| force / self.load))
+    }
+}

@@ -30,9 +30,9 @@ columns! {
         pub pastewka_robbins: Option<f64>,
         /// Elastic energy of full contact over the work of adhesion; unknown unless both axes are periodic.
         pub full_contact_energy: Option<f64>,
-        /// Pull-off force, the least load of a retreat; unknown if the bodies do not retreat.
+        /// Pull-off force, the least load of a retreat; unknown if no retreat goes beyond it.
         pub pull_off: Option<Newton>,
-        /// Work of separation: the work of the loads that pull, over the retreat; unknown if the bodies do not retreat.
+        /// Work of separation: the work of the loads that pull, over the retreat; unknown as the pull-off is.
         pub work_of_separation: Option<Joule>,
     }
 }
@@ -65,19 +65,19 @@ impl AdhesionSummary {
         }
     }
 
-    /// Adds what a retreat shows: the increments over which the approach falls.
+    /// Adds what a retreat shows: the increments over which the approach falls. It goes beyond the pull-off where the load rises again,
+    /// or the surfaces do not touch any more.
     pub fn after(self, increments: &[IncrementRecord]) -> Self {
         let retreats = increments.windows(2).filter(|pair| pair[1].approach < pair[0].approach);
-        let (mut least, mut work) = (None, None);
+        let (mut least, mut work, mut is_beyond): (Newton, Joule, _) = (f64::INFINITY, 0.0, false);
         for pair in retreats {
             let [before, after] = [&pair[0], &pair[1]];
             let pull = |increment: &IncrementRecord| (-increment.load).max(0.0);
-            *work.get_or_insert(0.0) +=
-                0.5 * (pull(before) + pull(after)) * (before.approach - after.approach);
-            *least.get_or_insert(f64::INFINITY) =
-                least.unwrap_or(f64::INFINITY).min(before.load).min(after.load);
+            work += 0.5 * (pull(before) + pull(after)) * (before.approach - after.approach);
+            least = least.min(before.load).min(after.load);
+            is_beyond |= after.load > before.load || after.contact_area == 0.0;
         }
-        Self { pull_off: least, work_of_separation: work, ..self }
+        Self { pull_off: is_beyond.then_some(least), work_of_separation: is_beyond.then_some(work), ..self }
     }
 }
 
@@ -185,11 +185,35 @@ mod tests {
             Boundary::FREE,
             2.0,
         );
-        let row = |approach, load| IncrementRecord { approach, load, ..IncrementRecord::default() };
+        let row = |approach, load| IncrementRecord {
+            approach,
+            load,
+            contact_area: 0.01,
+            ..IncrementRecord::default()
+        };
         let path = [row(0.0, -1.0), row(1.0, 5.0), row(0.0, -2.0), row(-1.0, -3.0), row(-2.0, 0.0)];
         let numbers = numbers.after(&path);
         assert_eq!(numbers.pull_off, Some(-3.0));
         assert_relative_eq!(numbers.work_of_separation.unwrap(), 1.0 + 2.5 + 1.5);
         assert_eq!(numbers.after(&path[..2]).pull_off, None);
+    }
+
+    /// A pull that the bodies bear is no pull-off, and neither is the end of a partial unloading.
+    #[test]
+    fn bodies_that_still_hold_have_no_pull_off() {
+        let grid = Grid::new([4, 4], [0.1, 0.1]).unwrap();
+        let adhesion = Adhesion::new(0.3, 0.2).unwrap();
+        let numbers = AdhesionSummary::new(&adhesion, &grid.zeros(), grid.pitch, Boundary::FREE, 2.0);
+        let row = |approach, load, contact_area| IncrementRecord {
+            approach,
+            load,
+            contact_area,
+            ..IncrementRecord::default()
+        };
+        let pulled = [row(1.0, 5.0, 0.3), row(0.0, -2.0, 0.2)];
+        let [held, apart] = [row(-1.0, -2.5, 0.1), row(-1.0, -2.5, 0.0)]
+            .map(|end| numbers.after(&[&pulled[..], &[end]].concat()));
+        assert_eq!((held.pull_off, held.work_of_separation), (None, None));
+        assert_eq!(apart.pull_off, Some(-2.5));
     }
 }
