@@ -77,8 +77,9 @@ class Friction(_RequiredFriction, total=False):
         Steady rolling along x: force of the upper body on the lower one; force along x, or `[x, y]`. Without it: at
         most one of the six in the plane.
     spin : float
-        Rolling only, in 1/m: angular velocity of the upper body relative to the lower one, over the rolling velocity,
-        about z through the middle of the grid, positive from +x towards +y; number. By default `0`.
+        Rolling only, in 1/m: angular velocity of the upper body relative to the lower one, over the rolling velocity;
+        its axis is z through the middle of the grid, and a positive spin turns from +x towards +y; number. By default
+        `0`.
     increments : int
         Equal steps in which load and tangential load grow from 0; whole number ≥ 1. By default `1`.
     """

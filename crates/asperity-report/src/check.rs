@@ -92,9 +92,9 @@ fn pair(case: &Case, estimate: &Estimate) -> String {
         return format!("{modulus}; {}, in {} layers down to {depth}", bodies.join(", "), volume.layers);
     }
     if estimate.hardness.is_infinite() {
-        return match &estimate.creep {
+        return match &estimate.viscoelastic {
             None => format!("{modulus}, elastic"),
-            Some(creep) => format!("{modulus} relaxed; {}", creep.bodies.join("; ")),
+            Some(viscoelastic) => format!("{modulus} relaxed; {}", viscoelastic.bodies.join("; ")),
         };
     }
     let who = match estimate.lower_share {

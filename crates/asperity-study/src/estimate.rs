@@ -69,8 +69,8 @@ pub struct Estimate {
     pub closed_form: Option<ClosedForm>,
     /// Requested output of the stress under the surface.
     pub subsurface: Option<Plan>,
-    /// Bodies that creep; `None` if both are elastic.
-    pub creep: Option<ViscoelasticEstimate>,
+    /// Viscoelastic bodies; `None` if both are elastic.
+    pub viscoelastic: Option<ViscoelasticEstimate>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
     /// Warnings from Hertz' estimate, which a result shows by itself.
@@ -147,7 +147,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
             .filter(|_| case.interface.is_empty() && !case.relaxes())
             .filter(|form| form.max_pressure.is_none_or(|pressure| pressure <= hardness)),
         subsurface: Plan::new(case, [&lower_grid, &upper_grid], &positions)?,
-        creep: viscoelastic::estimate(
+        viscoelastic: viscoelastic::estimate(
             case,
             [&bodies.lower.topography, &bodies.upper.topography],
             &bodies.master_curves,
@@ -156,7 +156,7 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         predicted: Vec::new(),
     };
     estimate.warnings = warnings(case, bodies, &estimate);
-    estimate.warnings.extend(estimate.creep.iter().flat_map(|bodies| bodies.warnings.clone()));
+    estimate.warnings.extend(estimate.viscoelastic.iter().flat_map(|bodies| bodies.warnings.clone()));
     if case.interface.is_empty() {
         contacts(case, bodies, &positions, &mut estimate);
     } else {

@@ -267,7 +267,7 @@ fn contact_in_the_rim(passes: &[PassRecord]) -> Option<String> {
     })
 }
 
-/// Warns if bodies that creep move by a large part of their spots of contact in a step.
+/// Warns if viscoelastic bodies move by a large part of their spots of contact in a step.
 fn strides(case: &Case, passes: &[PassRecord]) -> Option<String> {
     /// Stride over the width of the widest spot of contact that needs no warning; most spots of rough bodies are narrower by far.
     const SMALL: f64 = 0.06;

@@ -143,7 +143,7 @@ impl GridCompliance {
             let shortest = pitch.map(|pitch| PI / pitch);
             checkerboard = checkerboard.min(response.harmonic_displacement(shortest[0], shortest[1]));
         }
-        // At once bodies that creep answer as glass.
+        // At once viscoelastic bodies answer as glass.
         let glassy = pair.creep_together().map_or(1.0, |creep| creep.glassy / creep.relaxed());
         Self { single: glassy * influence.at(0.0, 0.0), checkerboard: glassy * checkerboard }
     }

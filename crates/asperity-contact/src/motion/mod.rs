@@ -188,7 +188,7 @@ pub struct Motion {
     pub path: Path,
     /// Offset of the passes along y. An offset other than 0 needs a boundary periodic along y.
     pub offset_y: OffsetY,
-    /// Time, ≥ 0, for which bodies that creep are apart between two passes. Without it the next pass of a shift begins from the last contact;
+    /// Time, ≥ 0, for which viscoelastic bodies are apart between two passes. Without it the next pass of a shift begins from the last contact;
     /// the bodies of an overlap then come apart for no time.
     pub pause: Second,
 }
@@ -286,7 +286,7 @@ impl Motion {
         Self { offset_y, ..self }
     }
 
-    /// Sets the time, ≥ 0, for which bodies that creep are apart between two passes.
+    /// Sets the time, ≥ 0, for which viscoelastic bodies are apart between two passes.
     #[must_use]
     pub const fn with_pause(self, pause: Second) -> Self {
         Self { pause, ..self }

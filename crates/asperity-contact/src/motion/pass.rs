@@ -33,11 +33,11 @@ pub(super) struct Pass {
     pub(super) lost: Vec<LostVolume>,
     /// Results for elasto-plastic bodies; `None` for others.
     pub(super) plastic_pass: Option<ElastoPlasticPass>,
-    /// Drag of bodies that creep; `None` for others.
+    /// Drag of viscoelastic bodies; `None` for others.
     pub(super) drag: Option<Drag>,
 }
 
-/// Drag of bodies that creep in a pass.
+/// Drag of viscoelastic bodies in a pass.
 pub(super) struct Drag {
     /// Drag at each position, NaN where it is unknown.
     pub(super) positions: Vec<Newton>,
@@ -61,7 +61,7 @@ pub(super) struct Solver<'a> {
     pub(super) laws: &'a [Box<dyn Law>],
     /// Whether the gap of each position is kept.
     pub(super) gaps: &'a [bool],
-    /// The last contact of the pass before, if bodies that creep go on from it.
+    /// The last contact of the pass before, if viscoelastic bodies go on from it.
     pub(super) last: Option<Contact>,
     pub(super) watch: &'a dyn Watch,
     /// Pass and trial, for progress reports.

@@ -14,7 +14,7 @@ pub struct Stage {
     pub increments: usize,
     /// Cycles, in each of which the loading goes there and comes back; `None` if it goes there once and stays.
     pub cycles: Option<Cycles>,
-    /// Time of the stage, which bodies that creep need.
+    /// Time of the stage, which viscoelastic bodies need.
     pub time: StageTime,
 }
 

@@ -24,7 +24,7 @@ pub struct Point {
     pub control: Control,
     /// How the bodies slip on each other.
     pub regime: SlipRegime,
-    /// Speed of bodies that creep and slide steadily.
+    /// Speed of viscoelastic bodies that slide steadily.
     pub speed: Option<MetrePerSecond>,
 }
 
@@ -41,9 +41,8 @@ pub struct SweepState {
 /// Points that are `done` are not solved again, except the last.
 ///
 /// Each point is an independent contact of undeformed bodies, solved from zero. It has the bits of [`crate::motion::press`],
-/// whatever the other points are. The pressures of another load are no better start than
-/// those of coarser grids: if the loads differ by a factor of 1.5 or more, they cost more convolutions. Only the steady sliding of
-/// bodies that creep starts at a speed from the pressures at the speed before.
+/// whatever the other points are. A start from the pressures of another load costs more convolutions than one from coarser grids, if the
+/// loads differ by a factor of 1.5 or more. Steady sliding of viscoelastic bodies starts from the pressures at the speed before.
 ///
 /// # Errors
 /// [`Error::AtPoint`] with the error of [`crate::solver::solve_normal`] or [`crate::solver::solve_rolling`],

@@ -53,7 +53,6 @@ pub use capability::{
 pub use interface::InterfaceNumbers;
 pub use law::{BodyLaw, ChangedSurfaces, Circumstances, LawRule, Slip, Timeless};
 pub use property::BodyProperty;
-pub use viscoelastic::Steady;
 
 use serde::{Deserialize, Serialize};
 

@@ -132,7 +132,7 @@ fn area(passes: &[PassRecord], done: &[usize]) -> Charts {
     Chart::new("", Axis::linear("pass", Unit::Count), y, series).into()
 }
 
-/// The drag of bodies that creep over their passes; none of others.
+/// The drag of viscoelastic bodies over their passes; none of others.
 fn mean_drag(passes: &[PassRecord], done: &[usize]) -> Option<Curves> {
     let points = passes.iter().map(|pass| Some([done[pass.pass] as f64, pass.drag?.drag_coefficient]));
     let series = vec![Series::new("", points.collect::<Option<_>>()?, Mark::LineAndPoints)];

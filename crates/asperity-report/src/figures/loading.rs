@@ -17,7 +17,7 @@ pub(crate) fn curves(increments: &[IncrementRecord]) -> Vec<Curves> {
 /// A curve over time: the name of the figure, the column, its axis and its value.
 type OverTime = (&'static str, &'static str, &'static str, fn(&IncrementRecord) -> f64);
 
-/// The curves over the time of bodies that creep.
+/// The curves over the time of viscoelastic bodies.
 const OVER_TIME: [OverTime; 3] = [
     ("creep", "approach", "approach", |i| i.approach),
     ("creep_area", "contact_area", "real contact area", |i| i.contact_area),

@@ -22,8 +22,8 @@ pub struct FrictionSpec {
     #[key(part)]
     #[serde(flatten)]
     pub prescribed: Option<InPlane>,
-    /// Rolling only, in 1/m: angular velocity of the upper body relative to the lower one, over the rolling velocity, about z through the middle
-    /// of the grid, positive from +x towards +y.
+    /// Rolling only, in 1/m: angular velocity of the upper body relative to the lower one, over the rolling velocity; its axis is z through the
+    /// middle of the grid, and a positive spin turns from +x towards +y.
     #[key(number = "a number, in 1/m", default = 0.0, written = "0", example = "25")]
     #[serde(skip_serializing_if = "is_zero")]
     pub spin: f64,

@@ -55,7 +55,8 @@ use asperity_contact::solver::Sliding;
 pub use asperity_contact::solver::{Device, Method};
 use asperity_contact::temperature::Temperature;
 use asperity_contact::with::plasticity::PlasticRegion;
-use asperity_contact::with::{Capabilities, Interfaces, Steady, Surroundings};
+use asperity_contact::with::viscoelastic::Steady;
+use asperity_contact::with::{Capabilities, Interfaces, Surroundings};
 
 /// A case, resolved to SI.
 #[derive(Debug, Clone, Serialize)]

@@ -260,7 +260,7 @@ impl Sizes<'_> {
         Memory { solver, together, results, volumes }
     }
 
-    /// Numbers that bodies that creep remember in a motion: before a pass, in it and after it.
+    /// Numbers that viscoelastic bodies remember in a motion: before a pass, in it and after it.
     fn remembered(&self) -> f64 {
         let of = |(body, grid): (&Body, &Grid)| {
             let given = body.relaxation_terms()?;
@@ -389,7 +389,7 @@ impl Sizes<'_> {
                 let [convolutions, effort] = of(cost, passes * searches);
                 let effort = effort + POSITION * passes * positions as f64;
                 let beside = passes * self.running(motion.passes);
-                // Bodies that creep remember one position after the other.
+                // Viscoelastic bodies remember one position after the other.
                 let together = if case.relaxes() { 1.0 } else { together(positions) };
                 [convolutions * positions as f64, effort / together + beside]
             }
@@ -596,7 +596,7 @@ const SHEAR_UNLIKE: Cost = Cost { convolutions: 68.0, work: 7.0 };
 const ROLLING: Cost = Cost { convolutions: 85.0, work: 4.6 };
 /// Steady rolling of dissimilar bodies.
 const ROLLING_UNLIKE: Cost = Cost { convolutions: 230.0, work: 5.0 };
-/// Steady sliding of a body that creeps, at each speed, and the exponent by which its convolutions grow with the number of cells.
+/// Steady sliding of a viscoelastic body, at each speed, and the exponent by which its convolutions grow with the number of cells.
 const STEADY: Cost = Cost { convolutions: 135.0, work: 2.5 };
 const STEADY_GROWTH: f64 = 0.6;
 /// Convolutions of a later pass relative to the first.

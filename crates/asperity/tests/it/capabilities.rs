@@ -122,12 +122,26 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
             "asperity-contact/src/with/mod.rs",
             "asperity-contact/src/lib.rs",
             "asperity/src/lib.rs",
-            // A pair of bodies that creep, their memory in stages and passes, and their steady sliding.
+            // A pair of such bodies, their memory in stages and passes, and their steady sliding.
             "asperity-contact/src/motion/pair.rs",
             "asperity-contact/src/motion/creeping.rs",
             "asperity-contact/src/motion/state.rs",
             "asperity-contact/src/motion/steady.rs",
+            "asperity-contact/src/motion/mod.rs",
+            "asperity-contact/src/motion/stage.rs",
+            "asperity-contact/src/motion/sweep.rs",
+            "asperity-contact/src/motion/pass.rs",
+            "asperity-contact/src/motion/extrapolation.rs",
+            "asperity-contact/src/motion/simulation/mod.rs",
+            "asperity-contact/src/motion/simulation/changes.rs",
+            "asperity-contact/src/motion/simulation/search.rs",
+            // Their columns.
             "asperity-contact/src/motion/record/steady.rs",
+            "asperity-contact/src/motion/record/creep.rs",
+            "asperity-contact/src/motion/record/increment.rs",
+            "asperity-contact/src/motion/record/pass.rs",
+            "asperity-contact/src/motion/record/step.rs",
+            "asperity-contact/src/motion/record/sweep.rs",
             // Laws that it excludes.
             "with/film/rules.rs",
             "with/wear/rules.rs",
@@ -142,11 +156,17 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
             "asperity-study/src/case/motion.rs",
             "asperity-study/src/case/root.rs",
             "asperity-study/src/case/stage.rs",
+            "asperity-study/src/case/schema/mod.rs",
             "asperity-study/src/estimate.rs",
+            "asperity-study/src/estimate/demand.rs",
             "asperity-study/src/finish.rs",
             "asperity-study/src/identity.rs",
             "asperity-study/src/prepare.rs",
-            // The caption of the drag, and a case that shows it.
+            "asperity-study/src/review.rs",
+            // The pair in words, curves and the caption of the drag, and a case that shows it.
+            "asperity-report/src/check.rs",
+            "asperity-report/src/figures/course.rs",
+            "asperity-report/src/figures/loading.rs",
             "asperity-report/src/words/captions.rs",
             "asperity-cli/src/example/kits.rs",
             // The types that are made from its table.

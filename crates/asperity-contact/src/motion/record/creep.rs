@@ -1,4 +1,4 @@
-//! Time and drag of bodies that creep.
+//! Time and drag of viscoelastic bodies.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +6,7 @@ use crate::units::{Newton, Second};
 use asperity_base::record::{columns, number_or_none};
 
 columns! {
-    /// Time of an increment of bodies that creep.
+    /// Time of an increment of viscoelastic bodies.
     #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
     pub struct CreepRecord {
         /// Time since the first load.
@@ -15,7 +15,7 @@ columns! {
 }
 
 columns! {
-    /// Drag of bodies that creep at a position of a pass.
+    /// Drag of viscoelastic bodies at a position of a pass.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     pub struct DragRecord {
         /// Force against the motion since the position before, without friction: the work on the bodies over the distance. Its mean over
@@ -27,7 +27,7 @@ columns! {
 }
 
 columns! {
-    /// Drag of bodies that creep in a pass.
+    /// Drag of viscoelastic bodies in a pass.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     pub struct PassDragRecord {
         /// Mean drag over the positions at which it is known, with what bodies that come apart give back.

@@ -60,7 +60,7 @@ columns! {
         /// Changes by laws; none of bodies that do not change.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub fretting: Option<FrettingRecord>,
-        /// Time of bodies that creep; none of others.
+        /// Time of viscoelastic bodies; none of others.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub creep: Option<CreepRecord>,
     }

@@ -53,7 +53,7 @@ columns! {
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PassPlasticRecord>,
-        /// Drag of bodies that creep; none of others.
+        /// Drag of viscoelastic bodies; none of others.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub drag: Option<PassDragRecord>,
         /// Rms height of the lower surface about its mean after the pass.

@@ -59,7 +59,7 @@ columns! {
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PlasticStepRecord>,
-        /// Drag of bodies that creep; none of others.
+        /// Drag of viscoelastic bodies; none of others.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub drag: Option<DragRecord>,
     }

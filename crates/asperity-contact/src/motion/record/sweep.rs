@@ -35,7 +35,7 @@ columns! {
         pub plastic_area: SquareMetre,
         /// Plastic volume ΔA Σ w, with w the plastic interference of the cells.
         pub plastic_volume: CubicMetre,
-        /// Elastic energy ½ ΔA Σ p u; in rolling also the energy of the shear. For bodies that creep it is no stored energy.
+        /// Elastic energy ½ ΔA Σ p u; in rolling also the energy of the shear. For viscoelastic bodies it is no stored energy.
         pub elastic_energy: Joule,
         /// Normal stiffness dW/dδ; unknown for bodies that attract each other, in steady sliding, and in full elastic contact of a periodic surface, where it is infinite.
         pub stiffness: Option<NewtonPerMetre>,
@@ -64,7 +64,7 @@ columns! {
         /// Tension across the gap; none between hard walls.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub interface: Option<InterfaceRecord>,
-        /// Steady sliding of bodies that creep; none for others.
+        /// Steady sliding of viscoelastic bodies; none for others.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub steady: Option<SteadyRecord>,
     }

@@ -73,8 +73,8 @@ impl Changes {
 const DEEP_REMOVAL: &str = "a single pass removes more than the width of a cell from a whole body, far beyond the model: check its coefficient, \
      a volume over load and distance, or give a shorter pass";
 
-/// Message for a pass that removes more from bodies that creep than explicit steps allow.
-const FAST_REMOVAL: &str = "a single pass removes so much that the pressures of bodies that creep change with it: check the coefficient, a \
+/// Message for a pass that removes more from viscoelastic bodies than explicit steps allow.
+const FAST_REMOVAL: &str = "a single pass removes so much from viscoelastic bodies that their pressures change with it: check the coefficient, a \
      volume over load and distance, or give a shorter pass";
 
 /// Removal in a pass by the laws that repeat.

@@ -87,7 +87,7 @@ impl Simulation {
             Some(_) => positions.len(),
         };
         let columns: Vec<usize> = positions[..distinct].iter().map(|p| p.columns).collect();
-        // Bodies that creep are displaced beyond the overlap, too.
+        // Viscoelastic bodies are displaced beyond the overlap, too.
         let largest = pair.grid(match pair.creep() {
             None => pair.lower.columns().min(pair.upper.columns()),
             Some(_) => pair.lower.columns().max(pair.upper.columns()),

@@ -43,7 +43,7 @@ impl Simulation {
             }
         };
         // Plastic flow takes most of the time of a trial, so rough contacts would save nothing.
-        // Rough contacts that depend on where the bodies come from may be in another state, and those of bodies that creep would be remembered.
+        // Rough contacts that depend on where the bodies come from may be in another state, and those of viscoelastic bodies would be remembered.
         let exact = self.volumes.is_some() || !pair.interface().is_hard() || pair.creep().is_some();
         let roughest = if exact { self.params.tolerance } else { MAX_RESIDUAL };
         let mut residual = roughest;

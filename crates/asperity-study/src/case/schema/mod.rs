@@ -17,8 +17,8 @@ pub use asperity_base::table::{Bounds, Exists, Fallback, Key, Kind, Section};
 use asperity_base::table::{Part as _, Table as _};
 use asperity_contact::material::Coating;
 use asperity_contact::temperature::Temperature;
-use asperity_contact::with::Steady;
 use asperity_contact::with::plasticity::{PlasticRegion, Yielding};
+use asperity_contact::with::viscoelastic::Steady;
 use asperity_contact::with::{BodyLaw, BodyProperty, Capability};
 use asperity_contact::{each_capability, each_interface, each_law, each_property};
 
