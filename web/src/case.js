@@ -29,11 +29,6 @@ function withValue(tables, [name, ...rest], value) {
   return Object.keys(copy).length ? copy : undefined;
 }
 
-/** Keys of several loads. */
-export const SWEEPS = ["loads", "mean_pressures", "approaches"];
-/** Tables of a course without passes. */
-const COURSES = ["history", "sliding", "steady"];
-
 export class Case extends EventTarget {
   tables = {};
   /** Text from which the tables were read; `null` after a change. */
@@ -68,13 +63,6 @@ export class Case extends EventTarget {
   }
 
   get moves() { return Boolean(this.tables.motion); }
-
-  /** Whether the case is a course without passes: several loads, a loading history, sliding in place, steady sliding or rolling. */
-  get isCourse() {
-    const { contact, friction } = this.tables;
-    const has = (table, names) => names.some((name) => table?.[name] !== undefined);
-    return !this.moves && (has(this.tables, COURSES) || has(contact, SWEEPS) || has(friction, ["creepage", "creepages", "rolling_force"]));
-  }
 
   /** Returns the names of the files that the case reads. */
   files() {

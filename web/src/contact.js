@@ -1,12 +1,13 @@
 // 2 Contact: materials, the load, and both bodies pressed together.
 
-import { SWEEPS, shown } from "./case.js";
+import { shown } from "./case.js";
 import { Course } from "./course.js";
 import { field } from "./form.js";
 import { SIDES } from "./surface.js";
 
 /** Quantities that may be prescribed, each with its title and its first value. */
 const LOADS = { load: ["load", "0.5 N"], mean_pressure: ["mean pressure", "20 MPa"], approach: ["approach", "0 nm"] };
+const SWEEPS = ["loads", "mean_pressures", "approaches"];
 /** Longest estimated time of a contact that is computed after each change, s. */
 const AT_ONCE = 2;
 /** Decades of the slider on either side of the load that was typed. */

@@ -43,11 +43,11 @@ export class Course {
       const found = await app.desk.call("check", `${this.name}.toml`);
       this.checked.replaceChildren(...this.#words(found));
       say(this.said);
-      return found;
+      return this.found = found;
     } catch (failure) {
       this.checked.replaceChildren();
       this.fail(failure);
-      return null;
+      return this.found = null;
     }
   }
 

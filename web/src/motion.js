@@ -41,13 +41,15 @@ export class MotionSection extends Course {
   }
 
   async update() {
-    const { kase } = this.app;
+    const { kase, contact } = this.app;
     const isOld = this.outdated(kase.tables);
-    this.button.hidden = kase.isCourse;
+    // The contact has been checked before. A case with a course of its own takes no passes.
+    const isCourse = !kase.moves && contact.found?.one_increment === false;
+    this.button.hidden = isCourse;
     this.button.textContent = kase.moves ? "Run" : "Propose passes and run";
     if (isOld) this.again.hidden = true;
     if (kase.moves) await this.check(kase.tables);
-    else this.checked.replaceChildren(kase.isCourse ? "This case has a course of its own, without passes. Press computes it." : "");
+    else this.checked.replaceChildren(isCourse ? "This case has a course of its own, without passes. Press computes it." : "");
   }
 
   async stop() {

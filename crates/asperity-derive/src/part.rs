@@ -42,11 +42,6 @@ fn group(input: &DeriveInput, attribute: &Attribute) -> Result<TokenStream> {
     let declarations = declarations(&fields)?;
     let keys = keys(&fields, &quote!(KEYS));
     let sections = sections(&fields, &quote!(KEYS), &quote!(tables));
-    let sections = quote! {
-        let mut sections = Vec::new();
-        #sections
-        sections
-    };
     let read = reader(&fields, &quote!(KEYS), attribute.check.as_ref());
     let check = checkers(&fields, &quote!(KEYS), |name| quote!(&self.#name));
     let check = quote!(#check Ok(()));
@@ -83,7 +78,7 @@ fn one_of(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
     });
     let check = quote!(match self { #(#checks)* } Ok(()));
     let declarations = quote!(#(#declarations),*);
-    Ok(implementation(&input.ident, false, [declarations, keys, quote!(Vec::new()), read, check]))
+    Ok(implementation(&input.ident, false, [declarations, keys, TokenStream::new(), read, check]))
 }
 
 /// Returns the key of a variant with a single value.
@@ -148,11 +143,6 @@ fn choice(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
             Some(#index) => { __source.suits(#choice)?; #read }
         });
     }
-    let sections = quote! {
-        let mut sections = Vec::new();
-        #sections
-        sections
-    };
     let check_all = attribute.check.as_ref().map(|check| quote!(#check(&read, __source)?;));
     let read = quote! {
         let chosen = ::asperity_base::table::optional(__source, &KEYS[0], |value| value.word(&[#(#words),*]))?;
@@ -194,11 +184,6 @@ fn kinds(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result<
         arms.extend(quote!(#kind => { #suits #read }));
         checks.extend(check);
     }
-    let sections = quote! {
-        let mut sections = Vec::new();
-        #sections
-        sections
-    };
     let check_all = attribute.check.as_ref().map(|check| quote!(#check(&read, __source)?;));
     let read = quote! {
         let read = match __source.exactly_one(&[#(#names),*], #hint)? {
@@ -229,7 +214,8 @@ fn named(ident: &Ident, fields: &[Field<'_>]) -> Result<(TokenStream, TokenStrea
     ))
 }
 
-/// The implementation of a part, which may be a choice, with the declarations of the own keys, and the bodies of its functions.
+/// The implementation of a part, which may be a choice, with the declarations of the own keys, the statements that add
+/// keys and sections, and the bodies of its reader and its check.
 ///
 /// The source has a name that no key has, because the keys are variables beside it.
 fn implementation(
@@ -253,7 +239,9 @@ fn implementation(
 
                 #[allow(unused_variables, reason = "a part may have no choice")]
                 fn sections(tables: &'static [&'static str]) -> Vec<::asperity_base::table::Section> {
+                    let mut sections = Vec::new();
                     #sections
+                    sections
                 }
 
                 fn read(__source: &dyn ::asperity_base::table::Source) -> ::asperity_base::error::Result<Self> {

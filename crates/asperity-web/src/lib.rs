@@ -49,6 +49,7 @@
 //!
 //! check(case: string): JSON                                     the case file of this name, before it is run
 //!     {title, rows: [{name, text}], warnings: [string], shapes: [[nx, ny], [nx, ny]], pitch: [dx, dy], memory: bytes, seconds,
+//!      one_increment: bool,                                     whether it is one contact in one increment, and no course of several
 //!      coarser: {pitch: [dx, dy], memory} or null}              a pitch that fits into 1.5 GB, if the case does not
 //! run(case: string, folder: string, existing: "keep", "overwrite" or "resume", watch: function): JSON      the content of summary.json
 //!     watch(event: JSON): anything truthy to stop, then run fails with `Interrupted`; finished steps stay. In it `files` and `get` may be called.

@@ -38,6 +38,7 @@ pub fn check(case: &str) -> Result<Value> {
         "memory": demand.memory,
         "seconds": demand.times().iter().sum::<f64>(),
         "coarser": coarser,
+        "one_increment": case.course(1.0).is_one_increment(),
         "rows": [],
         "warnings": [],
     });

@@ -41,6 +41,11 @@ impl Course {
         }
     }
 
+    /// Whether it is one contact in one increment.
+    pub fn is_one_increment(&self) -> bool {
+        matches!(self, Self::Stages(stages) if Stage::increments(stages) == 1)
+    }
+
     /// Whether it has passes.
     pub fn moves(&self) -> bool {
         matches!(self, Self::Passes(_))
