@@ -178,7 +178,7 @@ impl Course for ElastoPlasticLoading<'_> {
             });
         }
         let origin = self.origin.expect("a stage has begun");
-        let loading = origin.towards(stage.loading, step as f64 / stage.increments as f64);
+        let loading = stage.towards(step as f64 / stage.increments as f64, &origin);
         let watch = StaticWatch::new(watch, self.increments.len(), self.path.increments(), loading.normal);
         self.increment(loading, index + 1, &watch).map(Some)
     }

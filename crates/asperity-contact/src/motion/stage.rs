@@ -16,6 +16,9 @@ pub struct Stage {
     pub cycles: Option<Cycles>,
     /// Time of the stage, which viscoelastic bodies need.
     pub time: StageTime,
+    /// Whether the normal and the tangential loading stay at their values at the beginning of the stage, in the kind of its `loading`. They do
+    /// after cycles that began at a value which only the contact knows.
+    pub stays: [bool; 2],
 }
 
 /// Time of a stage.
@@ -54,7 +57,7 @@ pub struct Progress {
 impl Stage {
     /// Creates a stage that goes to this loading in a number of equal steps, ≥ 1.
     pub const fn new(loading: Loading, increments: usize) -> Self {
-        Self { loading, increments, cycles: None, time: StageTime::Sudden }
+        Self { loading, increments, cycles: None, time: StageTime::Sudden, stays: [false; 2] }
     }
 
     /// Sets the time of the stage.
@@ -67,6 +70,12 @@ impl Stage {
     #[must_use]
     pub const fn with_cycles(self, cycles: Option<Cycles>) -> Self {
         Self { cycles, ..self }
+    }
+
+    /// Lets the normal and the tangential loading stay at their values at the beginning of the stage.
+    #[must_use]
+    pub const fn staying(self, stays: [bool; 2]) -> Self {
+        Self { stays, ..self }
     }
 
     /// Returns the total number of increments of all `stages`, if each cycle is computed.
@@ -102,10 +111,21 @@ impl Stage {
         }
     }
 
+    /// Returns the loading at a `share` of the way from `origin` to the end of the stage.
+    pub(super) fn towards(&self, share: f64, origin: &Origin) -> Loading {
+        let Loading { normal, tangential } = origin.towards(self.loading, share);
+        let begun = origin.towards(self.loading, 0.0);
+        let [normal_stays, tangential_stays] = self.stays;
+        Loading {
+            normal: if normal_stays { begun.normal } else { normal },
+            tangential: if tangential_stays { begun.tangential } else { tangential },
+        }
+    }
+
     /// Returns the loading of a step that began at `origin`, and its share of the time of a cycle; 0 without cycles.
     pub(super) fn at(&self, step: usize, origin: &Origin) -> (Loading, f64) {
         let n = self.increments;
-        let towards = |part: usize| origin.towards(self.loading, part as f64 / n as f64);
+        let towards = |part: usize| self.towards(part as f64 / n as f64, origin);
         match self.cycles {
             None => (towards(step), 0.0),
             Some(_) if step == 0 => (towards(0), 0.0),

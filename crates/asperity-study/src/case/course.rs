@@ -1,5 +1,6 @@
 //! The course of a case: the contacts that are solved one after another, by whichever tables give them.
 
+use super::stage::PresentLoading;
 use super::{Case, FrictionSpec, Prescribed};
 use asperity_base::units::SquareMetre;
 use asperity_contact::motion::{Motion, Point, Slide, SlipRegime, Stage};
@@ -116,12 +117,13 @@ impl Case {
             return Course::Rolling(rolling);
         }
         let tangential = friction.and_then(|friction| friction.prescribed.as_ref()?.tangential());
-        let mut loading = Loading { normal, tangential: tangential.unwrap_or(Tangential::Force([0.0; 2])) };
+        let loading = Loading { normal, tangential: tangential.unwrap_or(Tangential::Force([0.0; 2])) };
         let flowing = self.plasticity.and_then(|plasticity| plasticity.increments).unwrap_or(1);
         let increments = friction.map_or(flowing, |friction| friction.increments);
         let mut stages = vec![Stage::new(loading, increments)];
+        let mut present = PresentLoading { loading, stays: [false; 2] };
         for stage in &self.history {
-            stages.extend(stage.stages(&mut loading, apparent_area));
+            stages.extend(stage.stages(&mut present, apparent_area));
         }
         Course::Stages(stages)
     }

@@ -1,5 +1,7 @@
 //! `[[history]]`: the later stages of the loading of a static contact.
 
+use std::mem::discriminant;
+
 use serde::Serialize;
 
 use super::friction::direction;
@@ -135,26 +137,60 @@ impl StageSpec {
         }
     }
 
-    /// Returns the stages of the library after a `loading`, which they change.
+    /// Returns the stages of the library after the `present` loading, which they change.
     pub(super) fn stages(
         &self,
-        loading: &mut Loading,
+        present: &mut PresentLoading,
         apparent_area: SquareMetre,
     ) -> impl Iterator<Item = Stage> {
+        let before = *present;
         if let Some(normal) = self.normal() {
-            loading.normal = normal.control(apparent_area);
+            present.loading.normal = normal.control(apparent_area);
+            present.stays[0] = false;
         }
         if let Some(tangential) = self.tangential() {
-            loading.tangential = tangential;
+            present.loading.tangential = tangential;
+            present.stays[1] = false;
         }
-        let loading = *loading;
+        let stage = |steps| Stage::new(present.loading, steps).staying(present.stays);
         let cycles = self.cycles.map(|count| Cycles { count, period: self.period });
         let time = self.duration.map_or(StageTime::Sudden, StageTime::Even);
         // Steps that take no time change a viscoelastic contact at once.
         let steps = if self.dwell.is_some() && self.duration.is_none() { 1 } else { self.steps() };
         // A stage that only dwells goes nowhere.
-        let goes = self.goes().then(|| Stage::new(loading, steps).with_cycles(cycles).within(time));
-        let stays = self.dwell.map(|time| Stage::new(loading, self.steps()).within(StageTime::Growing(time)));
-        goes.into_iter().chain(stays)
+        let goes = self.goes().then(|| stage(steps).with_cycles(cycles).within(time));
+        let stays = self.dwell.map(|time| stage(self.steps()).within(StageTime::Growing(time)));
+        let stages = goes.into_iter().chain(stays);
+        if self.cycles.is_some() {
+            present.come_back(&before);
+        }
+        stages
+    }
+}
+
+/// Loading after the stages so far.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PresentLoading {
+    /// The loading, as far as the case tells it.
+    pub(super) loading: Loading,
+    /// Whether the normal and the tangential loading have values of this kind that only the contact knows.
+    pub(super) stays: [bool; 2],
+}
+
+impl PresentLoading {
+    /// Comes back to the loading `before` the cycles that led here. A quantity of another kind than before comes back to a value that only the
+    /// contact knows.
+    fn come_back(&mut self, before: &Self) {
+        let kinds = [
+            discriminant(&self.loading.normal) == discriminant(&before.loading.normal),
+            discriminant(&self.loading.tangential) == discriminant(&before.loading.tangential),
+        ];
+        self.stays = [0, 1].map(|part| before.stays[part] || !kinds[part]);
+        if kinds[0] {
+            self.loading.normal = before.loading.normal;
+        }
+        if kinds[1] {
+            self.loading.tangential = before.loading.tangential;
+        }
     }
 }

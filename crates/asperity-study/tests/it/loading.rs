@@ -283,3 +283,44 @@ fn what_only_the_answer_shows_is_said_with_it() {
         .replace("shortest = \"4 um\"", "shortest = \"10 um\"");
     assert_eq!(warnings("slow", &slow).matches("cells yield").count(), 1);
 }
+
+// ---- cycles ----------------------------------------------------------------------------------------------
+
+#[test]
+fn a_stage_after_cycles_stays_where_they_ended() {
+    const FIRST: &str = "[contact]\nload = \"20 mN\"\n[friction]\ncoefficient = 0.3\n";
+    // Loads and forces along x after the stages from the second one on; the cycles come back to 20 mN, 2 mN.
+    let last = |history: &str| {
+        let case = parsed(&format!("{FIRST}{history}"));
+        let result = asperity_study::rest(&case, asperity_study::SurfaceInput::default(), &()).unwrap();
+        let ends = result.increments.chunk_by(|one, next| one.stage == next.stage);
+        ends.map(|stage| stage.last().unwrap().clone()).collect::<Vec<_>>()
+    };
+    let pushes = "[[history]]\nforce = \"2 mN\"\n";
+    for (history, quantity) in [
+        ("load = \"40 mN\"", "a load"),
+        ("approach = \"60 nm\"", "an approach"),
+        ("load = \"40 mN\"\nforce = \"6 mN\"", "both"),
+        ("displacement = \"3 nm\"", "a displacement"),
+        ("mean_pressure = \"100 MPa\"\nforce = \"-1 mN\"", "a pressure"),
+    ] {
+        let ends = last(&format!(
+            "{pushes}[[history]]\n{history}\nincrements = 2\ncycles = 2\n[[history]]\nforce = \"1 mN\"\n[[history]]\napproach = \"50 nm\"\n"
+        ));
+        let [.., cycles, force, approach] = &ends[..] else { panic!("{quantity}: {} stages", ends.len()) };
+        // The bodies have flowed under more than 20 mN, so that the load at an approach is a little less.
+        assert!((cycles.load / 20e-3 - 1.0).abs() < 1e-2, "{quantity}: {cycles:?}");
+        // The load, or the approach at which it was reached, stays under a new force.
+        let stays = (force.load / cycles.load - 1.0).abs() < 1e-3;
+        assert!(stays && (force.tangential_force_x / 1e-3 - 1.0).abs() < 1e-6, "{quantity}: {force:?}");
+        assert!((approach.tangential_force_x / 1e-3 - 1.0).abs() < 1e-6, "{quantity}: {approach:?}");
+        let ends =
+            last(&format!("{pushes}[[history]]\n{history}\ncycles = 1\n[[history]]\nload = \"21 mN\"\n"));
+        let [.., cycles, load] = &ends[..] else { panic!("{quantity}: {} stages", ends.len()) };
+        let [before, after] = [cycles, load].map(|end| {
+            let displacement = end.tangential_displacement_x;
+            if quantity == "a displacement" { displacement } else { end.tangential_force_x }
+        });
+        assert!((after / before - 1.0).abs() < 1e-6, "{quantity}: {before:e} {after:e}");
+    }
+}
