@@ -98,9 +98,9 @@ class Pass(_Moving):
     pitch : tuple of float
         Size of a cell along x and y, m.
     sliding_distance : float
-        Sliding distance from one position to the next, m.
+        Sliding distance for which a position stands, m; the way of a pass over the number of its positions.
     time : float
-        Time from one position to the next, s; NaN without a speed.
+        Time for which a position stands, s; NaN without a speed.
     shapes : tuple
         Number of cells of the lower and of the upper body along x and y.
     """

@@ -180,15 +180,16 @@ impl CorePasses {
         Ok([&pair.lower, &pair.upper].map(|body| array(py, body.heights.clone())))
     }
 
-    /// Returns the size of a cell, the sliding distance and time from one position to the next, and the numbers of cells of
-    /// the lower and of the upper body.
+    /// Returns the size of a cell, the sliding distance and the time for which a position stands, and the numbers of cells of the
+    /// lower and of the upper body.
     fn grid(&self) -> PyResult<([f64; 2], f64, f64, [(usize, usize); 2])> {
         let state = self.state()?;
         let simulation = state.passes.as_ref().ok_or_else(ended)?.simulation();
         let pair = simulation.pair();
         let pitch = pair.pitch();
-        let (distance, time) =
-            (simulation.motion().sliding_distance(pitch[0]), simulation.motion().step_time(pitch[0]));
+        let motion = simulation.motion();
+        let cells = motion.cells_of_position(pair.lower.columns());
+        let (distance, time) = (motion.sliding_distance_of(cells, pitch[0]), motion.time_of(cells, pitch[0]));
         Ok((pitch, distance, time, [&pair.lower, &pair.upper].map(|body| body.heights.dim())))
     }
 

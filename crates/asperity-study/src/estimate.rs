@@ -411,7 +411,7 @@ fn fast(case: &Case, pitch: Metre) -> Option<String> {
     }
     // Only the time and distance of the motion are used, which do not depend on the load.
     let motion = case.motion(1.0)?;
-    let speed = motion.sliding_distance(pitch) / motion.step_time(pitch);
+    let speed = motion.sliding_speed();
     let peclet = |body: &Body| body.thermal.map(|thermal| 0.5 * speed * pitch / thermal.diffusivity());
     let [lower, upper] = [&case.lower, &case.upper].map(peclet);
     let largest = lower?.max(upper?);

@@ -205,8 +205,7 @@ pub(super) fn estimate(
     }
     if let Some(motion) = case.motion(1.0) {
         let step = motion.stride as f64 * bodies[0].grid().pitch[0];
-        let speed =
-            motion.sliding_distance(bodies[0].grid().pitch[0]) / motion.step_time(bodies[0].grid().pitch[0]);
+        let speed = motion.sliding_speed();
         for index in [0, 1].into_iter().filter(|index| relaxations[*index].is_some() && speed > 0.0) {
             // Waves along y do not matter: bodies that pass over each other come apart from everywhere.
             let passed = Passed { boundary: Boundary::FREE, step, speeds: &[speed] };

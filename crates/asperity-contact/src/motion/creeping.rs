@@ -42,7 +42,7 @@ pub(super) fn check(pair: &Pair, boundary: Boundary, motion: &Motion, params: &P
     }
     pair.check_creep()?;
     params.device.only_processor("a device does not solve contacts of viscoelastic bodies")?;
-    let refused = if !motion.step_time(pair.pitch()[0]).is_finite() {
+    let refused = if !motion.sliding_speed().is_finite() {
         "viscoelastic bodies need the speed of their motion"
     } else if motion.strategy != Strategy::Overlap && !boundary.repeats(0) {
         "a viscoelastic body in a shift needs a boundary that is periodic along x"
@@ -238,8 +238,7 @@ impl Solver<'_> {
         params: &Params,
         earlier: &[Vec<Contact>],
     ) -> Result<Pass> {
-        let pitch = pair.pitch()[0];
-        let (duration, distance) = (self.motion.step_time(pitch), self.motion.sliding_distance(pitch));
+        let (pitch, columns) = (pair.pitch()[0], pair.lower.columns());
         let width = pair.lower.width();
         let rougher = usize::from(pair.lower.heights.std(0.0) < pair.upper.heights.std(0.0));
         let mut bodies = Creeping::new(pair, self.operators);
@@ -252,6 +251,9 @@ impl Solver<'_> {
             if self.watch.stop() {
                 return Err(Error::Interrupted);
             }
+            let cells = self.motion.cells_to_position(index, columns);
+            let duration = self.motion.time_of(cells, pitch);
+            let distance = self.motion.sliding_distance_of(cells, pitch);
             let placements = pair.placements(position);
             let last = contacts.last().or(self.last.as_ref());
             let start = first_guess(earlier, index, control, width).or_else(|| {
@@ -289,13 +291,18 @@ impl Solver<'_> {
         }
         // Bodies that have passed come apart in the step after the last position.
         let mut leaving = 0.0;
+        let cells: Vec<f64> =
+            (0..self.positions.len()).map(|index| self.motion.cells_to_position(index, columns)).collect();
         if let (Strategy::Overlap, Some(last)) = (self.motion.strategy, contacts.last()) {
+            let step = cells[cells.len() - 1];
+            let (duration, distance) =
+                (self.motion.time_of(step, pitch), self.motion.sliding_distance_of(step, pitch));
             let placements = pair.placements(&last.position);
             let nothing = Field::zeros([last.position.columns, width]);
             bodies.history(&placements, last.position.columns, duration);
             let work = bodies.advance(&placements, &nothing, &nothing, duration);
             if passes_by {
-                leaving = work / distance;
+                leaving = work / distance * step;
             }
         }
         let mut after = pair.clone();
@@ -311,7 +318,7 @@ impl Solver<'_> {
             lost,
             has_changed: false,
             plastic_pass: None,
-            drag: Some(Drag { positions: drags, leaving }),
+            drag: Some(Drag { positions: drags, cells, leaving }),
         })
     }
 }

@@ -110,7 +110,7 @@ pub struct ContactCells<'a> {
     /// Surface temperature of the lower and of the upper body on each of these cells, K; NaN if unknown.
     pub temperature: [&'a [Kelvin]; 2],
     sliding: Slid<'a>,
-    /// Time from this position to the next, s; NaN if the speed is unknown.
+    /// Time for which this position stands, s; NaN if the speed is unknown.
     pub time: Second,
 }
 
@@ -124,7 +124,8 @@ enum Slid<'a> {
 }
 
 impl ContactCells<'_> {
-    /// Returns the distance that a cell in contact slides, by its index: from this position to the next, or in an increment, m.
+    /// Returns the distance that a cell in contact slides, by its index: on the way for which this position stands, or in an
+    /// increment, m.
     pub fn sliding_distance(&self, index: usize) -> Metre {
         match self.sliding {
             Slid::Alike(distance) => distance,
@@ -175,9 +176,9 @@ impl ContactCells<'_> {
 pub(super) struct PositionData {
     /// Sliding on the forward stroke, if there is friction.
     pub(super) sliding: Option<Sliding>,
-    /// Sliding distance from one position to the next.
+    /// Sliding distance for which the position stands.
     pub(super) distance: Metre,
-    /// Time from one position to the next.
+    /// Time for which the position stands.
     pub(super) time: Second,
     /// Temperatures of the bodies.
     pub(super) bulk: [Kelvin; 2],

@@ -351,21 +351,63 @@ impl Motion {
         if self.path == Path::Reciprocating && stays && !pushed { positions / 2 } else { positions }
     }
 
-    /// Time from one position to the next for a pitch along x; NaN if the speed is not known.
-    pub fn step_time(&self, pitch: Metre) -> Second {
-        let step = self.stride as f64 * pitch;
+    /// Number of cells along x of the way for which each position of a stroke stands. The positions of a shift of bodies with `columns` columns share
+    /// one round.
+    pub fn cells_of_position(&self, columns: usize) -> f64 {
         match self.strategy {
-            Strategy::Overlap => self.speed.map_or(f64::NAN, |speed| step / speed),
-            Strategy::Shift { speed_lower, speed_upper } => step / speed_lower.abs().max(speed_upper.abs()),
+            Strategy::Overlap => self.stride as f64,
+            Strategy::Shift { .. } => columns as f64 / columns.div_ceil(self.stride.min(columns)) as f64,
         }
     }
 
-    /// Returns the data of a position that laws need besides the contact, for a pitch along x.
-    fn position_data(&self, pitch: Metre) -> law::PositionData {
+    /// Number of cells along x from the position before to the one of this `index`, from 0, of a pass of bodies with `columns` columns. The
+    /// first position of a stroke of a shift comes last on the round, and is nearer if the stride does not divide the columns.
+    pub fn cells_to_position(&self, index: usize, columns: usize) -> f64 {
+        match self.strategy {
+            Strategy::Overlap => self.stride as f64,
+            Strategy::Shift { .. } => {
+                let stride = self.stride.min(columns);
+                let begins = index.is_multiple_of(columns.div_ceil(stride));
+                if begins { ((columns - 1) % stride + 1) as f64 } else { stride as f64 }
+            }
+        }
+    }
+
+    /// Time in which the faster body moves by a number of `cells` of this pitch along x; NaN if the speed is not known.
+    pub fn time_of(&self, cells: f64, pitch: Metre) -> Second {
+        let way = cells * pitch;
+        match self.strategy {
+            Strategy::Overlap => self.speed.map_or(f64::NAN, |speed| way / speed),
+            Strategy::Shift { speed_lower, speed_upper } => way / speed_lower.abs().max(speed_upper.abs()),
+        }
+    }
+
+    /// Distance that the bodies slide while the faster one moves by a number of `cells` of this pitch along x.
+    pub fn sliding_distance_of(&self, cells: f64, pitch: Metre) -> Metre {
+        let way = cells * pitch;
+        match self.strategy {
+            Strategy::Overlap => way,
+            Strategy::Shift { speed_lower, speed_upper } => {
+                way * (speed_upper - speed_lower).abs() / speed_lower.abs().max(speed_upper.abs())
+            }
+        }
+    }
+
+    /// Speed at which the bodies slide over each other; NaN if it is not known.
+    pub fn sliding_speed(&self) -> MetrePerSecond {
+        match self.strategy {
+            Strategy::Overlap => self.speed.unwrap_or(f64::NAN),
+            Strategy::Shift { speed_lower, speed_upper } => (speed_upper - speed_lower).abs(),
+        }
+    }
+
+    /// Returns the data of a position that laws need besides the contact of a `pair`.
+    fn position_data(&self, pair: &Pair) -> law::PositionData {
+        let (cells, pitch) = (self.cells_of_position(pair.lower.columns()), pair.pitch()[0]);
         law::PositionData {
             sliding: self.sliding(Stroke::Forth),
-            distance: self.sliding_distance(pitch),
-            time: self.step_time(pitch),
+            distance: self.sliding_distance_of(cells, pitch),
+            time: self.time_of(cells, pitch),
             bulk: self.bulk.unwrap_or([f64::NAN; 2]),
         }
     }
@@ -384,16 +426,5 @@ impl Motion {
     /// Returns the pressure bounds of the cells of a `pair` at a position, under the shear of the sliding bodies.
     fn bounds(&self, pair: &Pair, position: &Position) -> Bounds {
         self.slip(position.stroke).sheared(pair.bounds(position))
-    }
-
-    /// Sliding distance from one position to the next, for a pitch along x.
-    pub fn sliding_distance(&self, pitch: Metre) -> Metre {
-        let step = self.stride as f64 * pitch;
-        match self.strategy {
-            Strategy::Overlap => step,
-            Strategy::Shift { speed_lower, speed_upper } => {
-                step * (speed_upper - speed_lower).abs() / speed_lower.abs().max(speed_upper.abs())
-            }
-        }
     }
 }

@@ -41,7 +41,9 @@ pub(super) struct Pass {
 pub(super) struct Drag {
     /// Drag at each position, NaN where it is unknown.
     pub(super) positions: Vec<Newton>,
-    /// Drag while the bodies come apart, after the last position; 0 if they stay in contact, or if they are lifted.
+    /// Cells from the position before to each position.
+    pub(super) cells: Vec<f64>,
+    /// Drag while the bodies come apart, after the last position, times the cells of this step; 0 if they stay in contact, or if they are lifted.
     pub(super) leaving: Newton,
 }
 
@@ -194,7 +196,7 @@ impl Solver<'_> {
         };
         let mut after = pair.clone();
         let mut lost: Vec<LostVolume> = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
-        let position_data = self.motion.position_data(pair.pitch()[0]);
+        let position_data = self.motion.position_data(pair);
         if !self.motion.is_frozen(pair.yields()) {
             let mut contacts = Vec::with_capacity(self.positions.len());
             let mut last = None;

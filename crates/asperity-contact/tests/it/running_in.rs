@@ -6,11 +6,11 @@ use asperity_base::{Field, Grid, Result};
 use asperity_contact::film::{FILM, Film, FilmLaw, FilmStress, Films};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    Acceleration, ContactCells, Law, LoadControl, Motion, Output, Pair, PassRecord, Simulation, Step,
+    Acceleration, ContactCells, Law, LoadControl, Motion, Output, Pair, PassRecord, Path, Simulation, Step,
     Strategy,
 };
 use asperity_contact::operator::Boundary;
-use asperity_contact::solver::{Control, Params};
+use asperity_contact::solver::{Control, Coupling, Friction, Params};
 use asperity_contact::wear::{Wear, WearCoefficient};
 use asperity_surface::{Amplitude, Form, SelfAffine, Topography};
 
@@ -520,7 +520,7 @@ fn a_pass_solved_with_its_wear_presses_the_bodies_that_it_leaves() {
             assert!(off < 1e-4 * largest, "{strategy:?}: {off:e} of {largest:e}");
         }
         // The same volume as with explicit wear, but another distribution: k Σ W Δs.
-        let distance = motion.sliding_distance(PITCH);
+        let distance = motion.sliding_distance_of(4.0, PITCH);
         let volume = coefficient * load * distance * worn.contacts().len() as f64;
         let [lower, upper] = worn.record().lost("wear");
         assert!(
@@ -560,6 +560,55 @@ fn a_solid_lubricant_lasts_as_long_as_its_thickness_over_k_p() {
                 "{:e} of {left:e}",
                 film[[0, 0]]
             );
+        }
+    }
+}
+
+/// A round of a shift is as long as the bodies, also if the stride does not divide their columns.
+#[test]
+fn a_round_of_a_shift_has_the_length_of_the_bodies_at_any_stride() {
+    const COEFFICIENT: f64 = 1e-15;
+    let friction = Friction::coulomb(0.3).unwrap().with_coupling(Coupling::None);
+    for (columns, stride, path, strokes) in [
+        (17, 4, Path::OneWay, 1.0),
+        (16, 4, Path::OneWay, 1.0),
+        (7, 10, Path::OneWay, 1.0),
+        (17, 5, Path::Reciprocating, 2.0),
+    ] {
+        let grid = Grid::new([columns, 8], [PITCH; 2]).unwrap();
+        let wave = |i: usize| 20e-9 * (std::f64::consts::TAU * i as f64 / columns as f64).cos();
+        let wavy = Topography::new(grid, Field::from_shape_fn(grid.shape, |(i, _)| wave(i))).unwrap();
+        let pair =
+            Pair::new(Form::Flat.on(&grid).unwrap(), wavy, [&steel(f64::INFINITY), &steel(f64::INFINITY)])
+                .unwrap();
+        let motion =
+            Motion::new(Strategy::Shift { speed_lower: 0.01, speed_upper: -0.02 }, Control::Load(0.1))
+                .with_load_control(LoadControl::Step)
+                .with_stride(stride)
+                .with_path(path)
+                .with_passes(2)
+                .with_friction(friction);
+        let mut simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default())
+            .unwrap()
+            .with_law(archard(COEFFICIENT));
+        let mut lost = [0.0; 2];
+        for pass in 1..=2 {
+            let solved = simulation.solve(&()).unwrap();
+            let record = solved.record();
+            let running = record.running.unwrap();
+            // The faster surface goes round at 20 mm/s, while both slide by half as much again.
+            let way = f64::from(pass) * strokes * columns as f64 * PITCH;
+            lost = [0, 1].map(|body| lost[body] + record.lost("wear")[body]);
+            for (found, expected) in [
+                (running.time, way / 0.02),
+                (running.distance, 1.5 * way),
+                (running.friction_work, 0.03 * 1.5 * way / f64::from(pass)),
+                (lost[0], COEFFICIENT * 0.1 * 1.5 * way),
+                (lost[1], COEFFICIENT * 0.1 * 1.5 * way),
+            ] {
+                assert!((found / expected - 1.0).abs() < 1e-9, "{columns}, {stride}: {found:e} {expected:e}");
+            }
+            simulation.finish(solved, &(), &mut []).unwrap();
         }
     }
 }

@@ -116,8 +116,19 @@ fn random_passes_are_those_of_boltzmanns_superposition() {
             .with_passes(3)
             .with_path(path)
             .with_speed(random.random_range(0.3..3.0))
-            .with_pause(pause);
-        let duration = motion.step_time(1.0);
+            .with_pause(pause)
+            .with_stride(if is_shift { random.random_range(1..=lower + 1) } else { 1 });
+        // A round of a shift is as long as the bodies, whatever the stride: its last step ends where the next round begins.
+        let speed = motion.time_of(1.0, 1.0).recip();
+        let positions = motion.positions([lower, upper], width, 1).len();
+        let strokes = if path == Path::Reciprocating { 2 } else { 1 };
+        let lengths: Vec<f64> = (0..positions)
+            .map(|step| match step % (positions / strokes) {
+                0 if is_shift => (lower - (positions / strokes - 1) * motion.stride.min(lower)) as f64,
+                _ => motion.stride.min(lower) as f64,
+            })
+            .collect();
+        assert!(!is_shift || lengths.iter().sum::<f64>() == (strokes * lower) as f64);
         let apart = !is_shift || pause > 0.0;
         let creeps = pair.creep().unwrap().clone();
         let grids = [below, above];
@@ -136,7 +147,7 @@ fn random_passes_are_those_of_boltzmanns_superposition() {
             for (step, contact) in solved.contacts().iter().enumerate() {
                 let position = contact.position;
                 let placements = pair.placements(&position);
-                let end = now + duration;
+                let end = now + lengths[step] / speed;
                 let mut opened = pair.initial_gap(&position);
                 let mut matrix = vec![vec![0.0; opened.len()]; opened.len()];
                 for (loads, placement) in loads.iter().zip(&placements) {
@@ -167,7 +178,7 @@ fn random_passes_are_those_of_boltzmanns_superposition() {
                     .sum();
                 let drag = solved.steps()[step].drag.unwrap().drag;
                 let pressed = is_shift && step == 0 && (apart || pass == 0);
-                let wanted = below.cell_area() * work;
+                let wanted = below.cell_area() * work / lengths[step];
                 assert!(
                     if pressed {
                         drag.is_nan()
@@ -180,7 +191,7 @@ fn random_passes_are_those_of_boltzmanns_superposition() {
             }
             if !is_shift {
                 // The bodies come apart in a step.
-                let end = now + duration;
+                let end = now + 1.0 / speed;
                 let leave = |loads: &mut Loads| loads.bear(now, end, vec![0.0; loads.borne.len()]);
                 let leaving = below.cell_area() * loads.iter_mut().map(leave).sum::<f64>();
                 now = end;

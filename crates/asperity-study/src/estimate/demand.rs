@@ -335,7 +335,8 @@ impl Sizes<'_> {
         let Some(motion) = case.motion(area) else { return passes };
         let friction = case.friction.as_ref().map_or(0.0, |friction| friction.law.coefficient);
         let worn = case.loss_per_pressure(friction);
-        let slid = self.overlaps.len() as f64 * motion.sliding_distance(self.lower.pitch[0]);
+        let cells = self.overlaps.len() as f64 * motion.cells_of_position(self.lower.shape[0]);
+        let slid = motion.sliding_distance_of(cells, self.lower.pitch[0]);
         let mean = match motion.control {
             Control::Load(load) => load / area,
             Control::Approach(_) => 0.0,

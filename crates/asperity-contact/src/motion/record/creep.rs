@@ -30,7 +30,7 @@ columns! {
     /// Drag of viscoelastic bodies in a pass.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     pub struct PassDragRecord {
-        /// Mean drag over the positions at which it is known, with what bodies that come apart give back.
+        /// Mean drag over the way to the positions at which it is known, with what bodies that come apart give back.
         pub mean_drag: Newton,
         /// Mean drag over the mean load at these positions; unknown without contact.
         #[serde(deserialize_with = "number_or_none")]
@@ -39,14 +39,18 @@ columns! {
 }
 
 impl PassDragRecord {
-    /// Creates the record of a pass from the drag and the load of its positions, and the drag of bodies that come apart after them.
-    pub(in crate::motion) fn of(positions: impl Iterator<Item = (Newton, Newton)>, leaving: Newton) -> Self {
-        let (mut count, mut drags, mut loads) = (0.0, leaving, 0.0);
-        for (drag, load) in positions.filter(|(drag, _)| drag.is_finite()) {
-            count += 1.0;
-            drags += drag;
-            loads += load;
+    /// Creates the record of a pass from the drag and the load of its positions, with the cells of the way to each, and the drag times the cells of
+    /// the way on which the bodies come apart after them.
+    pub(in crate::motion) fn of(
+        positions: impl Iterator<Item = (Newton, Newton, f64)>,
+        leaving: Newton,
+    ) -> Self {
+        let (mut way, mut drags, mut loads) = (0.0, leaving, 0.0);
+        for (drag, load, cells) in positions.filter(|(drag, ..)| drag.is_finite()) {
+            way += cells;
+            drags += cells * drag;
+            loads += cells * load;
         }
-        Self { mean_drag: drags / f64::max(count, 1.0), drag_coefficient: drags / loads }
+        Self { mean_drag: drags / f64::max(way, 1.0), drag_coefficient: drags / loads }
     }
 }

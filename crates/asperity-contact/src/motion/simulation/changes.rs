@@ -98,7 +98,7 @@ impl Simulation {
         else {
             return Ok(None);
         };
-        let position_data = self.motion.position_data(self.pair.pitch()[0]);
+        let position_data = self.motion.position_data(&self.pair);
         let friction = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
         let laws = &self.changes.laws[self.changes.once()..];
         if laws.is_empty() {
@@ -142,7 +142,7 @@ impl Simulation {
         steps: &mut [StepRecord],
         removal: Option<&PassRemoval>,
     ) -> Result<(Option<RunningRecord>, Option<LastExtrapolation>)> {
-        let position_data = self.motion.position_data(self.pair.pitch()[0]);
+        let position_data = self.motion.position_data(&self.pair);
         let mut heat = self
             .changes
             .heat

@@ -318,7 +318,8 @@ impl Simulation {
     /// position, and for a shift under a boundary that is free along x; also the errors of [`FlashTemperature::new`].
     pub fn with_heat(mut self, thermal: [Thermal; 2], every: usize) -> Result<Self> {
         check("every", every as f64, every > 0, "at least each computed pass")?;
-        let time = self.motion.step_time(self.pair.pitch()[0]);
+        let cells = self.motion.stride.min(self.pair.lower.columns()) as f64;
+        let time = self.motion.time_of(cells, self.pair.pitch()[0]);
         let (Some(_), Some(bulk), true) = (self.motion.friction, self.motion.bulk, time.is_finite()) else {
             return Err(Error::Unsupported(
                 "a flash temperature needs friction, a speed and the temperatures of the bodies",
@@ -424,7 +425,7 @@ impl Simulation {
         let represented = self.represented() + running.map_or(1, |running: RunningRecord| running.represents);
         let interiors = self.interiors.clone();
         let wall_time = began.elapsed().as_secs_f64();
-        let distance = self.motion.sliding_distance(self.pair.pitch()[0]) * steps.len() as f64;
+        let distance = self.motion.position_data(&self.pair).distance * steps.len() as f64;
         Ok(SolvedPass {
             outcome,
             hardness,

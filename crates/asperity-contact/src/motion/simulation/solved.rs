@@ -70,8 +70,11 @@ impl SolvedPass {
             ),
             plastic: self.outcome.plastic_pass.as_ref().map(|pass| pass.record),
             drag: self.outcome.drag.as_ref().map(|drag| {
-                let loads = self.steps.iter().map(|step| step.load);
-                PassDragRecord::of(drag.positions.iter().copied().zip(loads), drag.leaving)
+                let steps = drag.positions.iter().zip(&self.steps).zip(&drag.cells);
+                PassDragRecord::of(
+                    steps.map(|((drag, step), cells)| (*drag, step.load, *cells)),
+                    drag.leaving,
+                )
             }),
             ..record
         }
