@@ -39,7 +39,8 @@ class Conductance(Comparable):
         Conductance G, at least 0, W/K or S; 0 if nothing conducts. ``None`` if the joint adds no resistance: all cells of a period
         touch without a film.
     joint_conductance : float or None
-        Conductance over the area of the grid, W/(m² K) or S/m²; ``None`` with the conductance.
+        Conductance of the joint alone over the area of the grid, W/(m² K) or S/m²: 1/((R - R_full) A) under a free boundary. ``None`` with
+        the conductance, and where the two cannot be split: spots in a part of the grid, or all cells in contact.
     resistance : float or None
         1/G, K/W or Ω; ``None`` if there is none, and if nothing conducts.
     full_resistance : float or None
@@ -91,9 +92,10 @@ class Conductance(Comparable):
     def __repr__(self) -> str:
         whole, per_area, _ = _UNITS[self.kind]
         spots = f"{self.spots} spot{'' if self.spots == 1 else 's'}"
-        if self.conductance is None or self.joint_conductance is None:
+        if self.conductance is None:
             return f"<Conductance: no resistance, {spots}>"
-        parts = [f"{self.conductance:.4g} {whole}", f"{self.joint_conductance:.4g} {per_area}", spots]
+        joint = [] if self.joint_conductance is None else [f"{self.joint_conductance:.4g} {per_area}"]
+        parts = [f"{self.conductance:.4g} {whole}", *joint, spots]
         if self.gas_share > 0.0:
             parts.append(f"{100.0 * self.gas_share:.3g} % through gas")
         if self.film_share > 0.0:
@@ -136,8 +138,8 @@ def conductance(
     """Compute the thermal or electrical conductance of a contact.
 
     Heat or current passes where the bodies touch, through a film on the spots, and through gas in the gap. The bodies are
-    half-spaces below their surfaces. Under a free boundary the conductance contains the spreading from the grid into them. Under a
-    periodic boundary it is that of the joint alone.
+    half-spaces below their surfaces. Under a free boundary the conductance contains the spreading from the outline of the grid into
+    them, which the joint conductance does not. Under a periodic boundary it is that of the joint alone.
 
     Parameters
     ----------

@@ -56,7 +56,7 @@ fn conductance<'py>(
     })?;
     let answer = PyDict::new(py);
     answer.set_item("conductance", found.conductance)?;
-    answer.set_item("joint_conductance", found.joint_conductance())?;
+    answer.set_item("joint_conductance", found.joint_conductance(full))?;
     answer.set_item("resistance", found.resistance())?;
     answer.set_item("full_resistance", full)?;
     answer.set_item("holm_greenwood", found.holm_greenwood(composite))?;

@@ -4,7 +4,7 @@ mod contact;
 mod demand;
 mod plausible;
 
-pub(super) use contact::{CELLS_ACROSS, are_curved};
+pub(super) use contact::CELLS_ACROSS;
 pub use contact::{cut_off, spot, too_few_cells};
 pub use demand::{Demand, demand, memory_on_device};
 

@@ -17,9 +17,7 @@ use crate::tables::{self, GrowingTable};
 use asperity_base::error::{Error, Result};
 use asperity_base::math::parallel;
 use asperity_contact::each_capability;
-use asperity_contact::motion::{
-    ObservedContact, Output, Pair, PassReport, Position, Step, StepRow, SweepRecord,
-};
+use asperity_contact::motion::{ObservedContact, Output, Pair, PassReport, Position, Step, StepRow};
 use asperity_contact::solver::Solution;
 use asperity_contact::with::{BodyField, Capability, Given, Listed, Observations, Observer, Place, Reported};
 
@@ -309,12 +307,12 @@ impl Output for Observers {
     }
 }
 
-/// Returns reasons in what the observers of a `case` have found not to trust it. The `points` are those of a sweep.
-pub(super) fn doubts(case: &Case, found: &Observations, points: &[SweepRecord]) -> Vec<String> {
+/// Returns reasons in what the observers of a `case` have found not to trust it.
+pub(super) fn doubts(case: &Case, found: &Observations) -> Vec<String> {
     let surroundings = case.surroundings();
     let mut doubts = Vec::new();
     each_capability!(C => if let Some(asked) = C::of(&case.with) {
-        doubts.extend(asked.doubts(C::rows(found), &surroundings, points));
+        doubts.extend(asked.doubts(C::rows(found), &surroundings));
     });
     doubts
 }

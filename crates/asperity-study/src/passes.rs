@@ -202,7 +202,7 @@ impl Passes {
         });
         let subsurface = self.output.subsurface(passes.len())?;
         let (found, _) = self.observers.finish()?;
-        self.warnings.extend(observe::doubts(&self.case, &found, &[]));
+        self.warnings.extend(observe::doubts(&self.case, &found));
         let outcome = Computed {
             interface: self.interface,
             found: observe::summary(&found),

@@ -20,7 +20,7 @@ use asperity_base::grid::{CellValues, Field, check_finite};
 use asperity_contact::motion::{
     Body, ChangedBodies, ElastoPlasticContact, IncrementRecord, LoadedContact, Output, Pair, PlasticResult,
     PlasticVolume, Point, Slide, SlidingContact, SlidingOutcome, SlidingState, SlipRegime, Stage,
-    StagedLoading, StaticRecord, SweepRecord, UpdateRecord, Watch, press, press_elasto_plastic, sweep,
+    StagedLoading, StaticRecord, UpdateRecord, Watch, press, press_elasto_plastic, sweep,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Equilibrium, Friction, Params, Solution};
@@ -91,11 +91,7 @@ impl StaticResult {
     fn seen_by(mut self, case: &Case, observers: Observers) -> Result<Self> {
         let (found, fields) = observers.finish()?;
         self.fields.fields.extend(fields);
-        let points: &[SweepRecord] = match &self.outcome {
-            Outcome::Sweep(points) => points,
-            _ => &[],
-        };
-        self.warnings.extend(observe::doubts(case, &found, points));
+        self.warnings.extend(observe::doubts(case, &found));
         Ok(Self { found, ..self })
     }
 

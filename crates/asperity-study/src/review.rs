@@ -3,13 +3,13 @@
 use ndarray::Axis;
 
 use super::case::Case;
-use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, are_curved, cut_off, spot, too_few_cells};
+use super::estimate::{CELLS_ACROSS, NOT_FLATTENED, cut_off, spot, too_few_cells};
 use asperity_base::grid::Field;
 use asperity_base::units::{self, Dimension, Joule, Metre, SquareMetre};
 use asperity_contact::each_law;
 use asperity_contact::motion::{
-    ElastoPlasticContact, IncrementRecord, Interior, LoadedContact, Pair, PassPlasticRecord, PassRecord,
-    PlasticVolume, ShearRecord, StaticRecord, StepRecord, SweepRecord,
+    ElastoPlasticContact, IncrementRecord, Interior, LoadedContact, Pair, Paraboloid, PassPlasticRecord,
+    PassRecord, PlasticVolume, ShearRecord, StaticRecord, StepRecord, SweepRecord,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::with::{self, BodyLaw};
@@ -18,7 +18,8 @@ use asperity_contact::with::{self, BodyLaw};
 pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) -> Vec<String> {
     let gap = || pair.initial_gap(&pair.at_rest());
     let rim = cut_off(pressure, gap, pair.pitch(), boundary);
-    let of_interface = with::doubts_at_rest(pressure, boundary, || are_curved(&gap(), pair.pitch()));
+    let of_interface =
+        with::doubts_at_rest(pressure, boundary, || Paraboloid::of(&gap(), pair.pitch()).is_some());
     rim.into_iter().chain(of_interface).chain(too_few_cells(spot(pressure, boundary))).collect()
 }
 

@@ -73,7 +73,7 @@ fn report(
             time / contact_time,
             contact.stats.convolutions,
             found.stats.convolutions,
-            found.joint_conductance().unwrap_or(f64::INFINITY),
+            found.joint_conductance(None).unwrap_or(f64::INFINITY),
         );
     }
     Ok(())

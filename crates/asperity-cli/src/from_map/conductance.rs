@@ -186,11 +186,17 @@ impl Found {
             }
         }
         let mut text = line("contact", &contact);
-        let rows = conductance::conducts(self.kind, self.solved.conductance, self.solved.joint_conductance());
+        let joint = self.solved.joint_conductance(self.full);
+        let rows = conductance::conducts(self.kind, self.solved.conductance, joint);
         text.extend(rows.iter().map(|Line { name, value, .. }| line(name, value)));
         if let Some(full) = self.full {
             let full = conductance::resistance(self.kind, full);
-            text += &line("all in contact", &format!("resistance {full}: that of the bodies around the map"));
+            text += &line(
+                "all in contact",
+                &format!(
+                    "resistance {full}: that of the spreading from the outline of the map, without the joint"
+                ),
+            );
         }
         if let Some(estimate) = self.holm_greenwood {
             let estimate = conductance::resistance(self.kind, estimate);
@@ -209,7 +215,7 @@ impl Found {
             "contact_area": grid.cell_area() * self.touching as f64,
             "contact_fraction": self.touching as f64 / grid.cells() as f64,
             "conductance": self.solved.conductance,
-            "joint_conductance": self.solved.joint_conductance(),
+            "joint_conductance": self.solved.joint_conductance(self.full),
             "resistance": self.solved.resistance(),
             "full_resistance": self.full,
             "holm_greenwood": self.holm_greenwood,

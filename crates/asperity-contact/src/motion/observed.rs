@@ -6,9 +6,9 @@ use ndarray::Array2;
 
 use crate::grid::{Field, Grid};
 use crate::motion::contact::Contact;
-use crate::motion::course::Step;
+use crate::motion::course::{Step, StepRow};
 use crate::solver::Solution;
-use crate::units::{Metre, Newton};
+use crate::units::{Metre, Newton, NewtonPerMetre};
 
 /// A solved contact with the fields that observers need: where the bodies touch, with what pressure, and how far apart they
 /// are elsewhere.
@@ -29,6 +29,8 @@ pub struct ObservedContact<'a> {
     pub touching: Array2<bool>,
     /// Gap, m: 0 on cells in contact, ≥ 0 elsewhere.
     pub gap: Field,
+    /// Normal stiffness of an elastic contact, N/m, if it is known.
+    pub stiffness: Option<NewtonPerMetre>,
 }
 
 impl<'a> ObservedContact<'a> {
@@ -46,6 +48,7 @@ impl<'a> ObservedContact<'a> {
             pressure: Cow::Borrowed(&solution.pressure),
             gap: open(solution.gap(), &touching),
             touching,
+            stiffness: None,
         }
     }
 
@@ -64,6 +67,7 @@ impl<'a> ObservedContact<'a> {
             pressure: Cow::Owned(contact.pressure_field(grid.shape[1])),
             gap: open(gap, &touching),
             touching,
+            stiffness: None,
         })
     }
 }
@@ -82,6 +86,11 @@ impl<'a> Step<'a> {
             let contacts = contacts.iter().enumerate();
             contacts.filter_map(move |(index, contact)| ObservedContact::at_position(index, contact, pitch))
         });
-        self.contact.into_iter().map(ObservedContact::at_rest).chain(of_pass)
+        let stiffness = match self.row {
+            StepRow::Point(record) if record.plastic_area == 0.0 => record.stiffness,
+            _ => None,
+        };
+        let at_rest = move |solution| ObservedContact { stiffness, ..ObservedContact::at_rest(solution) };
+        self.contact.into_iter().map(at_rest).chain(of_pass)
     }
 }

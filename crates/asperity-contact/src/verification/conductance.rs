@@ -153,7 +153,7 @@ pub(super) const GAS: Case = Case {
                 let joint = CLEAN.with_gas(conductivity, 0.5);
                 let mut operator = PeriodicFft::new(grid, 1.0);
                 let found = solve(&mut operator, &open, Some(gap), &joint, None, &PARAMS)?;
-                Ok(found.joint_conductance().unwrap_or(f64::INFINITY) / conductivity)
+                Ok(found.joint_conductance(None).unwrap_or(f64::INFINITY) / conductivity)
             };
             let means = [
                 (0..32).map(|i| resistance(i).recip()).sum::<f64>() / 32.0,

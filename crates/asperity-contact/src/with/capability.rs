@@ -10,7 +10,7 @@ use super::{BodyProperties, Capabilities, Listed, Observations};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::material::Material;
-use crate::motion::{Memory, ObservedContact, Pair, PassReport, SweepRecord};
+use crate::motion::{Memory, ObservedContact, Pair, PassReport};
 use crate::operator::Boundary;
 use crate::solver::Params;
 use crate::units::{MetrePerSecond, Pascal};
@@ -82,8 +82,8 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
     /// Returns the numbers of a row.
     fn numbers(&self, row: &Self::Row) -> Vec<Line>;
 
-    /// Returns reasons in the rows not to trust them. The `points` are those of a sweep.
-    fn doubts(&self, rows: &[Self::Row], surroundings: &Surroundings, points: &[SweepRecord]) -> Vec<String>;
+    /// Returns reasons in the rows not to trust them.
+    fn doubts(&self, rows: &[Self::Row], surroundings: &Surroundings) -> Vec<String>;
 
     /// Returns the prefix of the columns of a row in the table of a study, one of [`Self::PREFIXES`]; empty for a column that needs
     /// none.

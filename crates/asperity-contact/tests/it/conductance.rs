@@ -4,8 +4,10 @@
 
 use asperity_base::ndarray::Array2;
 use asperity_base::{Field, Grid};
-use asperity_contact::conductance::{Bracket, Conductance, Joint, JointRoughness, Kind, solve};
-use asperity_contact::operator::{Boundary, FreeFft, Operator, Operators, PeriodicFft};
+use asperity_contact::conductance::{
+    Bracket, Conductance, Joint, JointRoughness, Kind, full_resistance, solve,
+};
+use asperity_contact::operator::{Boundary, Edge, FreeFft, Operator, Operators, PeriodicFft};
 use asperity_contact::solver::{Bounds, Control, Method, Params, Solution, solve_normal};
 use asperity_surface::LowPass;
 use serde_json::Value;
@@ -41,7 +43,7 @@ fn spots_film_and_gas_are_those_of_an_independent_program() {
                 let found = found.unwrap();
                 let found = match word {
                     "free" => found.conductance,
-                    _ => found.joint_conductance(),
+                    _ => found.joint_conductance(None),
                 };
                 let (found, expected) = (found.unwrap(), number(&case[word][name]));
                 assert!((found / expected - 1.0).abs() < 2e-12, "{word}, {name}: {found}, {expected}");
@@ -117,7 +119,7 @@ fn rough_joints_conduct_as_those_of_an_independent_program_and_nearly_as_by_the_
             };
             let contact = press(&mut operator, &gap, hardness, load, 1e-9);
             let found = conduct(&mut operator, &contact);
-            let h = found.joint_conductance().unwrap();
+            let h = found.joint_conductance(None).unwrap();
             let scaled = h * sigma / slope;
             let error = scaled / number(&row["h"]) - 1.0;
             assert!(error.abs() < 2e-3, "{row}: {scaled}, {error:e}");
@@ -169,7 +171,7 @@ fn a_rough_conductance_is_that_of_an_independent_program_and_lies_in_its_bracket
         let load = number(&row["load"]);
         let contact = press(&mut operator, &gap, f64::INFINITY, load, 1e-10);
         let area = contact.contact_cells() as f64 / 128f64.powi(2);
-        let h = conduct(&mut operator, &contact).joint_conductance().unwrap();
+        let h = conduct(&mut operator, &contact).joint_conductance(None).unwrap();
         assert!((area - number(&row["area"])).abs() < 1e-3, "{row}: {area}");
         assert!((h / number(&row["conductance"]) - 1.0).abs() < 1e-4, "{row}: {h}");
     }
@@ -190,7 +192,7 @@ fn conductance_converges_before_the_area_of_contact() {
         let gap = gap_of(&surface(&data, "4", n));
         let mut operator = PeriodicFft::new(unit(n), 1.0);
         let contact = press(&mut operator, &gap, f64::INFINITY, 0.055, 1e-8);
-        let h = conduct(&mut operator, &contact).joint_conductance().unwrap();
+        let h = conduct(&mut operator, &contact).joint_conductance(None).unwrap();
         [h, contact.contact_cells() as f64 / (n * n) as f64]
     });
     let off = |one: [f64; 2], quantity: usize| (one[quantity] / fine[quantity] - 1.0).abs();
@@ -227,4 +229,69 @@ fn random_elastic_contacts_conduct_as_they_are_stiff() {
         largest = largest.max((mean / conductance - 1.0).abs());
     }
     assert!(largest < 2e-2, "{largest}");
+}
+
+/// The same roughness on maps of more and more periods: the spreading from the outline grows, the joint stays that of the period. Both pressure
+/// and flux crowd at the outline, so that the drop across the joint is
+/// nearly even.
+#[test]
+fn a_joint_under_a_free_boundary_is_that_of_the_period_whatever_the_size_of_the_map() {
+    let n = 24;
+    let wave = |x: usize, y: usize| {
+        let [x, y] = [x, y].map(|i| std::f64::consts::TAU * i as f64 / n as f64);
+        0.02 * ((x + y).cos()
+            + (2.0 * x - y).sin()
+            + 0.7 * (2.0 * y + 1.0).cos()
+            + 0.5 * (3.0 * x + 2.0 * y).sin())
+    };
+    for (pressure, joint) in [(0.01, CLEAN), (0.04, CLEAN), (0.04, CLEAN.with_film(0.05))] {
+        let of = |tiles: usize, boundary: Boundary| {
+            let grid = Grid::new([tiles * n; 2], [1.0 / n as f64; 2]).unwrap();
+            let gap = Field::from_shape_fn(grid.shape, |(i, j)| wave(i, j));
+            let mut operator = Operators::new(grid, 1.0, boundary).on(grid.shape);
+            let contact = press(operator.as_mut(), &gap, f64::INFINITY, pressure * grid.area(), 1e-8);
+            let touching = contact.pressure.mapv(|p| p > 0.0);
+            let found = solve(operator.as_mut(), &touching, None, &joint, None, &fine(1e-9)).unwrap();
+            let full = full_resistance(operator.as_mut(), &fine(1e-9)).unwrap();
+            [found.joint_conductance(full).unwrap(), found.conductance.unwrap() / grid.area()]
+        };
+        let [expected, _] = of(1, Boundary::PERIODIC);
+        let found = [3, 6, 9].map(|tiles| of(tiles, Boundary::FREE));
+        // A period has few spots, whose conductance is not in proportion to the pressure.
+        assert!(found.iter().all(|[joint, _]| (joint / expected - 1.0).abs() < 0.18), "{expected} {found:?}");
+        assert!((found[2][0] / found[1][0] - 1.0).abs() < 0.05, "{found:?}");
+        assert!(found[2][1] < 0.75 * found[1][1], "the conductance over the area falls: {found:?}");
+    }
+}
+
+#[test]
+fn what_cannot_be_split_is_no_joint() {
+    let grid = unit(48);
+    let disc = |radius: f64| {
+        Array2::from_shape_fn(grid.shape, |(i, j)| (i as f64 - 23.5).hypot(j as f64 - 23.5) < 48.0 * radius)
+    };
+    let stripe =
+        |width: f64| Array2::from_shape_fn(grid.shape, |(i, _)| (i as f64 - 23.5).abs() < 24.0 * width);
+    let line = Boundary([Edge::Free, Edge::Periodic]);
+    for (touching, boundary, is_joint) in [
+        (disc(0.15), Boundary::FREE, false),
+        (disc(0.15), Boundary::PERIODIC, true),
+        (stripe(0.2), line, false),
+        (stripe(0.2), Boundary::FREE, false),
+        (stripe(0.9), line, true),
+        (disc(2.0), Boundary::FREE, false),
+        (disc(0.0), Boundary::FREE, true),
+    ] {
+        let mut operator = Operators::new(grid, 1.0, boundary).on(grid.shape);
+        let found = solve(operator.as_mut(), &touching, None, &CLEAN, None, &fine(1e-9)).unwrap();
+        let full = full_resistance(operator.as_mut(), &fine(1e-9)).unwrap();
+        let joint = found.joint_conductance(full);
+        assert_eq!(
+            joint.is_some(),
+            is_joint,
+            "{boundary:?} {}: {joint:?}",
+            found.spots.areas.iter().sum::<f64>()
+        );
+        assert!(found.conductance.is_some());
+    }
 }

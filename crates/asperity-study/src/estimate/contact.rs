@@ -2,151 +2,16 @@
 //!
 //! Predictions use Hertz' contact of the paraboloid closest to the gap. Warnings about a result use its pressures.
 
-use std::f64::consts::SQRT_2;
-
 use ndarray::s;
 
 use asperity_base::grid::Field;
-use asperity_base::math::parallel;
-use asperity_base::math::sum::sums;
-use asperity_base::ranks::Merged;
 use asperity_base::units::{self, Dimension, Metre, Pascal};
-use asperity_contact::motion::{Position, initial_gap, largest_spot};
+use asperity_contact::motion::{Paraboloid, Position, initial_gap, largest_spot};
 use asperity_contact::operator::Boundary;
-use asperity_contact::reference::HertzEllipse;
 use asperity_contact::solver::Control;
 
 /// Number of cells across a contact spot from which its pressures are accurate to a few per cent.
 pub(crate) const CELLS_ACROSS: usize = 6;
-
-/// The paraboloid closest to a gap, by least squares over all cells.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Paraboloid {
-    /// Principal curvatures, the larger one first; positive where the gap opens outwards.
-    curvatures: [f64; 2],
-    /// Direction of the larger curvature, (cos φ, sin φ).
-    direction: [f64; 2],
-    /// The lowest point, relative to the corner of the grid; along a straight line, the centre.
-    apex: [Metre; 2],
-    extent: [Metre; 2],
-    pitch: [Metre; 2],
-}
-
-impl Paraboloid {
-    /// Fits the paraboloid closest to `gap`. Returns `None` if it explains less than nine tenths of the variance of the gap
-    /// about a plane: such a gap is rough rather than curved.
-    pub(crate) fn of(gap: &Field, pitch: [Metre; 2]) -> Option<Self> {
-        /// Smallest fraction of the variance of the gap that a paraboloid must explain.
-        const DOMINATES: f64 = 0.9;
-        let shape = [gap.nrows(), gap.ncols()];
-        // On a full grid these six are orthogonal: 1, x, y, x² − its mean, y² − its mean, xy.
-        let places = [0, 1].map(|axis| {
-            let middle = 0.5 * (shape[axis] as f64 - 1.0);
-            (0..shape[axis]).map(|i| (i as f64 - middle) * pitch[axis]).collect::<Vec<f64>>()
-        });
-        let squares = [0, 1].map(|axis| {
-            let mean = places[axis].iter().map(|s| s * s).sum::<f64>() / shape[axis] as f64;
-            places[axis].iter().map(|s| s * s - mean).collect::<Vec<f64>>()
-        });
-        let mean = gap.mean()?;
-        let [y, yy] = [&places[1], &squares[1]];
-        let of_row = |i: usize| {
-            let row = gap.row(i);
-            let row = row.to_slice().expect("standard layout");
-            let [h, hy, hyy, hh] =
-                sums(row, |j, h| [h - mean, (h - mean) * y[j], (h - mean) * yy[j], (h - mean).powi(2)]);
-            [places[0][i] * h, hy, squares[0][i] * h, hyy, places[0][i] * hy, hh]
-        };
-        let [x_sum, y_sum, xx_sum, yy_sum, xy_sum, variance] =
-            parallel::merged(shape, |rows| Merged::of_parts(rows.map(of_row)));
-        let norm = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
-        let (rows, columns) = (shape[0] as f64, shape[1] as f64);
-        let products = [
-            [x_sum, columns * norm(&places[0])],
-            [y_sum, rows * norm(y)],
-            [xx_sum, columns * norm(&squares[0])],
-            [yy_sum, rows * norm(yy)],
-            [xy_sum, norm(&places[0]) * norm(y)],
-        ];
-        let coefficient = |[product, norm]: [f64; 2]| if norm > 0.0 { product / norm } else { 0.0 };
-        let told = |[product, norm]: [f64; 2]| if norm > 0.0 { product * product / norm } else { 0.0 };
-        let planar = variance - told(products[0]) - told(products[1]);
-        let curved: f64 = products[2..].iter().map(|product| told(*product)).sum();
-        if !(curved > DOMINATES * planar && curved > 1e-12 * variance) {
-            return None;
-        }
-        let [tilt_x, tilt_y, xx, yy, xy] = products.map(coefficient);
-        let (xx, yy) = (2.0 * xx, 2.0 * yy);
-        let (middle, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
-        let curvatures = [middle + half, middle - half];
-        let angle = 0.5 * xy.atan2(0.5 * (xx - yy));
-        let direction = [angle.cos(), angle.sin()];
-        // Along each principal direction the slope vanishes at the lowest point.
-        let across = [-direction[1], direction[0]];
-        let least = 1e-6 * curvatures[0].abs().max(curvatures[1].abs());
-        let mut apex = [0, 1].map(|axis| 0.5 * shape[axis] as f64 * pitch[axis]);
-        for (curvature, [x, y]) in curvatures.into_iter().zip([direction, across]) {
-            if curvature.abs() > least {
-                let distance = -(tilt_x * x + tilt_y * y) / curvature;
-                apex = [apex[0] + distance * x, apex[1] + distance * y];
-            }
-        }
-        let extent = [0, 1].map(|axis| shape[axis] as f64 * pitch[axis]);
-        Some(Self { curvatures, direction, apex, extent, pitch })
-    }
-
-    /// Whether the gap does not open outwards in all directions: a line contact, a saddle or a hollow.
-    fn is_endless(&self) -> bool {
-        self.curvatures[1] <= 1e-6 * self.curvatures[0]
-    }
-
-    /// Axis of a line contact: that of the smaller curvature.
-    fn line(&self) -> usize {
-        usize::from(self.direction[0].abs() > 1.0 / SQRT_2)
-    }
-
-    /// Returns Hertz' contact of the paraboloid under `control`, with the approach relative to the gap `touch`. `None` if
-    /// the gap does not open outwards in all directions, or if nothing presses.
-    fn hertz(&self, modulus: Pascal, control: Control, touch: Metre) -> Option<HertzEllipse> {
-        if self.is_endless() {
-            return None;
-        }
-        let contact = |load: f64| HertzEllipse::new(self.curvatures.map(f64::recip), modulus, load);
-        let load = match control {
-            Control::Load(load) => load,
-            // δ is proportional to W^⅔.
-            Control::Approach(approach) => ((approach - touch).max(0.0) / contact(1.0).approach).powf(1.5),
-        };
-        (load > 0.0 && load.is_finite()).then(|| contact(load))
-    }
-
-    /// Finds the free side of the grid with the highest edge pressure for a contact with these semi-axes along the
-    /// principal directions. Returns its axis, the reach of the contact from the apex, the distance of the side, and the
-    /// pressure at the side over that at the centre.
-    ///
-    /// A contact with the reach a that is cut off at w presses on the last cells, of pitch h, with about p₀ (√(h/w) + 1.1
-    /// (a/w − 1) √(w/h)). An edge at w adds a term to Hertz' pressure that grows as the inverse root of the distance from
-    /// the edge, here averaged over a cell. The factor 1.1 is from computations of spheres and ellipsoids on 32 to 128
-    /// cells.
-    fn hardest_side(&self, semi_axes: [Metre; 2], boundary: Boundary) -> Option<(usize, Metre, Metre, f64)> {
-        let [c, s] = self.direction;
-        let [along, across] = semi_axes;
-        let reach = [(along * c).hypot(across * s), (along * s).hypot(across * c)];
-        let sides = [0, 1].into_iter().filter(|axis| !boundary.repeats(*axis)).flat_map(|axis| {
-            [self.apex[axis], self.extent[axis] - self.apex[axis]].map(|rim| (axis, reach[axis], rim))
-        });
-        let pressures = sides.map(|(axis, reach, rim)| {
-            let cells = (rim / self.pitch[axis]).max(1.0);
-            (
-                axis,
-                reach,
-                rim,
-                cells.sqrt().recip() + 1.1 * (reach / rim.max(self.pitch[axis]) - 1.0) * cells.sqrt(),
-            )
-        });
-        pressures.max_by(|one, other| one.3.total_cmp(&other.3))
-    }
-}
 
 /// Returns the predictions of Hertz' estimate for bodies with this initial `gap`: whether the boundary cuts the contact
 /// off, and whether it has too few cells.
@@ -172,7 +37,7 @@ pub(super) fn predict(
         prediction.rim = endless(&paraboloid, boundary);
         return prediction;
     };
-    if let Some((axis, reach, rim, pressure)) = paraboloid.hardest_side(contact.semi_axes, boundary)
+    if let Some((axis, reach, rim, pressure)) = hardest_side(&paraboloid, contact.semi_axes, boundary)
         && pressure >= 1.0
     {
         prediction.rim = Some(format!(
@@ -202,6 +67,38 @@ pub(super) struct HertzPrediction {
     pub(super) rim: Option<String>,
     /// Warning that the contact has too few cells.
     pub(super) coarse: Option<String>,
+}
+
+/// Finds the free side of the grid with the highest edge pressure for a contact with these semi-axes along the
+/// principal directions. Returns its axis, the reach of the contact from the apex, the distance of the side, and the
+/// pressure at the side over that at the centre.
+///
+/// A contact with the reach a that is cut off at w presses on the last cells, of pitch h, with about p₀ (√(h/w) + 1.1
+/// (a/w − 1) √(w/h)). An edge at w adds a term to Hertz' pressure that grows as the inverse root of the distance from
+/// the edge, here averaged over a cell. The factor 1.1 is from computations of spheres and ellipsoids on 32 to 128
+/// cells.
+fn hardest_side(
+    paraboloid: &Paraboloid,
+    semi_axes: [Metre; 2],
+    boundary: Boundary,
+) -> Option<(usize, Metre, Metre, f64)> {
+    let [c, s] = paraboloid.direction;
+    let [along, across] = semi_axes;
+    let reach = [(along * c).hypot(across * s), (along * s).hypot(across * c)];
+    let sides = [0, 1].into_iter().filter(|axis| !boundary.repeats(*axis)).flat_map(|axis| {
+        [paraboloid.apex[axis], paraboloid.extent[axis] - paraboloid.apex[axis]]
+            .map(|rim| (axis, reach[axis], rim))
+    });
+    let pressures = sides.map(|(axis, reach, rim)| {
+        let cells = (rim / paraboloid.pitch[axis]).max(1.0);
+        (
+            axis,
+            reach,
+            rim,
+            cells.sqrt().recip() + 1.1 * (reach / rim.max(paraboloid.pitch[axis]) - 1.0) * cells.sqrt(),
+        )
+    });
+    pressures.max_by(|one, other| one.3.total_cmp(&other.3))
 }
 
 /// Warns of a gap that does not open towards a free side.
@@ -315,11 +212,6 @@ pub fn cut_off(
         value(side.inside),
         100.0 * boundary.outermost(pressure) / pressure.sum()
     ))
-}
-
-/// Whether bodies with this gap are curved, and not flat or rough.
-pub(crate) fn are_curved(gap: &Field, pitch: [Metre; 2]) -> bool {
-    Paraboloid::of(gap, pitch).is_some()
 }
 
 /// Pressures at the two sides of the grid across an axis.

@@ -9,6 +9,7 @@ use asperity_contact::flow::{self, Along, Ends, FlowRecord, Fluid, Leakage, Sett
 use asperity_contact::motion::{Progress, Watch};
 use asperity_contact::operator::{Boundary, FreeFft, Operator, PeriodicFft};
 use asperity_contact::solver::Params;
+use asperity_contact::with::{Capability, Listed};
 use asperity_study::{Case, Existing, Results, SurfaceInput};
 use asperity_surface::Axis;
 
@@ -146,6 +147,20 @@ fn every_course_says_what_its_contacts_let_through() {
             assert!(thermal.kind == Kind::Thermal && thermal.conductance.unwrap() > 0.0, "{name}: {row:?}");
             assert!((row.spot_share + row.gas_share - 1.0).abs() < 1e-9, "{name}: {row:?}");
             assert!(near(row.power.unwrap(), 10.0 * thermal.conductance.unwrap(), 1e-12));
+            // The joint is what is in series with the spreading from the outline of the contact, at every position.
+            let area = row.load / row.mean_pressure;
+            match (thermal.resistance_full, thermal.joint_conductance) {
+                (_, None) => assert_eq!(case.contact.boundary, Boundary::FREE, "{name}"),
+                (None, Some(joint)) => {
+                    assert!(near(thermal.conductance.unwrap() / area, joint, 1e-9), "{name}")
+                }
+                (Some(full), Some(joint)) if row.load > 0.0 => {
+                    let series = full + (joint * area).recip();
+                    assert!(near(thermal.resistance.unwrap(), series, 1e-9), "{name}: {row:?}");
+                }
+                (Some(_), Some(_)) => {}
+            }
+            assert!(thermal.joint_conductance.is_some() || row.spots < 2.0, "{name}: {row:?}");
             for (flow, along) in flows.iter().zip([Axis::X, Axis::Y]) {
                 assert_eq!((flow.pass, Some(flow.step), flow.along), (row.pass, row.step, along), "{name}");
                 assert!(flow.load == row.load && flow.contact_area == row.contact_area, "{name}");
@@ -320,4 +335,39 @@ fn positions_are_looked_at_in_parallel_with_the_same_bits() {
     });
     assert_eq!(tables[0], tables[1]);
     assert!(tables[0].iter().all(|table| table.lines().count() > 2 * 15), "{tables:?}");
+}
+
+#[test]
+fn the_conductance_of_clean_elastic_bodies_is_that_of_their_stiffness_and_a_ball_has_no_joint() {
+    let folder = tempfile::tempdir().unwrap();
+    let steel = "young = \"210 GPa\"\npoisson = 0.3\nconductivity = \"46 W/(m K)\"";
+    let rough = "generate = \"self-affine\", hurst = 0.8, sq = \"0.1 um\", shortest = \"4 um\"";
+    for (upper, boundary, is_joint) in [
+        (rough, "free", true),
+        (rough, "periodic", true),
+        ("form = \"sphere\", radius = \"60 um\"", "free", false),
+        ("form = \"sphere\", radius = \"60 um\"", "periodic", true),
+    ] {
+        let text = format!(
+            "[lower]\n{steel}\ntopography = {{ form = \"flat\", shape = [32, 32], pitch = \"1 um\" }}\n[upper]\n{steel}\n\
+             topography = {{ {upper} }}\n[contact]\nloads = [\"10 mN\", \"30 mN\", \"100 mN\"]\nboundary = \"{boundary}\"\n\
+             [conductance]\n"
+        );
+        let case = Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap();
+        let results =
+            run(&case, &folder.path().join(format!("{boundary} {}", upper.len())), Existing::Keep, &())
+                .unwrap();
+        let rows = results.rows::<Joint>().unwrap();
+        for row in &rows {
+            let found = &row.quantities;
+            assert!(
+                near(found.conductance_of_stiffness.unwrap(), found.conductance.unwrap(), 1e-6),
+                "{row:?}"
+            );
+            assert_eq!(found.joint_conductance.is_some(), is_joint, "{upper}: {row:?}");
+            assert_eq!(found.resistance_full.is_some(), boundary == "free");
+        }
+        let [answer] = &Joint::of(&case.with).unwrap().answers(&rows)[..] else { panic!("one answer") };
+        assert_eq!(answer.name, if is_joint { "joint conductance" } else { "conductance" });
+    }
 }

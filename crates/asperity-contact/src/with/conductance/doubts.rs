@@ -1,59 +1,32 @@
 //! Reasons in a conductance itself not to trust it.
 
-use super::{Bracket, ConductanceRecord, Joint, composite};
-use crate::material::Compliances;
-use crate::motion::SweepRecord;
+use super::ConductanceRecord;
 use crate::units::format_number;
-use crate::with::Surroundings;
 
 /// A spot with fewer cells than this conducts with an error of some percent.
 const FEW_CELLS: f64 = 9.0;
 /// Share of the resistance above which the film decides.
 const FILM: f64 = 0.5;
-/// Relative deviation from Barber's bracket without a warning: the load of a sweep is met to about this.
-const BRACKET: f64 = 1e-3;
+/// Relative deviation from Barber's identity without a warning.
+const IDENTICAL: f64 = 1e-3;
 
 /// Returns warnings about the rows of a case.
-pub(super) fn of_rows(
-    joint: &Joint,
-    rows: &[ConductanceRecord],
-    surroundings: &Surroundings,
-    points: &[SweepRecord],
-) -> Vec<String> {
+pub(super) fn of_rows(rows: &[ConductanceRecord]) -> Vec<String> {
     let touching = || rows.iter().filter(|row| row.spots > 0.0);
     let fewest = touching().map(|row| row.median_spot_cells).fold(f64::INFINITY, f64::min);
     let film = touching().map(|row| row.film_share).fold(0.0, f64::max);
     let mut warnings = doubts(fewest, film);
-    warnings.extend(outside_bracket(joint, rows, surroundings, points));
+    warnings.extend(rows.iter().find_map(off_the_stiffness));
     warnings
 }
 
-/// Returns a warning if the conductance of a point of an elastic sweep lies outside Barber's bracket.
-fn outside_bracket(
-    joint: &Joint,
-    rows: &[ConductanceRecord],
-    surroundings: &Surroundings,
-    points: &[SweepRecord],
-) -> Option<String> {
-    let is_elastic = points.iter().all(|point| point.plastic_area == 0.0);
-    let [lower, upper] = surroundings.bodies.each_ref().map(|body| body.material);
-    let is_coated = [lower, upper].iter().any(|material| material.coating.is_some());
-    let is_clean = joint.film.is_none() && joint.gas.is_none();
-    // With friction a point may repeat a load with another creepage.
-    if surroundings.has_friction || !is_clean || !is_elastic || is_coated || rows.len() != points.len() {
-        return None;
-    }
-    let composite = composite(&surroundings.bodies, joint.kind)?.ok()?;
-    let modulus = Compliances::new(&lower, &upper).ok()?.modulus();
-    let loads: Vec<_> = points.iter().map(|point| (point.load, point.approach)).collect();
-    let brackets = Bracket::of_sweep(&loads, composite, modulus);
-    let outside = |(row, bracket): &(&ConductanceRecord, &Bracket)| {
-        row.quantities.conductance.is_some_and(|conductance| !bracket.holds(conductance, BRACKET))
-    };
-    let (row, _) = rows.iter().zip(&brackets).find(outside)?;
+/// Returns a warning if a conductance is not that of the stiffness of its contact.
+fn off_the_stiffness(row: &ConductanceRecord) -> Option<String> {
+    let off = row.quantities.off_the_stiffness().filter(|off| off.abs() > IDENTICAL)?;
     Some(format!(
-        "the conductance of point {} lies outside Barber's bracket from load and approach: the grid or the tolerance is too coarse",
-        row.step.unwrap_or_default()
+        "the conductance of point {} is {} % off Barber's identity with the stiffness: the tolerance is too coarse",
+        row.step.unwrap_or_default(),
+        format_number(100.0 * off)
     ))
 }
 

@@ -49,9 +49,39 @@ pub struct Shares {
 }
 
 impl Conductance {
-    /// Joint conductance h = G/A over the apparent area, that of the grid, W/(m² K) or S/m²; `None` with the conductance.
-    pub fn joint_conductance(&self) -> Option<f64> {
-        self.conductance.map(|conductance| conductance / self.grid.area())
+    /// Joint conductance h over the apparent area A, that of the grid, W/(m² K) or S/m²: what the joint alone conducts.
+    ///
+    /// Under a periodic boundary it is G/A. Else G includes the spreading from the outline of the grid into the half-spaces, whose resistance
+    /// `full` is that of [`full_resistance`]. The joint has 1/((R − R_full) A). `None` with the conductance, and where the resistance cannot be
+    /// split: the spots lie in a part of the grid, as those of a ball, or all of the grid touches.
+    pub fn joint_conductance(&self, full: Option<f64>) -> Option<f64> {
+        /// Share of R − R_full in R above which it is more than the error of the solution.
+        const SIGNIFICANT: f64 = 1e-6;
+        let conductance = self.conductance?;
+        let area = self.grid.area();
+        if conductance == 0.0 || self.boundary == Boundary::PERIODIC {
+            return Some(conductance / area);
+        }
+        let resistance = conductance.recip();
+        let of_joint = resistance - full.filter(|_| self.fills_the_grid())?;
+        (of_joint > SIGNIFICANT * resistance).then(|| (of_joint * area).recip())
+    }
+
+    /// Whether the flux is spread over all of the grid along its free axes: the variance of its places is at least a part of that of an even flux.
+    fn fills_the_grid(&self) -> bool {
+        /// That of a disc a third as wide as the grid.
+        const LEAST: f64 = 0.1;
+        let Some(flux) = &self.flux else { return true };
+        let total = flux.sum();
+        (0..2).filter(|axis| !self.boundary.repeats(*axis)).all(|axis| {
+            let count = self.grid.shape[axis] as f64;
+            let lines = flux.sum_axis(ndarray::Axis(1 - axis));
+            let moment = |place: &dyn Fn(f64) -> f64| {
+                lines.iter().enumerate().map(|(i, q)| place(i as f64) * q).sum::<f64>() / total
+            };
+            let middle = moment(&|i| i);
+            moment(&|i| (i - middle).powi(2)) >= LEAST * (count * count - 1.0) / 12.0
+        })
     }
 
     /// Resistance R = 1/G, K/W or Ω; `None` where it is none (the conductance is `None`) and where nothing conducts (the
@@ -303,8 +333,9 @@ mod tests {
                     [(&all, clean().with_film(0.3)), (&none, clean().with_gas(10.0, 1.0))]
                 {
                     let found = solve(touching, joint);
-                    let h = found.joint_conductance().unwrap();
+                    let h = found.conductance.unwrap() / grid.area();
                     if is_periodic {
+                        assert_eq!(found.joint_conductance(None), Some(h));
                         assert_relative_eq!(h * 0.3, 1.0, max_relative = 1e-12);
                     } else {
                         assert!(0.0 < h && h < 1.0 / 0.3, "{shape:?} {h}");

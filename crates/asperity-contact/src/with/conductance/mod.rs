@@ -69,7 +69,6 @@ pub use views::{conducts, resistance, shares};
 use super::views::{Answer, Curve, Line, Map};
 use super::{Capability, Given, Rule, Surroundings};
 use crate::error::Result;
-use crate::motion::SweepRecord;
 use asperity_base::Choice;
 
 /// Work of a conductance over that of a convolution, and how many times that with gas.
@@ -120,13 +119,8 @@ impl Capability for Joint {
         views::numbers(row)
     }
 
-    fn doubts(
-        &self,
-        rows: &[ConductanceRecord],
-        surroundings: &Surroundings,
-        points: &[SweepRecord],
-    ) -> Vec<String> {
-        doubts::of_rows(self, rows, surroundings, points)
+    fn doubts(&self, rows: &[ConductanceRecord], _: &Surroundings) -> Vec<String> {
+        doubts::of_rows(rows)
     }
 
     fn prefix(row: &ConductanceRecord, column: &str) -> &'static str {

@@ -1,15 +1,16 @@
 //! The conductance of each contact of a case.
 
-use std::sync::OnceLock;
+use std::collections::HashMap;
+use std::sync::{Mutex, PoisonError};
 
 use super::views::flux_unit;
 use super::{ConductanceRecord, Joint, JointRoughness, MAX_CORRELATED_FRACTION, Quantities};
 use super::{composite, conductor, full_resistance, response, solve};
 use crate::error::{Error, Result};
-use crate::motion::{ObservedContact, Position};
-use crate::operator::Operators;
+use crate::motion::{ObservedContact, Paraboloid, Position};
+use crate::operator::{Boundary, Operators};
 use crate::solver::Params;
-use crate::units::Pascal;
+use crate::units::{NewtonPerMetre, Pascal};
 use crate::with::{Given, NamedField, Observer, Place};
 
 /// Computes the conductance of each contact.
@@ -23,8 +24,12 @@ pub struct ConductanceObserver {
     roughness: JointRoughness,
     hardness: Pascal,
     modulus: Pascal,
-    /// Resistance with all cells in contact at full overlap, computed once.
-    full: OnceLock<Option<f64>>,
+    /// Whether the bodies are curved: their spots lie around one place, and have no joint.
+    is_curved: bool,
+    /// Whether the conductance is in proportion to the stiffness of an elastic contact.
+    is_clean: bool,
+    /// Resistances with all cells in contact of the overlaps so far, by their columns.
+    full: Mutex<HashMap<usize, Option<f64>>>,
 }
 
 impl ConductanceObserver {
@@ -44,17 +49,28 @@ impl ConductanceObserver {
             roughness: JointRoughness::new(&largest, &flush, [0, 1].map(|axis| boundary.repeats(axis))),
             hardness: pair.min_hardness(),
             modulus: pair.modulus(),
-            full: OnceLock::new(),
+            is_curved: boundary != Boundary::PERIODIC && Paraboloid::of(&flush, largest.pitch).is_some(),
+            is_clean: joint.film.is_none()
+                && joint.gas.is_none()
+                && surroundings.bodies.iter().all(|body| body.material.coating.is_none()),
+            full: Mutex::default(),
         })
     }
 
-    /// Returns the resistance with all cells in contact at full overlap.
+    /// Returns the resistance with all cells of an overlap in contact.
     fn full(&self, shape: [usize; 2]) -> Result<Option<f64>> {
-        if let Some(full) = self.full.get() {
+        let known = || self.full.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(full) = known().get(&shape[0]) {
             return Ok(*full);
         }
         let full = full_resistance(self.operators.on(shape).as_mut(), &self.params)?;
-        Ok(*self.full.get_or_init(|| full))
+        known().insert(shape[0], full);
+        Ok(full)
+    }
+
+    /// Returns the conductance of a contact of this normal stiffness by Barber's identity.
+    fn of_stiffness(&self, stiffness: NewtonPerMetre) -> Option<f64> {
+        self.is_clean.then(|| stiffness * self.composite / self.modulus)
     }
 
     /// Returns the joint conductance by a correlation.
@@ -81,7 +97,7 @@ impl Observer for ConductanceObserver {
         let gap = joint.gas.map(|_| &contact.gap);
         let found = solve(operator.as_mut(), &contact.touching, gap, joint, start, &self.params)?;
         drop(operator);
-        let full = if place.pass.is_none() { self.full(shape)? } else { None };
+        let full = self.full(shape)?;
         let touching = contact.touching.iter().filter(|touches| **touches).count();
         let fraction = touching as f64 / contact.touching.len() as f64;
         let is_correlated = touching > 0 && fraction <= MAX_CORRELATED_FRACTION;
@@ -104,9 +120,12 @@ impl Observer for ConductanceObserver {
                 kind: joint.kind,
                 conductivity: Some(self.composite),
                 conductance: found.conductance,
-                joint_conductance: found.joint_conductance(),
+                joint_conductance: found.joint_conductance(full).filter(|_| !self.is_curved),
                 resistance: found.resistance(),
                 resistance_full: full,
+                conductance_of_stiffness: contact
+                    .stiffness
+                    .and_then(|stiffness| self.of_stiffness(stiffness)),
                 resistance_holm_greenwood: found.holm_greenwood(self.composite),
                 joint_correlation: self.correlation(mean_pressure).filter(|_| is_correlated),
             },

@@ -95,13 +95,17 @@ quantities! {
     conductivity: ["W/(m K)", "S/m"], Always;
     /// Conductance of the contact; unknown where it adds no resistance.
     conductance: ["W/K", "S"], Unknown;
-    /// Joint conductance h, the conductance over the apparent area.
+    /// Joint conductance h over the apparent area, without the spreading from the outline of the grid into the bodies. It is unknown where the
+    /// contact adds no resistance, and where the two cannot be split: curved bodies under a free boundary, spots in a part of the grid.
     joint_conductance: ["W/(m² K)", "S/m²"], Unknown;
     /// Resistance; unknown where nothing conducts, and where the contact adds no resistance.
     resistance: ["K/W", "Ω"], Unknown;
-    /// Resistance with all cells in contact, which the bodies beyond the grid have; unknown under a periodic boundary, and at a position of
-    /// a motion.
+    /// Resistance with all cells in contact, that of the spreading from the outline of the grid; unknown under a periodic boundary, and in the
+    /// mean over a pass.
     resistance_full: ["K/W", "Ω"], Unknown;
+    /// Conductance by Barber's identity, 2K/(E*(ρ₁ + ρ₂)) with the normal stiffness K and the resistivities ρ, to check the conductance; known at
+    /// the points of a sweep whose contact is elastic, without coating, film and gas.
+    conductance_of_stiffness: ["W/K", "S"], Unknown;
     /// Estimate of Holm and Greenwood of the resistance of the spots, under a free boundary.
     resistance_holm_greenwood: ["K/W", "Ω"], Unknown;
     /// Joint conductance of clean spots by the correlation of Cooper, Mikic and Yovanovich, or of Mikic for elastic bodies; unknown from
@@ -125,9 +129,19 @@ impl Quantities {
         }
     }
 
+    /// Name of the column of the conductance.
+    pub(super) const fn conductance_column(&self) -> &'static str {
+        Self::columns(self.kind)[1].name
+    }
+
     /// Name of the column of the joint conductance.
     pub(super) const fn joint_column(&self) -> &'static str {
         Self::columns(self.kind)[2].name
+    }
+
+    /// Relative difference of the conductance from that of the stiffness, where both are known.
+    pub(super) fn off_the_stiffness(&self) -> Option<f64> {
+        Some(self.conductance? / self.conductance_of_stiffness? - 1.0)
     }
 }
 
@@ -217,7 +231,7 @@ impl ConductanceRecord {
     }
 
     /// Returns the mean over the contacts of each pass: at a common difference of temperature or potential the conductance has the
-    /// mean of its values, and the resistance is its reciprocal.
+    /// mean of its values, and the resistance is its reciprocal. The joint conductance is the mean of those that are known.
     pub fn means(rows: &[Self]) -> Vec<Self> {
         rows.chunk_by(|one, other| one.pass == other.pass).map(Self::mean).collect()
     }
@@ -229,6 +243,8 @@ impl ConductanceRecord {
             rows.iter().map(value).sum::<Option<f64>>().map(|sum| sum / count)
         };
         let conductance = known(&|row| row.quantities.conductance);
+        let joints: Vec<f64> = rows.iter().filter_map(|row| row.quantities.joint_conductance).collect();
+        let joint = joints.iter().sum::<f64>() / joints.len() as f64;
         Self {
             pass: rows[0].pass,
             step: None,
@@ -247,9 +263,10 @@ impl ConductanceRecord {
                 kind: rows[0].quantities.kind,
                 conductivity: rows[0].quantities.conductivity,
                 conductance,
-                joint_conductance: known(&|row| row.quantities.joint_conductance),
+                joint_conductance: Some(joint).filter(|joint| joint.is_finite()),
                 resistance: conductance.filter(|conductance| *conductance > 0.0).map(f64::recip),
                 resistance_full: None,
+                conductance_of_stiffness: None,
                 resistance_holm_greenwood: None,
                 joint_correlation: known(&|row| row.quantities.joint_correlation),
             },

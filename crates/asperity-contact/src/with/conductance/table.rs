@@ -29,6 +29,14 @@ impl Kind {
         }
     }
 
+    /// Dimension of a conductance.
+    pub fn conductance(self) -> Dimension {
+        match self {
+            Self::Thermal => Dimension::ThermalConductance,
+            Self::Electrical => Dimension::ElectricalConductance,
+        }
+    }
+
     /// Dimension of the difference between the bodies.
     pub fn drop(self) -> Dimension {
         match self {

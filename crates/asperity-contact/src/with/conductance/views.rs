@@ -7,7 +7,10 @@ use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Scale, Series, 
 use asperity_base::Choice;
 
 /// Joint conductance, with that of the spots among gas, and that of clean spots by the correlation.
-pub(super) const CURVES: &[Curve<ConductanceRecord>] = &[Curve {
+/// The whole conductance is shown where there is no joint.
+pub(super) const CURVES: &[Curve<ConductanceRecord>] = &[JOINT, WHOLE];
+
+const JOINT: Curve<ConductanceRecord> = Curve {
     names: ["joint_conductance", "joint_conductance_positions"],
     title: "joint conductance",
     caption: "Conductance of a unit of the apparent area. Clean metal spots alone grow about as the power 0.95 of the pressure.",
@@ -15,7 +18,7 @@ pub(super) const CURVES: &[Curve<ConductanceRecord>] = &[Curve {
     series: &[
         Series {
             name: "computed",
-            has: |_| true,
+            has: is_joint,
             value: |row| row.quantities.joint_conductance,
             is_dashed: false,
             is_beside: false,
@@ -23,7 +26,7 @@ pub(super) const CURVES: &[Curve<ConductanceRecord>] = &[Curve {
         },
         Series {
             name: "through the spots",
-            has: |row| row.gas_share > 0.0,
+            has: |row| is_joint(row) && row.gas_share > 0.0,
             value: |row| row.quantities.joint_conductance.map(|joint| joint * row.spot_share),
             is_dashed: false,
             is_beside: true,
@@ -31,14 +34,34 @@ pub(super) const CURVES: &[Curve<ConductanceRecord>] = &[Curve {
         },
         Series {
             name: "correlation of clean spots",
-            has: |row| row.film_share == 0.0,
+            has: |row| is_joint(row) && row.film_share == 0.0,
             value: |row| row.quantities.joint_correlation,
             is_dashed: true,
             is_beside: true,
             over_pressure: OverPressure::Nothing,
         },
     ],
-}];
+};
+
+/// Whether the joint of a contact is known by itself.
+fn is_joint(row: &ConductanceRecord) -> bool {
+    row.quantities.joint_conductance.is_some()
+}
+
+const WHOLE: Curve<ConductanceRecord> = Curve {
+    names: ["conductance", "conductance_positions"],
+    title: "conductance",
+    caption: "Conductance with the spreading into the bodies: spots in a part of the grid have no joint of their own.",
+    column: |row| row.quantities.conductance_column(),
+    series: &[Series {
+        name: "computed",
+        has: |row| !is_joint(row),
+        value: |row| row.quantities.conductance,
+        is_dashed: false,
+        is_beside: false,
+        over_pressure: OverPressure::Exponent,
+    }],
+};
 
 /// The flux.
 pub(super) const MAPS: &[Map<ConductanceRecord>] = &[Map {
@@ -81,28 +104,35 @@ pub(super) fn answers(rows: &[ConductanceRecord]) -> Vec<Answer> {
         return Vec::new();
     };
     let at = format(most.mean_pressure, Dimension::Pressure);
-    let name = "joint conductance".into();
     let quantities = &most.quantities;
-    let Some(joint) = quantities.joint_conductance else {
-        let text = "all cells touch without a film".to_owned();
+    let kind = quantities.kind;
+    let Some(conductance) = quantities.conductance else {
+        let about = "all cells touch without a film".to_owned();
         let sentence = format!("At {at} all cells touch without a film: nothing resists.");
-        return vec![Answer { name, value: "no resistance".to_owned(), about: text, sentence }];
+        return vec![Answer { name: JOINT.title.into(), value: "no resistance".to_owned(), about, sentence }];
     };
-    let value = of_area(quantities.kind, joint);
-    let whole = conducts(quantities.kind, quantities.conductance, None);
-    let whole = whole.first().map_or(String::new(), |line| format!(" ({})", line.value));
-    let points = rows.iter().filter_map(|row| Some([row.mean_pressure, row.quantities.joint_conductance?]));
-    let power = exponent(points);
-    let grows = power.map(|power| format!("It grows about as the power {power:.2} of the pressure."));
-    vec![Answer {
-        name,
-        about: [format!("At {at}."), grows.clone().unwrap_or_default()].join(" ").trim_end().to_owned(),
-        sentence: [format!("At {at} the joint conducts {value}{whole}."), grows.unwrap_or_default()]
-            .join(" ")
-            .trim_end()
-            .to_owned(),
-        value,
-    }]
+    let whole = format(conductance, kind.conductance());
+    let (curve, value, sentence) = match quantities.joint_conductance.map(|joint| of_area(kind, joint)) {
+        Some(joint) if quantities.resistance_full.is_some() => {
+            let sentence =
+                format!("At {at} the joint conducts {joint}, the map with the bodies around it {whole}.");
+            (&JOINT, joint, sentence)
+        }
+        Some(joint) => {
+            let sentence = format!("At {at} the joint conducts {joint} ({whole}).");
+            (&JOINT, joint, sentence)
+        }
+        None => {
+            let sentence = format!("At {at} the contact conducts {whole}, with the bodies around it.");
+            (&WHOLE, whole, sentence)
+        }
+    };
+    let points = rows.iter().filter_map(|row| Some([row.mean_pressure, (curve.series[0].value)(row)?]));
+    let grows =
+        exponent(points).map(|power| format!("It grows about as the power {power:.2} of the pressure."));
+    let with_power = |text: String| [text, grows.clone().unwrap_or_default()].join(" ").trim_end().to_owned();
+    let (about, sentence) = (with_power(format!("At {at}.")), with_power(sentence));
+    vec![Answer { name: curve.title.into(), value, about, sentence }]
 }
 
 pub(super) fn numbers(row: &ConductanceRecord) -> Vec<Line> {
@@ -132,6 +162,23 @@ pub(super) fn numbers(row: &ConductanceRecord) -> Vec<Line> {
         "spots",
         format!("{}, with {cells} cells in the median", format_number(row.spots)),
     ));
+    if let Some(full) = quantities.resistance_full {
+        let full = resistance(kind, full);
+        lines.push(Line::detail(
+            "spreading",
+            format!("resistance {full} from the outline of the grid into the bodies, not of the joint"),
+        ));
+    }
+    if let (Some(of_stiffness), Some(off)) =
+        (quantities.conductance_of_stiffness, quantities.off_the_stiffness())
+    {
+        let of_stiffness = format(of_stiffness, kind.conductance());
+        let off = format_number((1e6 * off.abs()).round() / 1e4);
+        lines.push(Line::detail(
+            "by the stiffness",
+            format!("conductance {of_stiffness} by Barber's identity, {off} % off"),
+        ));
+    }
     let share = |share: f64| format!("{} %", format_number((1000.0 * share).round() / 10.0));
     lines.push(Line::detail("shares", shares([row.spot_share, row.gas_share, row.film_share].map(share))));
     lines
@@ -144,14 +191,10 @@ pub fn shares([spots, gas, film]: [String; 3]) -> String {
 
 /// Describes a conductance and a joint conductance.
 pub fn conducts(kind: Kind, conductance: Option<f64>, joint: Option<f64>) -> Vec<Line> {
-    let whole = match kind {
-        Kind::Thermal => Dimension::ThermalConductance,
-        Kind::Electrical => Dimension::ElectricalConductance,
-    };
     let Some(conductance) = conductance else {
         return vec![Line::new("conductance", "no resistance: all cells touch without a film")];
     };
-    let mut value = format(conductance, whole);
+    let mut value = format(conductance, kind.conductance());
     if conductance > 0.0 {
         value += &format!(", resistance {}", resistance(kind, conductance.recip()));
     }

@@ -51,7 +51,7 @@ pub use record::{FatigueRecord, OnBody};
 pub use table::{Fatigue, FatigueLimits};
 
 use crate::error::Result;
-use crate::motion::{Memory, SweepRecord};
+use crate::motion::Memory;
 use crate::with::views::{Answer, Curve, Line, Map};
 use crate::with::{Capability, Given, Rule, Surroundings};
 
@@ -107,7 +107,7 @@ impl Capability for Fatigue {
         views::numbers(row)
     }
 
-    fn doubts(&self, rows: &[FatigueRecord], surroundings: &Surroundings, _: &[SweepRecord]) -> Vec<String> {
+    fn doubts(&self, rows: &[FatigueRecord], surroundings: &Surroundings) -> Vec<String> {
         views::doubts(self, rows, surroundings)
     }
 

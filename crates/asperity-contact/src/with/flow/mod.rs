@@ -58,7 +58,6 @@ use pressure::Solved;
 use crate::error::{Error, Result, check_in};
 use crate::grid::{Field, Grid, check_finite, in_rows};
 use crate::math::parallel;
-use crate::motion::SweepRecord;
 use crate::units::{CubicMetre, Dimension, Metre};
 use crate::with::views::{Answer, Curve, Line, Map};
 use crate::with::{Capability, Given, Rule, Surroundings};
@@ -106,7 +105,7 @@ impl Capability for Leakage {
         views::numbers(self, row)
     }
 
-    fn doubts(&self, rows: &[FlowRecord], surroundings: &Surroundings, _: &[SweepRecord]) -> Vec<String> {
+    fn doubts(&self, rows: &[FlowRecord], surroundings: &Surroundings) -> Vec<String> {
         doubts::of_rows(self, rows, surroundings)
     }
 
