@@ -37,6 +37,27 @@ pub(super) fn integral_below(
     }
 }
 
+/// Computes the mean over −b … b of η of [`integral`] at (x, y + η), for the closed form of its third indefinite integral, twice along y.
+pub(super) fn mean_across(
+    [x, y]: [f64; 2],
+    [a, b]: [f64; 2],
+    closed: impl Fn(f64, f64) -> f64,
+    k: impl Fn(f64, f64) -> f64,
+) -> f64 {
+    if x.hypot(y) <= FAR * a.max(2.0 * b) {
+        let along_y = |x: f64| closed(x, y + 2.0 * b) - 2.0 * closed(x, y) + closed(x, y - 2.0 * b);
+        return (along_y(x + a) - along_y(x - a)) / (2.0 * b);
+    }
+    // Two uniform widths together make a triangle.
+    let side = |sign: f64| {
+        let points = gauss_points([x, y + sign * b], [a, b]);
+        points
+            .map(|(at, weight)| weight * (1.0 - (at[1] - y).abs() / (2.0 * b)) * k(at[0], at[1]))
+            .sum::<f64>()
+    };
+    (side(1.0) + side(-1.0)) * a * b
+}
+
 fn by_corners([x, y]: [f64; 2], [a, b]: [f64; 2], closed: impl Fn(f64, f64) -> f64) -> f64 {
     closed(x + a, y + b) - closed(x - a, y + b) - closed(x + a, y - b) + closed(x - a, y - b)
 }

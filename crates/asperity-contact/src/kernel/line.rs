@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use crate::grid::Field;
-use crate::kernel::Coefficients;
 use crate::kernel::cell::{asinh_term, gauss_points, integral, logarithm_term};
+use crate::kernel::{Coefficients, normal_displacement};
 use crate::material::Compliances;
-use crate::math::parallel;
+use crate::math::{gauss_legendre, parallel};
 use crate::units::{Metre, Pascal};
 
 /// An endless line of cells along an axis, with period L, for contacts that are periodic along this axis only.
@@ -38,6 +38,40 @@ impl Line {
     pub fn normal_displacement(&self, x: Metre, y: Metre, pitch: [Metre; 2], modulus: Pascal) -> f64 {
         let [s, t] = self.turned([x, y]);
         self.at_distance(s, pitch).inverse_distance(t) / (PI * modulus)
+    }
+
+    /// Returns the offsets along a line along y from a place `y` to the three cells that are nearest to it.
+    pub fn nearest(&self, y: Metre) -> [Metre; 3] {
+        let folded = y - self.period * (y / self.period).round();
+        [-1.0, 0.0, 1.0].map(|n| folded + n * self.period)
+    }
+
+    /// Returns the normal displacement at `(x, j Δy)`, j below `columns`, by all cells of a line along y but the three
+    /// [nearest](Self::nearest), m/Pa; its mean over the width of a cell along y if `across`. It is smooth.
+    pub fn beyond_nearest(
+        &self,
+        x: Metre,
+        columns: usize,
+        pitch: [Metre; 2],
+        modulus: Pascal,
+        across: bool,
+    ) -> Vec<f64> {
+        let seen = self.at_distance(x, pitch);
+        let points = match across {
+            false => vec![(0.0, 2.0)],
+            true => gauss_legendre(if self.period < 6.0 * pitch[1] { 8 } else { 2 }),
+        };
+        let at = |j: usize| {
+            let y = j as f64 * pitch[1];
+            let nearest = self.nearest(y);
+            let rest = |t: f64| {
+                let nearest = nearest.iter().map(|y| normal_displacement(x, y + t, pitch, 1.0)).sum::<f64>();
+                seen.inverse_distance(y + t) / PI - nearest
+            };
+            let sum = points.iter().map(|(t, weight)| weight * rest(0.5 * t * pitch[1])).sum::<f64>();
+            0.5 * sum / modulus
+        };
+        (0..columns).map(at).collect()
     }
 
     /// Returns the displacement of the pair at `(x, y)` per unit traction on each cell of size `pitch`, m/Pa. One
@@ -282,7 +316,7 @@ fn tail_of_zeta(p: i32, m: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::coupled_displacement;
+    use crate::kernel::{coupled_displacement, normal_displacement_across};
     use crate::material::Material;
 
     fn pair() -> Compliances {
@@ -309,6 +343,29 @@ mod tests {
             }
         }
         samples
+    }
+
+    #[test]
+    fn the_mean_across_a_cell_is_that_of_the_displacement() {
+        for (pitch, period, [s, _]) in samples().into_iter().step_by(6) {
+            let columns = (period / pitch[1]).round() as usize;
+            if (columns as f64 * pitch[1] - period).abs() > 1e-9 || columns > 60 {
+                continue;
+            }
+            let line = Line { axis: 1, period, datum: 1.3 };
+            let rest = line.beyond_nearest(s, columns, pitch, 1.0, true);
+            let nearest = |j: usize| {
+                line.nearest(j as f64 * pitch[1]).map(|y| normal_displacement_across(s, y, pitch, 1.0))
+            };
+            let found: Vec<_> = (0..columns).map(|j| rest[j] + nearest(j).iter().sum::<f64>()).collect();
+            let own = line.normal_displacement(0.0, 0.0, pitch, 1.0).abs();
+            for (j, found) in found.iter().enumerate() {
+                let points = gauss_legendre(40);
+                let at = |t: f64| line.normal_displacement(s, (j as f64 + 0.5 * t) * pitch[1], pitch, 1.0);
+                let mean = points.iter().map(|(t, weight)| 0.5 * weight * at(*t)).sum::<f64>();
+                assert!((found - mean).abs() < 1e-6 * own, "{pitch:?} {period} {s} {j}: {found} {mean}");
+            }
+        }
     }
 
     /// Sums the coefficients of a cell over |n| ≤ M.

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::grid::Field;
-use crate::kernel::cell::{asinh_term, integral};
+use crate::kernel::cell::{asinh_term, integral, mean_across};
 use crate::math::parallel;
 use crate::units::{Metre, Pascal};
 
@@ -19,6 +19,16 @@ use crate::units::{Metre, Pascal};
 pub fn normal_displacement(x: Metre, y: Metre, pitch: [Metre; 2], modulus: Pascal) -> f64 {
     let closed = |x, y| asinh_term(x, y) + asinh_term(y, x);
     integral([x, y], pitch.map(|p| 0.5 * p), closed, |x, y| 1.0 / (x * x + y * y).sqrt()) / (PI * modulus)
+}
+
+/// Computes the mean of [`normal_displacement`] at `x` over the width of a cell, from y − Δy/2 to y + Δy/2, m/Pa.
+///
+/// ```text
+/// πE*Δy ū = Σ± ±[G(x±a, y+2b) − 2G(x±a, y) + G(x±a, y−2b)],  G(s,t) = t (s asinh(t/|s|) + t asinh(s/|t|)/2) − s √(s² + t²)/2
+/// ```
+pub fn normal_displacement_across(x: Metre, y: Metre, pitch: [Metre; 2], modulus: Pascal) -> f64 {
+    let closed = |x: f64, y: f64| y * (asinh_term(x, y) + 0.5 * asinh_term(y, x)) - 0.5 * x * x.hypot(y);
+    mean_across([x, y], pitch.map(|p| 0.5 * p), closed, |x, y| 1.0 / x.hypot(y)) / (PI * modulus)
 }
 
 /// Returns the coefficients of all cells `[i, j]` at offsets `(i Δx, j Δy)`, m/Pa: the first row of the influence
@@ -47,6 +57,22 @@ pub fn influence_matrix(shape: [usize; 2], pitch: [Metre; 2], modulus: Pascal) -
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
+
+    #[test]
+    fn the_mean_across_a_cell_is_that_of_the_displacement() {
+        for pitch in [[1.0, 1.0], [1.0, 0.4], [0.3, 1.0]] {
+            for [i, j] in
+                [[0.0, 0.0], [0.5, 0.0], [0.5, 1.0], [-1.5, 2.0], [0.2, 9.0], [30.0, 1.0], [8.0, -40.0]]
+            {
+                let (x, y) = (i * pitch[0], j * pitch[1]);
+                let parts = 20_000;
+                let at = |k: usize| y + pitch[1] * ((k as f64 + 0.5) / parts as f64 - 0.5);
+                let mean =
+                    (0..parts).map(|k| normal_displacement(x, at(k), pitch, 1.0)).sum::<f64>() / parts as f64;
+                assert_relative_eq!(normal_displacement_across(x, y, pitch, 1.0), mean, max_relative = 1e-8);
+            }
+        }
+    }
 
     #[test]
     fn a_loaded_square_sinks_half_as_much_at_its_corner_as_at_its_centre() {

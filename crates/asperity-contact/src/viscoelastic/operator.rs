@@ -7,13 +7,13 @@ use asperity_transforms::num_complex::Complex64;
 
 use crate::error::{Error, Result, check_in};
 use crate::grid::{Field, Grid};
-use crate::kernel::{HalfSpaces, SharedResponse};
+use crate::kernel::{normal_displacement, normal_displacement_across};
 use crate::math::fft::angular_frequency;
 use crate::math::{SkewConvolution, SkewKernel};
 use crate::operator::Boundary;
-use crate::units::{Dimension, MetrePerSecond};
+use crate::units::{Dimension, Metre, MetrePerSecond};
 use crate::viscoelastic::series::Creep;
-use crate::viscoelastic::table::MovingCell;
+use crate::viscoelastic::table::{ElasticCell, MovingCell};
 
 /// Two bodies in steady sliding: their displacement u = C p in the frame of the contact, which moves along x over a viscoelastic body.
 ///
@@ -155,11 +155,16 @@ impl Kernels {
 
     /// Creates the kernels of a grid that is free along x from the tables of a cell.
     fn of_cells(grid: &Grid, boundary: Boundary, creep: &Creep, speed: MetrePerSecond) -> Self {
-        let response = SharedResponse::from(HalfSpaces::from(1.0));
-        let influence = match boundary.line(grid, boundary.datum(grid)) {
-            None => response.influence(grid.pitch),
-            Some(line) => response.line_influence(&line, grid.pitch).expect("half-spaces know lines"),
+        let (pitch, line) = (grid.pitch, boundary.line(grid, boundary.datum(grid)));
+        let near = |x: Metre, across: bool| -> Option<Vec<f64>> {
+            let displacement = if across { normal_displacement_across } else { normal_displacement };
+            let at = |y: Metre| displacement(x, y, pitch, 1.0);
+            let places = (0..grid.shape[1]).map(|j| j as f64 * pitch[1]);
+            let displaced = |y| line.map_or_else(|| at(y), |line| line.nearest(y).map(at).iter().sum());
+            Some(places.map(displaced).collect())
         };
+        let far = |x: Metre, across: bool| Some(line?.beyond_nearest(x, grid.shape[1], pitch, 1.0, across));
+        let elastic = ElasticCell { near: &near, far: &far };
         let mut glassy = creep.glassy;
         let mut decays = Vec::new();
         for term in &creep.terms {
@@ -169,7 +174,7 @@ impl Kernels {
             }
         }
         // Along a periodic axis the offsets beyond half the period are those of the other direction.
-        let mut cell = MovingCell::new(influence.as_ref(), grid.shape, grid.pitch, glassy, &decays);
+        let mut cell = MovingCell::new(&elastic, grid.shape, grid.pitch[0], glassy, &decays);
         let least = cell.displacement.iter().copied().fold(f64::INFINITY, f64::min);
         if boundary.single_period().is_some() && least < 0.0 {
             cell.displacement -= least;

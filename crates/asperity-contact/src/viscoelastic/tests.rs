@@ -2,13 +2,17 @@
 
 use std::f64::consts::TAU;
 
+use rand::{RngExt as _, SeedableRng as _};
+
 use crate::grid::{Field, Grid};
+use crate::kernel::normal_displacement;
 use crate::math::RealFft2;
 use crate::math::fft::angular_frequency;
 use crate::operator::{Boundary, Edge};
 use crate::reference::ViscoelasticCylinder;
 use crate::reference::viscoelastic::{fast_sphere, slow_paraboloid};
 use crate::solver::{Control, Params};
+use crate::viscoelastic::table::{ElasticCell, MovingCell};
 use crate::viscoelastic::{Relaxation, RelaxationTerm, SteadyContact, SteadySliding, solve_steady};
 
 fn body(terms: &[(f64, f64)]) -> Relaxation {
@@ -148,5 +152,64 @@ fn elastic_bodies_have_no_drag() {
         let contact =
             solve_steady(&mut operator, &gap, Control::Load(2.0), None, &Params::default(), &()).unwrap();
         assert!(contact.drag.abs() < 1e-14, "{}", contact.drag);
+    }
+}
+
+/// The same stepped pressure on finer and finer grids: its power is a double integral that does not depend on them. The slope on the middle line
+/// of the cells comes to it with an order between 1 and 2.
+#[test]
+fn the_drag_is_the_power_of_the_stepped_pressure_on_every_grid() {
+    let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(5);
+    let (shape, creep) = ([7, 6], standard(30.0).creep());
+    for speed in [0.2, 2.0, -15.0] {
+        // Spots of a few cells.
+        let pressure = Field::from_shape_simple_fn(shape, || random.random_range(-1.5f64..1.0).max(0.0));
+        let line = Boundary([Edge::Free, Edge::Periodic]);
+        for boundary in [Boundary::FREE, line].into_iter().take(if speed == 2.0 { 2 } else { 1 }) {
+            let on = |parts: usize| {
+                let grid =
+                    Grid::new(shape.map(|n| n * parts), [1.0, 0.8].map(|size| size / parts as f64)).unwrap();
+                (grid, Field::from_shape_fn(grid.shape, |(i, j)| pressure[[i / parts, j / parts]]))
+            };
+            let drags = [1, 2, 3].map(|parts| {
+                let (grid, pressure) = on(parts);
+                SteadySliding::new(grid, boundary, &creep, speed).unwrap().drag(&pressure)
+            });
+            let off = drags.map(|drag| (drag / drags[2] - 1.0).abs());
+            let within = if boundary == Boundary::FREE { 1e-8 } else { 1e-6 };
+            assert!(off[0] < within && off[1] < within, "{boundary:?} {speed}: {drags:?}");
+            if boundary != Boundary::FREE {
+                continue;
+            }
+            let errors = [1, 2, 4].map(|parts| {
+                let (grid, pressure) = on(parts);
+                let near = |x: f64, _: bool| -> Option<Vec<f64>> {
+                    let row = 0..grid.shape[1];
+                    Some(
+                        row.map(|j| normal_displacement(x, j as f64 * grid.pitch[1], grid.pitch, 1.0))
+                            .collect(),
+                    )
+                };
+                let elastic = ElasticCell { near: &near, far: &|_, _| None };
+                let decays: Vec<_> =
+                    creep.terms.iter().map(|term| [term.compliance, term.time * speed.abs()]).collect();
+                let table = MovingCell::new(&elastic, grid.shape, grid.pitch[0], creep.glassy, &decays).slope;
+                let cells: Vec<_> = pressure.indexed_iter().filter(|(_, p)| **p > 0.0).collect();
+                let mut power = 0.0;
+                for ((i, j), p) in &cells {
+                    for ((k, l), q) in &cells {
+                        let ahead =
+                            if speed > 0.0 { i + grid.shape[0] - 1 - k } else { k + grid.shape[0] - 1 - i };
+                        power -= *p * *q * table[[ahead, j.abs_diff(*l)]];
+                    }
+                }
+                grid.cell_area() * power / drags[2] - 1.0
+            });
+            let order = [0, 1].map(|k| (errors[k] / errors[k + 1]).abs().log2());
+            assert!(
+                errors[0].abs() > 0.02 && (1.0..2.0).contains(&order[1]),
+                "{speed}: {errors:?} {order:?}"
+            );
+        }
     }
 }
