@@ -12,7 +12,7 @@ use super::case::{
 };
 use super::given::SurfaceInput;
 use crate::io::{sha256, sha256_of};
-use crate::viscoelastic::{self, MasterCurve};
+use crate::master_curve::{self, MasterCurve};
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::{CellValues, Field, Grid};
 use asperity_base::units::{self, Dimension, Metre};
@@ -164,8 +164,8 @@ pub fn bodies_until(case: &Case, mut given: SurfaceInput, stop: Stop<'_>) -> Res
     let grid = Grid::new(upper.topography.grid().shape, lower.topography.grid().pitch)?;
     upper.topography = Topography::new(grid, upper.topography.into_heights())?;
     let master_curves = [
-        viscoelastic::of(case, "lower", &case.lower, &given)?,
-        viscoelastic::of(case, "upper", &case.upper, &given)?,
+        master_curve::of(case, "lower", &case.lower, &given)?,
+        master_curve::of(case, "upper", &case.upper, &given)?,
     ];
     Ok(Bodies { lower, upper, master_curves })
 }
