@@ -74,32 +74,19 @@ impl Columns {
             let point = MasterPoint { frequency: values[0], storage, loss };
             Ok(Row { line: line.number, point })
         };
-        if let Some(column) = self.temperature {
-            let temperatures = lines.iter().filter_map(|line| number(line.cell(column), comma));
-            let (least, most) = temperatures
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), found| {
-                    (least.min(found), most.max(found))
-                });
-            if most - least > ISOTHERMAL {
-                return Err(format!(
-                    "'{}' goes from {} to {}, expected a curve at one temperature: shift the sweeps to one and export that curve, or \
-                     remove the column if the frequencies are reduced already",
-                    head.titles[column].text,
-                    format_number(least),
-                    format_number(most)
-                ));
+        let rows: Vec<Row> = lines.iter().map(row).collect::<Read<_>>()?;
+        match self.temperature.filter(|_| !is_one_sweep(&rows)) {
+            Some(column) => {
+                let temperatures = lines.iter().filter_map(|line| number(line.cell(column), comma));
+                isothermal(&head.titles[column].text, temperatures).map(|()| rows)
             }
+            None => Ok(rows),
         }
-        lines.iter().map(row).collect()
     }
 
     /// Returns the points at rising frequencies, unless they belong to several sweeps.
     pub(super) fn ordered(mut rows: Vec<Row>) -> Read<Vec<MasterPoint>> {
-        let falls = |pair: &[Row]| pair[1].point.frequency < pair[0].point.frequency;
-        if rows.windows(2).all(falls) {
-            rows.reverse();
-        }
-        let is_mixed = rows.windows(2).any(falls);
+        let is_mixed = !is_one_sweep(&rows);
         rows.sort_by(|one, other| one.point.frequency.total_cmp(&other.point.frequency));
         for pair in rows.windows(2) {
             let [one, other] = [&pair[0], &pair[1]];
@@ -117,6 +104,27 @@ impl Columns {
         }
         Ok(rows.into_iter().map(|row| row.point).collect())
     }
+}
+
+/// Whether the frequencies rise throughout, or fall throughout.
+fn is_one_sweep(rows: &[Row]) -> bool {
+    let frequency = |row: &Row| row.point.frequency;
+    rows.is_sorted_by(|one, other| frequency(one) < frequency(other))
+        || rows.is_sorted_by(|one, other| frequency(one) > frequency(other))
+}
+
+/// Returns an error if the temperatures of a column are those of several sweeps.
+fn isothermal(title: &str, temperatures: impl Iterator<Item = f64> + Clone) -> Read<()> {
+    let least = temperatures.clone().fold(f64::INFINITY, f64::min);
+    let most = temperatures.fold(f64::NEG_INFINITY, f64::max);
+    if most - least <= ISOTHERMAL {
+        return Ok(());
+    }
+    let [least, most] = [least, most].map(format_number);
+    Err(format!(
+        "'{title}' goes from {least} to {most}, expected a curve at one temperature: shift the sweeps to one and export that curve, or remove \
+         the column if the frequencies are reduced already"
+    ))
 }
 
 /// Returns E′ and E″ from the two quantities that a file has.

@@ -160,11 +160,12 @@ mod tests {
                 "f_Hz, ω_rad/s, E'_MPa, E''_MPa, tan d",
                 ["1, 6, 3, 1, 0.3", "10, 63, 5, 4, 0.8", "0.1, 0.6, 2, 0.5, 0.2"],
             ),
-            // A reduced frequency with the temperatures of the sweeps.
+            // Temperatures of the sweeps beside a reduced frequency, or beside one that rises throughout.
             (
                 "Frequency (Hz);aT f (Hz);T;E' (MPa);E'' (MPa)",
                 ["1;0.1;60;2;0.5", "1;1;20;3;1", "1;10;-20;5;4"],
             ),
+            ("Temperature;Frequency (Hz);E' (MPa);E'' (MPa)", ["60;0.1;2;0.5", "20;1;3;1", "-20;10;5;4"]),
             // Without names, by position; the names are ours; names on a comment.
             ("x_Hz y_MPa z_MPa", ["0.1 2 0.5", "1 3 1", "10 5 4"]),
             ("frequency_Hz, storage_MPa, loss_MPa", ["0.1, 2, 0.5", "1, 3, 1", "10, 5, 4"]),
