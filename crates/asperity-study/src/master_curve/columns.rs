@@ -66,7 +66,8 @@ impl Columns {
                 let (cell, name) = (line.cell(column), quantity.name());
                 let value = number(cell, comma).filter(|value| *value > 0.0);
                 let value = value.ok_or_else(|| {
-                    format!("line {}: the {name} is '{cell}', expected a number above 0", line.number)
+                    let found = if cell.is_empty() { "missing".to_owned() } else { format!("`{cell}`") };
+                    format!("line {}: the {name} is {found}, expected a number above 0", line.number)
                 })?;
                 values[index] = value * self.factors[index];
             }
@@ -122,7 +123,7 @@ fn isothermal(title: &str, temperatures: impl Iterator<Item = f64> + Clone) -> R
     }
     let [least, most] = [least, most].map(format_number);
     Err(format!(
-        "'{title}' goes from {least} to {most}, expected a curve at one temperature: shift the sweeps to one and export that curve, or remove \
+        "`{title}` goes from {least} to {most}, expected a curve at one temperature: shift the sweeps to one and export that curve, or remove \
          the column if the frequencies are reduced already"
     ))
 }

@@ -115,7 +115,7 @@ impl Head {
             let factor = title.factor().or_else(|| unit_below(title, index, units));
             factor.or((quantity == Quantity::LossTangent).then_some(1.0)).ok_or_else(|| {
                 let (line, name) = (self.line, quantity.name());
-                format!("line {line}: the {name} '{}' has no unit that is known", title.text)
+                format!("line {line}: the {name} `{}` has no unit that is known", title.text)
             })
         };
         let factors = [(Quantity::Frequency, frequency), moduli[0], moduli[1]];

@@ -49,8 +49,8 @@ pub(super) fn of(case: &Case, name: &str, body: &Body, given: &SurfaceInput) -> 
         .map_err(|source| case.error_at(&key, format!("{}: {source}", file.display()), None))?;
     let sha256 = sha256(&content);
     given.admit(&key, &sha256)?;
-    let (mut points, deformation) = read(&content).map_err(|message| {
-        case.error_at(&key, format!("{}: {message}", file.display()), Some(EXAMPLE.to_owned()))
+    let (mut points, deformation) = read(&content).map_err(|Refusal { message, hint }| {
+        case.error_at(&key, format!("{}: {message}", file.display()), hint.map(str::to_owned))
     })?;
     let from_shear = (deformation == Deformation::Shear).then_some(2.0 * (1.0 + body.material.poisson));
     for point in &mut points {
@@ -60,19 +60,26 @@ pub(super) fn of(case: &Case, name: &str, body: &Body, given: &SurfaceInput) -> 
     Ok(Some(MasterCurve { points, from_shear, sha256 }))
 }
 
+/// Outcome of a part of the reading; the message of an error begins with the line.
 type Read<T> = std::result::Result<T, String>;
 
+/// Reason why a file is no master curve.
+#[derive(Debug)]
+struct Refusal {
+    message: String,
+    hint: Option<&'static str>,
+}
+
 /// Reads the points of a curve, and the deformation to which its moduli belong.
-fn read(content: &[u8]) -> Read<(Vec<MasterPoint>, Deformation)> {
-    let lines = lines(&text::decode(content).ok_or("is no text")?);
-    if lines.is_empty() {
-        return Err("is empty".to_owned());
-    }
-    let (head, body) = Head::find(&lines)?;
-    let (columns, body) = head.columns(body)?;
-    let points = Columns::ordered(columns.points(&head, body)?)?;
+fn read(content: &[u8]) -> std::result::Result<(Vec<MasterPoint>, Deformation), Refusal> {
+    let plain = |message: String| Refusal { message, hint: None };
+    let of_titles = |message| Refusal { message, hint: Some(EXAMPLE) };
+    let lines = lines(&text::decode(content).ok_or_else(|| plain("is no text".to_owned()))?);
+    let (head, body) = Head::find(&lines).map_err(of_titles)?;
+    let (columns, body) = head.columns(body).map_err(of_titles)?;
+    let points = columns.points(&head, body).and_then(Columns::ordered).map_err(plain)?;
     match points.len() {
-        0..3 => Err(format!("has {} points, expected at least three", points.len())),
+        0..3 => Err(plain(format!("has {} points, expected at least three", points.len()))),
         _ => Ok((points, columns.deformation)),
     }
 }
@@ -87,7 +94,7 @@ mod tests {
     #[track_caller]
     fn assert_curve(content: &[u8], deformation: Deformation) {
         let text = String::from_utf8_lossy(content);
-        let (points, found) = read(content).unwrap_or_else(|error| panic!("{error}: {text}"));
+        let (points, found) = read(content).unwrap_or_else(|error| panic!("{error:?}: {text}"));
         assert_eq!((points.len(), found), (CURVE.len(), deformation), "{text}");
         for (point, expected) in points.iter().zip(CURVE) {
             for (found, expected) in [point.frequency, point.storage, point.loss].into_iter().zip(expected) {
@@ -189,24 +196,24 @@ mod tests {
             "6.283185e+01",
             "Angular frequency\tStorage modulus\tLoss modulus\tTan(delta)\n\n6.283185e+01",
         );
-        assert!(read(pages.as_bytes()).unwrap_err().contains("a second table begins there"));
+        assert!(read(pages.as_bytes()).unwrap_err().message.contains("a second table begins there"));
     }
 
     #[test]
     fn what_is_no_master_curve_says_why() {
         const HEAD: &str = "frequency_Hz, storage_Pa, loss_Pa\n";
         for (text, told) in [
-            (String::new(), "is empty"),
+            (String::new(), "no line names"),
             ("log f (Hz), log E' (Pa), log E'' (Pa)\n1, 2, 3\n".to_owned(), "no line names"),
             ("f (Hz), J' (1/Pa), J'' (1/Pa)\n1, 2, 3\n".to_owned(), "no line names"),
             ("1, 2, 3\n".to_owned(), "no line names a frequency and a modulus"),
             (
                 "frequency, storage_Pa, loss_Pa\n1, 2, 3\n".to_owned(),
-                "line 1: the frequency 'frequency' has no unit",
+                "line 1: the frequency `frequency` has no unit",
             ),
             (
                 "frequency_Hz, storage, loss_Pa\n1, 2, 3\n".to_owned(),
-                "the storage modulus 'storage' has no unit",
+                "the storage modulus `storage` has no unit",
             ),
             ("f_Hz, E'_Pa\n1, 2\n".to_owned(), "expected also a loss modulus, tan δ or a phase angle"),
             (
@@ -218,9 +225,10 @@ mod tests {
             // Decimal commas between commas.
             (format!("{HEAD}0,1,2,1,0,5\n"), "line 2 has 6 columns, expected the 3 of line 1"),
             (format!("{HEAD}1, 2, 3\n2, 2, 3\n1, 2, 3\n"), "lines 2 and 4 have the same frequency"),
-            (format!("{HEAD}1, 2, -3\n"), "line 2: the loss modulus is '-3', expected a number above 0"),
-            (format!("{HEAD}1, soft, 3\n"), "line 2: the storage modulus is 'soft'"),
-            (format!("{HEAD}slow, 2, 3\n"), "line 2: the frequency is 'slow'"),
+            (format!("{HEAD}1, 2, -3\n"), "line 2: the loss modulus is `-3`, expected a number above 0"),
+            (format!("{HEAD}1, soft, 3\n"), "line 2: the storage modulus is `soft`"),
+            (format!("{HEAD}1, , 3\n"), "line 2: the storage modulus is missing, expected a number above 0"),
+            (format!("{HEAD}slow, 2, 3\n"), "line 2: the frequency is `slow`"),
             (format!("{HEAD}1, 2, 3\n2, 2, 3\n"), "has 2 points"),
             // Sweeps at two temperatures, which the file has or has not.
             (
@@ -229,12 +237,14 @@ mod tests {
             ),
             (
                 "temp, f_Hz, E'_Pa, E''_Pa\n".to_owned() + "20, 1, 9, 1\n20, 2, 9, 1\n60, 1.1, 3, 1\n",
-                "'temp' goes from 20 to 60, expected a curve at one temperature",
+                "`temp` goes from 20 to 60, expected a curve at one temperature",
             ),
         ] {
-            let error = read(text.as_bytes()).unwrap_err();
-            assert!(error.contains(told), "{error}: {text}");
+            let Refusal { message, hint } = read(text.as_bytes()).unwrap_err();
+            assert!(message.contains(told), "{message}: {text}");
+            let of_titles = ["line 1", "no line"].iter().any(|start| message.starts_with(start));
+            assert_eq!(hint.is_some(), of_titles, "{message}");
         }
-        assert_eq!(read(b"\x00\x01").unwrap_err(), "is no text");
+        assert_eq!(read(b"\x00\x01").unwrap_err().message, "is no text");
     }
 }
