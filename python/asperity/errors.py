@@ -126,7 +126,7 @@ class CaseError(BadInput):
 
 
 class NotATopography(BadInput):
-    """A file has none of the known formats: `path`, `reason`."""
+    """A file has none of the known formats: `path`, `reason`, `export`."""
 
 
 class CorruptTopography(BadInput):

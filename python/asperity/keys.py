@@ -298,9 +298,9 @@ class Viscoelastic(TypedDict, total=False):
     times : sequence of float or str
         Relaxation times, one for each modulus, all different; list of times > 0. Without it: those of a fit to `file`.
     file : str
-        Master curve instead of `moduli` and `times`: a text with three columns, frequency in Hz, storage and loss
-        modulus in Pa, under a line that says so: `frequency_Hz, storage_Pa, loss_Pa`, or with MPa or GPa; file name,
-        relative to the case file. Without it: none.
+        Master curve instead of `moduli` and `times`: a text whose titles name frequency, storage and loss modulus (or
+        tan δ) with their units, such as `frequency_Hz, storage_MPa, loss_MPa`, or the export of an instrument; file
+        name, relative to the case file. Without it: none.
     terms_per_decade : float
         Relaxation times a decade of the fit to `file`; number > 0. By default `2.0`.
     shift : float

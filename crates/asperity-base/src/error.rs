@@ -89,6 +89,8 @@ pub enum Error {
         path: PathBuf,
         /// The apparent kind of the file.
         reason: &'static str,
+        /// Advice on an export that is read; empty if any format that is read will do.
+        export: &'static str,
     },
     /// A file of a known format that is damaged, or that uses an unsupported part of the format.
     #[error("{path}: {format}: {reason}")]
@@ -531,8 +533,9 @@ impl Error {
                 Some(format!("it holds {}; choose one of them", quoted(available)))
             }
             Self::NoField { available, .. } => Some(format!("it holds {}", quoted(available))),
+            Self::NotATopography { export, .. } if !export.is_empty() => Some((*export).to_owned()),
             Self::NotATopography { .. } => Some(
-                "x3p, sdf, gwy, sur, mnt, opd, opdx, MetroPro dat, plu, al3d, frt, tmd, nms, vk4 to vk7, NanoScope spm, \
+                "x3p, sdf, gwy, sur, mnt, opd, opdx, MetroPro dat, datx, plu, al3d, frt, tmd, nms, vk4 to vk7, NanoScope spm, \
                      ibw, nid, WSxM stp, mi, bcr, gsf, asc, tiff, NetCDF 3, HDF5, mat, npy, npz, csv, text and tables (also gzipped) are \
                      read; \
                      export as one of these"

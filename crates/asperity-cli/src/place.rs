@@ -1,10 +1,12 @@
-//! Interpretation of a path: a case file, a study file, results, or a folder with one of them.
+//! Interpretation of a path: a case file, a study file, results, a folder with one of them, or a topography instead.
 
 use std::path::{Path, PathBuf};
 
 use asperity::Error;
 use asperity::solver::Device;
+use asperity::study::many::Study;
 use asperity::study::{Case, Results};
+use asperity::surface::ReadOptions;
 
 use crate::report::{Failure, Outcome};
 
@@ -14,6 +16,19 @@ pub(crate) fn case(path: &Path, command: &str) -> Outcome<Case> {
     Case::load(path).map_err(|error| match instead_of_a_case(path, command) {
         Some((message, hint)) => Failure::usage(message, hint.as_deref()),
         None => error.into(),
+    })
+}
+
+/// Loads a study file. The error for a topography says what it is.
+pub(crate) fn study(path: &Path) -> Outcome<Study> {
+    Study::load(path).map_err(|error| {
+        let content = path.is_file().then(|| std::fs::read(path).ok()).flatten();
+        let is_toml = |content: &Vec<u8>| toml::from_slice::<toml::Table>(content).is_ok();
+        let other = content.filter(|content| !is_toml(content));
+        match other.and_then(|content| instead_of_text(path, &content, "a study file")) {
+            Some((message, hint)) => Failure::usage(message, hint.as_deref()),
+            None => error.into(),
+        }
     })
 }
 
@@ -57,8 +72,11 @@ fn instead_of_a_case(path: &Path, command: &str) -> Option<(String, Option<Strin
         return Some((format!("`{}` is a folder, expected a case file", path.display()), hint));
     }
     // Reading a pipe would wait for its writer.
-    let text = path.is_file().then(|| std::fs::read_to_string(path).ok())??;
-    let table: toml::Table = toml::from_str(&text).ok()?;
+    let content = path.is_file().then(|| std::fs::read(path).ok())??;
+    let text = std::str::from_utf8(&content).ok();
+    let Some(table) = text.and_then(|text| toml::from_str::<toml::Table>(text).ok()) else {
+        return instead_of_text(path, &content, "a case file");
+    };
     let is_study = table.contains_key("base") && !table.contains_key("lower");
     let path = path.display();
     is_study.then(|| {
@@ -66,4 +84,28 @@ fn instead_of_a_case(path: &Path, command: &str) -> Option<(String, Option<Strin
             format!("`asperity study {path}` computes its cases, `asperity study {path} --list` prints them");
         (format!("`{path}` is a study, expected a case file"), Some(hint))
     })
+}
+
+/// Returns the message and the hint for a file that is a topography, or one of another program, where a text is `expected`.
+fn instead_of_text(path: &Path, content: &[u8], expected: &str) -> Option<(String, Option<String>)> {
+    let name = path.display();
+    let (format, heights) = match ReadOptions::default().scan_bytes(path, content) {
+        Ok(scan) => (scan.format, format!(", {} × {} heights", scan.heights.nrows(), scan.heights.ncols())),
+        Err(Error::CorruptTopography { format, .. }) if !["text", "csv"].contains(&format) => {
+            (format, String::new())
+        }
+        Err(Error::NoChannel { available, .. }) => {
+            ("several channels", format!(": {}", available.join(", ")))
+        }
+        Err(Error::NotATopography { reason, .. }) => {
+            return Some((format!("`{name}` is not {expected}: {reason}"), None));
+        }
+        Err(_) => return None,
+    };
+    let file = shown(path);
+    let hint = format!(
+        "`asperity surface info {file}` describes it, `asperity contact {file} OTHER --load \"1 N\" --material steel` presses it against \
+         another one; a case file names it: `topography = {{ file = \"{name}\" }}`"
+    );
+    Some((format!("`{name}` is a topography ({format}{heights}), expected {expected}"), Some(hint)))
 }

@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::report::{Failure, Outcome, note, print};
 use crate::signals::Stop;
-use crate::{args, machine};
+use crate::{args, machine, place};
 use asperity_report::page;
 use asperity_report::words::clipped;
 
@@ -18,9 +18,10 @@ use asperity_report::words::clipped;
 const MANY: usize = 5000;
 
 pub(crate) fn study(arguments: &args::Study) -> Outcome {
+    let study = place::study(&arguments.study)?;
     let study = match arguments.device {
-        Some(device) => Study::load(&arguments.study)?.on(device)?,
-        None => Study::load(&arguments.study)?,
+        Some(device) => study.on(device)?,
+        None => study,
     };
     let directory = arguments.out.clone().unwrap_or_else(|| arguments.study.with_extension(""));
     let study = Folder::number(&directory, study)?;

@@ -322,6 +322,7 @@ fn warnings(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<String> {
     for (name, body, spec) in
         [("lower", &bodies.lower, &case.lower.topography), ("upper", &bodies.upper, &case.upper.topography)]
     {
+        warnings.extend(filled(name, body));
         coarse(name, body, &mut warnings);
         warnings.extend(thin(name, case, body.topography.grid().pitch));
         if matches!(spec.source, Source::File { .. } | Source::Given { .. })
@@ -670,6 +671,21 @@ fn difference(heights: &Field, axis: usize, cells: usize) -> f64 {
         [squares.sum::<f64>()]
     });
     (sum / far.len() as f64).sqrt() / cells as f64
+}
+
+/// Warns of a surface with many heights that were missing.
+fn filled(name: &str, body: &MountedSurface) -> Option<String> {
+    /// Share of missing heights from which on the surface is doubtful.
+    const MANY: f64 = 0.2;
+    let missing = body.findings.undefined + body.findings.spikes;
+    let share = missing as f64 / body.findings.samples as f64;
+    (share >= MANY).then(|| {
+        format!(
+            "{} % of the heights of the {name} surface are missing, and were filled from the heights around them: where they touch, the contact is a \
+             guess; measure again, or keep a `window` with fewer gaps",
+            units::format_number(100.0 * share)
+        )
+    })
 }
 
 /// Warns of a tilted measured surface.

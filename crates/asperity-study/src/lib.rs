@@ -85,7 +85,8 @@ mod identity; // identity of a run, to resume it
 pub mod io; // fields in HDF5 and for ParaView, digests, locks
 mod json; // records as JSON
 mod limit; // a limit of the model that a result exceeds
-mod viscoelastic; // viscoelastic bodies of a case, and their master curves
+mod master_curve; // master curves from files of instruments
+mod viscoelastic; // viscoelastic bodies of a case
 mod limits; // the limits of the model, compared with results
 mod columns; // the dictionary of columns and numbers
 pub mod many; // many cases made from one, each in its folder
@@ -125,6 +126,7 @@ pub use fields::{NamedField, RestFields};
 pub use given::SurfaceInput;
 pub use identity::resolved;
 pub use limit::{BrokenLimit, Limit};
+pub use master_curve::MasterCurve;
 pub use passes::Passes;
 pub use prepare::{
     Bodies, MountedSurface, Origin, PreparedTopography, bodies, bodies_until, exact_pitch, grids, topography,
@@ -137,4 +139,4 @@ pub use results::{
 pub use run::run;
 pub use subsurface::{Plan, SubsurfaceRecord};
 pub use summary::{Outcome, RunningIn, Summary};
-pub use viscoelastic::{MasterCurve, ViscoelasticEstimate};
+pub use viscoelastic::ViscoelasticEstimate;

@@ -12,7 +12,7 @@ use super::case::{
 };
 use super::given::SurfaceInput;
 use crate::io::{sha256, sha256_of};
-use crate::viscoelastic::{self, MasterCurve};
+use crate::master_curve::{self, MasterCurve};
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::{CellValues, Field, Grid};
 use asperity_base::units::{self, Dimension, Metre};
@@ -164,8 +164,8 @@ pub fn bodies_until(case: &Case, mut given: SurfaceInput, stop: Stop<'_>) -> Res
     let grid = Grid::new(upper.topography.grid().shape, lower.topography.grid().pitch)?;
     upper.topography = Topography::new(grid, upper.topography.into_heights())?;
     let master_curves = [
-        viscoelastic::of(case, "lower", &case.lower, &given)?,
-        viscoelastic::of(case, "upper", &case.upper, &given)?,
+        master_curve::of(case, "lower", &case.lower, &given)?,
+        master_curve::of(case, "upper", &case.upper, &given)?,
     ];
     Ok(Bodies { lower, upper, master_curves })
 }
@@ -327,8 +327,7 @@ fn turned(
     let at = Place { document: case.document(), table: &table, spec: &body.topography, pitch };
     let PreparedTopography { topography, origin, findings } = prepare_topography(at, other, given, stop)?;
     if topography.undefined() > 0 {
-        let shape = origin.as_ref().map_or(topography.grid().shape, |origin| origin.shape);
-        return Err(at.missing(&findings, shape));
+        return Err(at.missing(&findings));
     }
     at.measurable(&topography)?;
     let of_file = || match &origin {
@@ -566,9 +565,8 @@ impl Place<'_> {
     }
 
     /// Error for missing heights that no step fills.
-    fn missing(&self, findings: &Findings, shape: [usize; 2]) -> Error {
-        let [_, _, nx, ny] = self.spec.preparation.window.unwrap_or([0, 0, shape[0], shape[1]]);
-        let samples = nx.saturating_mul(ny);
+    fn missing(&self, findings: &Findings) -> Error {
+        let samples = findings.samples;
         let missing = findings.undefined + findings.spikes;
         let spikes = match findings.spikes {
             0 => String::new(),

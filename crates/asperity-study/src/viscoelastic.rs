@@ -1,8 +1,7 @@
-//! Viscoelastic bodies of a case: their master curves from text files, and what a check says of their sliding and loading.
+//! Viscoelastic bodies of a case: their relaxation, and what a check says of their sliding and loading.
 
 use crate::case::{Body, Case, StageSpec};
-use crate::given::SurfaceInput;
-use crate::io::{regular, sha256};
+use crate::master_curve::MasterCurve;
 use asperity_base::error::{Error, Result};
 use asperity_base::units::{self, Dimension, Kelvin, Metre, MetrePerSecond, Pascal};
 use asperity_contact::motion::{MovingBody, Pair};
@@ -12,110 +11,12 @@ use asperity_contact::with;
 use asperity_contact::with::viscoelastic::Steady;
 use asperity_surface::Topography;
 
-/// A master curve with the digest of its file, hexadecimal.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct MasterCurve {
-    /// Its points.
-    pub points: Vec<MasterPoint>,
-    /// The digest.
-    pub sha256: String,
-}
-
 /// Fewest steps of a stage in time with which its load and area are within some per cent.
 const STEPS: usize = 8;
 /// Storage modulus at the first frequency of a master curve over the relaxed modulus from which on it has not relaxed there.
 const FALLEN: f64 = 1.2;
 /// Largest error of a fit that is not told.
 const POOR: f64 = 0.15;
-/// Largest accepted file.
-const MAX_BYTES: u64 = 16 << 20;
-/// Units of a frequency, and how many hertz they are.
-const FREQUENCIES: [(&str, f64); 4] =
-    [("Hz", 1.0), ("kHz", 1e3), ("MHz", 1e6), ("rad/s", 1.0 / std::f64::consts::TAU)];
-const COLUMNS: [&str; 3] = ["frequency", "storage modulus", "loss modulus"];
-const EXAMPLE: &str =
-    "the first line names the columns with their units: `frequency_Hz, storage_MPa, loss_MPa`";
-
-/// Reads the master curve of the body `name` of a case; `None` if it has none.
-///
-/// # Errors
-/// [`Error::Case`] at its key if the file cannot be read or is no master curve; [`Error::SurfaceChanged`].
-pub(super) fn of(case: &Case, name: &str, body: &Body, given: &SurfaceInput) -> Result<Option<MasterCurve>> {
-    let Some(file) = body.properties.viscoelastic.as_ref().and_then(|body| body.file.as_ref()) else {
-        return Ok(None);
-    };
-    let key = format!("{name}.viscoelastic.file");
-    let text = regular::read(file, "a master curve", MAX_BYTES)
-        .map_err(|source| case.error_at(&key, format!("{}: {source}", file.display()), None))?;
-    let sha256 = sha256(&text);
-    given.admit(&key, &sha256)?;
-    let points = read(&text).map_err(|message| {
-        case.error_at(&key, format!("{}: {message}", file.display()), Some(EXAMPLE.to_owned()))
-    })?;
-    Ok(Some(MasterCurve { points, sha256 }))
-}
-
-/// Reads the points of a curve.
-fn read(text: &[u8]) -> std::result::Result<Vec<MasterPoint>, String> {
-    let text = std::str::from_utf8(text).map_err(|_| "is no text".to_owned())?;
-    let lines = text.lines().enumerate().map(|(number, line)| (number + 1, line.trim()));
-    let mut lines = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
-    let Some((number, header)) = lines.next() else { return Err("is empty".to_owned()) };
-    let names = cells(header);
-    if names.len() != 3 {
-        return Err(format!("line {number} has {} columns, expected three", names.len()));
-    }
-    let mut factors = [1.0; 3];
-    for ((column, name), factor) in names.iter().enumerate().zip(&mut factors) {
-        *factor = unit(name, column).ok_or_else(|| {
-            format!("line {number}: the {} '{name}' has no unit that is known", COLUMNS[column])
-        })?;
-    }
-    let mut points: Vec<MasterPoint> = Vec::new();
-    for (number, line) in lines {
-        let cells = cells(line);
-        let [frequency, storage, loss] = <[&str; 3]>::try_from(cells)
-            .map_err(|cells| format!("line {number} has {} columns, expected three", cells.len()))?;
-        let mut values = [0.0; 3];
-        for (column, text) in [frequency, storage, loss].into_iter().enumerate() {
-            let value = text.parse::<f64>().ok().filter(|value| *value > 0.0 && value.is_finite());
-            let value = value.ok_or_else(|| {
-                format!("line {number}: the {} is '{text}', expected a number above 0", COLUMNS[column])
-            })?;
-            values[column] = value * factors[column];
-        }
-        let [frequency, storage, loss] = values;
-        if points.last().is_some_and(|last| last.frequency >= frequency) {
-            return Err(format!("line {number}: the frequency does not rise"));
-        }
-        points.push(MasterPoint { frequency, storage, loss });
-    }
-    match points.len() {
-        0..3 => Err(format!("has {} points, expected at least three", points.len())),
-        _ => Ok(points),
-    }
-}
-
-/// Returns the cells of a line that commas, semicolons, tabs or blanks divide.
-fn cells(line: &str) -> Vec<&str> {
-    match line.contains([',', ';', '\t']) {
-        true => line.split([',', ';', '\t']).map(str::trim).collect(),
-        false => line.split_whitespace().collect(),
-    }
-}
-
-/// Returns the unit at the end of the name of a column: `storage_MPa`, `storage (MPa)`, `E' [MPa]`, `E'/MPa`.
-fn unit(name: &str, column: usize) -> Option<f64> {
-    let bare = name.trim_end_matches([')', ']', '"']).trim_start_matches('"');
-    let places = bare.char_indices().filter(|(_, c)| "_([/ ".contains(*c)).map(|(at, c)| at + c.len_utf8());
-    let mut ends = places.chain([0]).map(|at| bare[at..].trim());
-    ends.find_map(|text| match column {
-        0 => FREQUENCIES.iter().find(|(unit, _)| *unit == text).map(|(_, hertz)| *hertz),
-        _ => units::parse(&format!("1 {text}"), Dimension::Pressure).ok().filter(|_| !text.is_empty()),
-    })
-}
-
 /// The relaxation of a body, with the fit of a master curve.
 type BodyRelaxation = (Relaxation, Option<MasterFit>);
 
@@ -197,6 +98,7 @@ pub(super) fn estimate(
         let doubt =
             body.properties.viscoelastic.as_ref().and_then(|body| body.doubt(name, temperature(case, index)));
         let fit = relaxations[index].as_ref().and_then(|(_, fit)| fit.as_ref());
+        estimate.warnings.extend(curves[index].as_ref().and_then(|curve| converted(name, curve)));
         estimate.warnings.extend(doubt.into_iter().chain(fit.and_then(|fit| poor(name, fit))));
     }
     estimate.warnings.extend(case.history.iter().flat_map(coarse));
@@ -316,6 +218,14 @@ fn beyond(
     begins.into_iter().chain(ends.then(|| told(fastest, last, "ends"))).collect()
 }
 
+/// Returns how the shear moduli of the master curve of the body `name` became moduli of tension.
+fn converted(name: &str, curve: &MasterCurve) -> Option<String> {
+    let factor = units::format_number(curve.from_shear?);
+    Some(format!(
+        "the master curve of the {name} body has the shear moduli G′ and G″: they are multiplied by E/G = 2 (1 + ν) = {factor}"
+    ))
+}
+
 /// Returns a reason not to trust a fit to the master curve of the body `name`.
 fn poor(name: &str, fit: &MasterFit) -> Option<String> {
     let worst = fit.errors[0].max(fit.errors[1]);
@@ -352,54 +262,6 @@ fn described(name: &str, (relaxation, fit): &BodyRelaxation) -> String {
         Some(fit) => {
             let [storage, loss] = fit.errors.map(|error| units::format_number(100.0 * error));
             format!("{moduli}, fitted to its master curve within {storage} % (storage) and {loss} % (loss)")
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn columns_have_units_however_they_are_written() {
-        let wanted = MasterPoint { frequency: 2e3, storage: 3e6, loss: 4e5 };
-        for header in [
-            "frequency_kHz, storage_MPa, loss_MPa",
-            "frequency (kHz);E' (MPa);E'' (MPa)",
-            "f/kHz\tE'/MPa\tE''/MPa",
-            "\"f [kHz]\",\"storage [MPa]\",\"loss [MPa]\"",
-        ] {
-            let rows = "\n1, 1, 1\n2, 3, 0.4\n3, 4, 0.5\n"
-                .replace(", ", if header.contains('\t') { "\t" } else { ", " });
-            let points = read(format!("# made up\n{header}{rows}").as_bytes()).unwrap();
-            assert_eq!(points.len(), 3);
-            let second = points[1];
-            assert!((second.frequency / wanted.frequency - 1.0).abs() < 1e-12, "{header}");
-            assert!(
-                (second.storage / wanted.storage - 1.0).abs() < 1e-12
-                    && (second.loss / wanted.loss - 1.0).abs() < 1e-12
-            );
-        }
-    }
-
-    #[test]
-    fn what_is_no_master_curve_says_why() {
-        const HEAD: &str = "frequency_Hz, storage_Pa, loss_Pa\n";
-        for (text, told) in [
-            (String::new(), "is empty"),
-            ("frequency, storage_Pa, loss_Pa\n1, 2, 3\n".to_owned(), "the frequency 'frequency' has no unit"),
-            (
-                "frequency_Hz, storage, loss_Pa\n1, 2, 3\n".to_owned(),
-                "the storage modulus 'storage' has no unit",
-            ),
-            (format!("{HEAD}1, 2\n"), "line 2 has 2 columns"),
-            (format!("{HEAD}1, 2, 3\n1, 2, 3\n"), "line 3: the frequency does not rise"),
-            (format!("{HEAD}1, 2, -3\n"), "line 2: the loss modulus is '-3', expected a number above 0"),
-            (format!("{HEAD}1, soft, 3\n"), "line 2: the storage modulus is 'soft'"),
-            (format!("{HEAD}1, 2, 3\n2, 2, 3\n"), "has 2 points"),
-        ] {
-            let error = read(text.as_bytes()).unwrap_err();
-            assert!(error.contains(told), "{error}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Files: reading of regular files, atomic writing. They are on the disk, or in memory where there is no disk: in a browser, and with the
+//! Files: reading of regular files and of text, atomic writing. They are on the disk, or in memory where there is no disk: in a browser, and with the
 //! feature `memory`.
 
 #[cfg(not(any(feature = "memory", all(target_arch = "wasm32", target_os = "unknown"))))]
@@ -6,6 +6,7 @@ mod disk;
 #[cfg(any(feature = "memory", all(target_arch = "wasm32", target_os = "unknown")))]
 mod memory;
 pub mod regular;
+pub mod text;
 
 #[cfg(not(any(feature = "memory", all(target_arch = "wasm32", target_os = "unknown"))))]
 pub use disk::{atomic, fs};

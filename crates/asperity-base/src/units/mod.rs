@@ -7,7 +7,7 @@ mod range;
 pub use infinite::{known_or_inf, or_inf, or_infs};
 pub use quantity::{
     CELSIUS, Dimension, Multiple, UnitError, format, format_digits, format_distinct, format_number,
-    format_number_digits, format_within, parse,
+    format_number_digits, format_within, parse, parse_unit,
 };
 pub use range::{MAX_COUNT, NUMBERS, Range};
 

@@ -141,6 +141,15 @@ pub fn parse(text: &str, expected: Dimension) -> Result<f64, UnitError> {
     if value.is_finite() { Ok(value) } else { Err(UnitError::NotFinite { text: text.to_owned(), expected }) }
 }
 
+/// Reads the size of a unit, in SI: its name, which means one of it, or a quantity: `nm`, `0.5 um`.
+///
+/// # Errors
+/// The errors of [`parse`].
+pub fn parse_unit(text: &str, expected: Dimension) -> Result<f64, UnitError> {
+    let is_name = text.trim_start().starts_with(char::is_alphabetic);
+    if is_name { parse(&format!("1 {}", text.trim()), expected) } else { parse(text, expected) }
+}
+
 /// Unit in which volumes per load and distance are written.
 const MM3_PER_NM: &str = "mm³/(N m)";
 
@@ -758,6 +767,14 @@ mod tests {
         Speed, Temperature, Time, Volume, VolumePerWork,
     };
     use super::*;
+
+    #[test]
+    fn a_unit_is_a_name_or_a_quantity() {
+        for (text, size) in [("nm", 1e-9), (" µm", 1e-6), ("Å", 1e-10), ("0.5 um", 5e-7), ("1nm", 1e-9)] {
+            assert_eq!(parse_unit(text, Dimension::Length), Ok(size), "{text}");
+        }
+        assert!(["inf", "GPa", "", "nmm"].iter().all(|text| parse_unit(text, Dimension::Length).is_err()));
+    }
 
     #[test]
     fn no_magnitude_takes_more_than_some_digits() {

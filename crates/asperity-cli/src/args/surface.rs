@@ -9,7 +9,7 @@ use super::generate::Generate;
 use super::preparation::PreparationArguments;
 use asperity::surface::{Axis, ReadOptions};
 
-use super::values::{Pair, choice, lengths, positive_length};
+use super::values::{Pair, choice, lengths, positive_length, unit_of_length};
 
 /// Generate, describe, draw and convert topographies
 #[derive(Debug, Subcommand)]
@@ -91,8 +91,8 @@ pub(crate) struct ReadingArguments {
     /// Height channel; default: the first
     #[arg(long, value_name = "NAME")]
     pub(crate) channel: Option<String>,
-    /// Unit of the numbers in a file without units (npy, npz, mat, text, csv, asc, tiff): 1um
-    #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
+    /// Unit of the numbers in a file without units (npy, npz, mat, text, csv, asc, tiff): nm
+    #[arg(long, value_name = "UNIT", value_parser = unit_of_length)]
     pub(crate) unit: Option<f64>,
     /// Pitch of a file without one: 0.5um, or 0.5um,1um
     #[arg(long, value_name = "LENGTH[,LENGTH]", value_parser = lengths)]

@@ -4,7 +4,7 @@ use crate::threads::MAX_THREADS;
 use asperity::Choice;
 use asperity::operator::{Boundary, Edge};
 use asperity::surface::Resample;
-use asperity::units::{self, Dimension, MAX_COUNT, NUMBERS};
+use asperity::units::{self, Dimension, MAX_COUNT, NUMBERS, UnitError};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 /// Two lengths, along x and y.
@@ -26,15 +26,25 @@ pub(crate) fn threads(text: &str) -> Result<usize, String> {
 }
 
 pub(crate) fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
-    units::parse(text, dimension).map_err(|error| match error.hint() {
-        Some(hint) => format!("{error}; {hint}"),
-        None => error.to_string(),
-    })
+    units::parse(text, dimension).map_err(|error| in_words(&error))
+}
+
+fn in_words(error: &UnitError) -> String {
+    error.hint().map_or_else(|| error.to_string(), |hint| format!("{error}; {hint}"))
 }
 
 pub(crate) fn positive_length(text: &str) -> Result<f64, String> {
+    above_zero(quantity(text, Dimension::Length)?)
+}
+
+/// A unit of length, by its name or as a length.
+pub(crate) fn unit_of_length(text: &str) -> Result<f64, String> {
+    above_zero(units::parse_unit(text, Dimension::Length).map_err(|error| in_words(&error))?)
+}
+
+fn above_zero(length: f64) -> Result<f64, String> {
     let range = Dimension::Length.range();
-    match quantity(text, Dimension::Length)? {
+    match length {
         length if range.holds(length) => Ok(length),
         length if length > 0.0 => Err(format!("expected a length of {range}")),
         _ => Err("expected a length above 0 such as 0.25um".to_owned()),

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::support::{as_promised, folder_with, moving, run};
+use crate::support::{as_promised, asperity, folder_with, moving, run};
 use crate::support::{files, refused, stderr};
 
 /// Each case of `data/` begins with the exit code, the error and the hint that it must produce.
@@ -50,4 +50,34 @@ fn bad_usage_of_run_is_exit_code_2() {
         refused(&run(&folder, arguments));
     }
     assert_eq!(files(folder.path()), ["case.toml".to_owned()].into());
+}
+
+#[test]
+fn a_topography_where_a_case_is_expected_is_named_with_the_commands_for_it() {
+    let folder = folder_with("case.toml", &moving(1, 8));
+    let write = |name: &str, content: &[u8]| fs::write(folder.path().join(name), content).unwrap();
+    write("grid.asc", b"ncols 2\nnrows 2\ncellsize 1e-6\n1 2\n3 4\n");
+    write("points.csv", b"x,y,z\n0,0,1\n0,1,2\n1,0,3\n1,1,4\n");
+    write("note.pdf", b"%PDF-1.7");
+    write("unknown.bin", b"\x00\xff\x01");
+    write("broken.toml", b"[lower\nyoung = 1\n");
+    for (command, expected) in [("check", "a case file"), ("run", "a case file"), ("study", "a study file")] {
+        for (file, told) in [
+            ("grid.asc", "is a topography (asc, 2 × 2 heights), expected"),
+            ("points.csv", "is a topography (csv, 2 × 2 heights), expected"),
+            ("note.pdf", "it is a document (PDF)"),
+            ("unknown.bin", "it is binary, of no known format"),
+            ("broken.toml", "unclosed table"),
+        ] {
+            let error = refused(&asperity(&folder, &format!("{command} {file}")));
+            assert!(error.contains(told), "{command} {file}: {error}");
+            let is_topography = told.contains("topography");
+            assert_eq!(error.contains(expected), file != "broken.toml", "{error}");
+            assert_eq!(
+                error.contains(&format!("`asperity surface info {file}` describes it")),
+                is_topography,
+                "{error}"
+            );
+        }
+    }
 }

@@ -254,6 +254,10 @@ fn text_is_read_as_instruments_export_it() {
         let info = json(&format!("{matrix} --json {option}"));
         assert_eq!((&info["lines"], &info["shape"]), (&lines.into(), &serde_json::json!(shape)));
     }
+    for (unit, max) in [("nm", 9e-9), ("µm", 9e-6), ("0.5um", 4.5e-6)] {
+        let info = json(&format!("surface info matrix.txt --unit {unit} --json"));
+        assert!((info["max"].as_f64().unwrap() / max - 1.0).abs() < 1e-12, "{unit}: {info}");
+    }
     let text = ok(&at(matrix));
     assert!(text.contains("direction of a line of the matrix; --lines y for the other"), "{text}");
     ok(&at("surface convert matrix.txt z.npy --unit 1um"));

@@ -133,3 +133,26 @@ fn materials_completions_and_the_manual_are_printed() {
     let manual = ok(&at("man"));
     assert!(manual.starts_with(".ie") && manual.contains("asperity\\-slide"), "{manual}");
 }
+
+#[test]
+fn many_missing_heights_are_a_warning_of_the_result() {
+    let folder = TempDir::new().unwrap();
+    let write = |name: &str, missing: usize| {
+        let height = |n: usize| if n < missing { "-9999".to_owned() } else { format!("{}e-9", n % 7) };
+        let lines = (0..8).map(|line| (0..8).map(|n| height(8 * line + n)).collect::<Vec<_>>().join(" "));
+        let text = format!("ncols 8\nnrows 8\ncellsize 1e-6\n{}\n", lines.collect::<Vec<_>>().join("\n"));
+        fs::write(folder.path().join(name), text).unwrap();
+    };
+    write("flat.asc", 0);
+    for (missing, share) in [(12, None), (13, Some("20.31 %")), (63, Some("98.44 %"))] {
+        write("few.asc", missing);
+        ok(&asperity(
+            &folder,
+            "contact few.asc flat.asc --load 1mN --material steel --out out --overwrite --quiet",
+        ));
+        let warnings = summary(&folder.path().join("out"))["warnings"].to_string();
+        let told = warnings.contains("of the heights of the lower surface are missing");
+        assert_eq!(told, share.is_some(), "{warnings}");
+        assert!(share.is_none_or(|share| warnings.contains(share)), "{warnings}");
+    }
+}

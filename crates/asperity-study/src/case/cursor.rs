@@ -313,10 +313,8 @@ impl<'a> Entry<'a> {
     /// Returns the size of a unit, given by its name or as a quantity above 0.
     pub(super) fn unit(&self, dimension: Dimension) -> Result<f64> {
         match self.value.as_str() {
-            Some(word) if word.starts_with(char::is_alphabetic) => {
-                units::parse(&format!("1 {word}"), dimension)
-                    .map_err(|error| self.error(error.for_key(self.key()), error.hint()))
-            }
+            Some(word) if word.starts_with(char::is_alphabetic) => units::parse_unit(word, dimension)
+                .map_err(|error| self.error(error.for_key(self.key()), error.hint())),
             _ => self.positive(dimension),
         }
     }

@@ -26,7 +26,6 @@ mod source;
 mod stage;
 mod subsurface;
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::{Serialize, Serializer};
@@ -45,7 +44,7 @@ pub use self::sliding::SlidingSpec;
 pub use self::source::{Layer, Layout, Source, TopographySpec};
 pub use self::stage::StageSpec;
 pub use self::subsurface::{Side, SubsurfaceSpec};
-use crate::io::regular;
+use crate::io::text_of;
 use asperity_base::error::{Error, Result};
 use asperity_base::units::{MetrePerSecond, SquareMetre};
 use asperity_contact::material::Compliances;
@@ -181,11 +180,7 @@ impl Case {
     /// # Errors
     /// [`Error::File`] if it cannot be read, [`Error::Case`] if it has a mistake.
     pub fn load(path: &Path) -> Result<Self> {
-        let failed = |source| Error::File { path: path.to_owned(), source };
-        let text = regular::read(path, "a case file", MAX_CASE_BYTES).map_err(failed)?;
-        let text = String::from_utf8(text).map_err(|_| {
-            failed(io::Error::new(io::ErrorKind::InvalidData, "stream did not contain valid UTF-8"))
-        })?;
+        let text = text_of(path, "a case file", MAX_CASE_BYTES)?;
         Self::parse(&text, path, path.parent().unwrap_or(Path::new("")))
     }
 

@@ -9,7 +9,9 @@ pub(crate) mod lock; // locks that end with their process
     expect(dead_code, reason = "the library of HDF5 packs files in memory")
 )]
 mod packing; // chunks of arrays, deflated
+mod text; // text in UTF-8
 pub mod vti; // fields for ParaView
 
 pub use asperity_base::io::{atomic, fs, read_regular, regular, replace, sweep};
 pub use digest::{sha256, sha256_of, sha256_of_file};
+pub(crate) use text::text_of;

@@ -1,6 +1,5 @@
 //! Study file: base, axes, table, filters.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use toml::Value;
@@ -13,7 +12,7 @@ use crate::case::MAX_CASE_BYTES;
 use crate::case::cursor::{Entry, Table};
 use crate::case::document::Document;
 use crate::case::schema::tables::{self as keys, is_of_root};
-use crate::io::regular;
+use crate::io::text_of;
 use asperity_base::error::{Error, Result};
 
 /// Content of a study file.
@@ -46,13 +45,6 @@ const MAX_TABLE_BYTES: u64 = 1 << 30;
 pub(super) fn load(path: &Path) -> Result<StudyFile> {
     let text = text_of(path, "a study file", MAX_CASE_BYTES)?;
     read(&text, path)
-}
-
-fn text_of(path: &Path, expected: &str, most: u64) -> Result<String> {
-    let failed = |source| Error::File { path: path.to_owned(), source };
-    let text = regular::read(path, expected, most).map_err(failed)?;
-    String::from_utf8(text)
-        .map_err(|_| failed(io::Error::new(io::ErrorKind::InvalidData, "stream did not contain valid UTF-8")))
 }
 
 pub(super) fn read(text: &str, path: &Path) -> Result<StudyFile> {

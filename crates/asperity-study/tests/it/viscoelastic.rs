@@ -275,3 +275,39 @@ topography = {{ generate = "self-affine", sdq = 0.1, hurst = 0.8, shortest = "80
     let poor = told("1 MPa", "terms_per_decade = 1", r#"["1 mm/s"]"#);
     assert!(poor.contains("more `terms_per_decade` help"), "{poor}");
 }
+
+#[test]
+fn a_master_curve_of_shear_moduli_is_that_of_tension_times_two_and_two_poisson_which_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let answer = |names: &str, scale: f64| {
+        let rows = (0..=20).map(|n| 10f64.powf(-1.0 + 0.2 * f64::from(n))).map(|frequency| {
+            let z = std::f64::consts::TAU * frequency * 0.1;
+            let [storage, loss] = [1.0 + 9.0 * z * z / (1.0 + z * z), 9.0 * z / (1.0 + z * z)];
+            format!("{frequency}, {}, {}\n", storage / scale, loss / scale)
+        });
+        fs::write(folder.path().join("curve.txt"), format!("f (Hz), {names}\n{}", rows.collect::<String>()))
+            .unwrap();
+        let text = r#"
+contact = { mean_pressure = "50 kPa", boundary = "periodic" }
+steady = { speed = "10 mm/s" }
+[lower]
+young = "1 MPa"
+poisson = 0.4
+topography = { form = "flat", shape = [32, 32], pitch = "10 um" }
+viscoelastic = { file = "curve.txt" }
+[upper]
+young = "inf"
+poisson = 0.3
+topography = { generate = "self-affine", hurst = 0.8, shortest = "80 um", sdq = 0.1 }
+"#;
+        let case = Case::parse(text, "case.toml".as_ref(), folder.path()).unwrap();
+        let rest = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
+        let Outcome::Sweep(points) = rest.outcome else { panic!() };
+        let told =
+            rest.warnings.iter().any(|warning| warning.contains("multiplied by E/G = 2 (1 + ν) = 2.8"));
+        (points[0].steady.unwrap().drag_coefficient, told)
+    };
+    let (tension, shear) = (answer("E' (MPa), E'' (MPa)", 1.0), answer("G' (MPa), G'' (MPa)", 2.8));
+    assert!((shear.0 / tension.0 - 1.0).abs() < 1e-5, "{shear:?} {tension:?}");
+    assert!(!tension.1 && shear.1);
+}

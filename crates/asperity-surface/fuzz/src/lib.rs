@@ -106,9 +106,9 @@ pub fn gzip(data: &[u8]) {
     check(&[], &encoder.finish().expect("memory takes all"));
 }
 
-/// HDF5: results or any other.
+/// HDF5: results, files of Zygo, or any other.
 pub fn hdf5(data: &[u8]) {
-    check(&["hdf5", "results"], &beginning_with(&[b"\x89HDF\r\n\x1a\n"], data));
+    check(&["hdf5", "results", "datx"], &beginning_with(&[b"\x89HDF\r\n\x1a\n"], data));
 }
 
 /// Text with a header of SPIP, Gwyddion, Koala or Zygo.

@@ -1,6 +1,6 @@
 //! HDF5: fields of asperity's results, and any matrix of numbers; read only.
 //!
-//! Results are identified by the file attributes `version` and `identity`. Their channels are the fields in metres over x
+//! Results are identified by the file attributes `version` and `identity`, files of Zygo by their groups, see [`datx`]. Their channels are the fields in metres over x
 //! and y, with `lower` and `upper` first. In other files every data set with two dimensions and real numbers is a channel,
 //! named by its path, `/group/name`, and indexed `[ix, iy]`. If there are several, the user must choose one. Its heights
 //! are in metres unless it has an attribute `unit` or `units`. A height is missing if it equals the attribute `_FillValue` or
@@ -11,8 +11,8 @@ use std::collections::HashMap;
 use hdf5_pure::{AttrValue, DType, Dataset, File, Group};
 
 use super::{
-    Decoded, Fault, LengthUnit, MAX_CELLS, RESULTS, Scan, UNDERSIDE, cells, choose, choose_among, finite,
-    usable_pitch,
+    Decoded, Fault, LengthUnit, MAX_CELLS, RESULTS, Scan, UNDERSIDE, cells, choose, choose_among, datx,
+    finite, usable_pitch,
 };
 use crate::Axis;
 use asperity_base::error::Defect;
@@ -28,7 +28,9 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     if ["version", "identity"].iter().all(|name| attributes.contains_key(*name)) {
         return result(bytes, &file, channel);
     }
-    decode_sets("hdf5", bytes, channel, |_| true)
+    let matrices = paths_of_matrices(&file);
+    datx::decode(bytes, &file, &matrices, channel)
+        .unwrap_or_else(|| decode_sets("hdf5", bytes, channel, |_| true))
 }
 
 /// Decodes the matrices of real numbers that are `suitable`, in a file of this format.
@@ -40,8 +42,7 @@ pub(super) fn decode_sets(
 ) -> Decoded {
     let fault = |defect| Fault::defect(format, defect);
     let file = File::from_bytes(bytes.to_vec()).map_err(container).map_err(fault)?;
-    let mut channels = Vec::new();
-    matrices(&file.root(), "", &mut 0, &mut channels);
+    let mut channels = paths_of_matrices(&file);
     channels.retain(|path| file.dataset(path).is_ok_and(|set| suitable(&set)));
     if channels.is_empty() {
         return Err(fault(Defect::Missing("data set of two dimensions and real numbers")));
@@ -50,7 +51,7 @@ pub(super) fn decode_sets(
     let channel = channels[choose_among(&channels, wanted.as_deref())?].clone();
     let (heights, unit) = dataset(&file, &channel)
         .and_then(|set| {
-            let unit = ["unit", "units"].iter().find_map(|name| set.text(name));
+            let unit = ["unit", "units", "Unit", "Units"].iter().find_map(|name| text(&set.attributes, name));
             let factor = unit.as_deref().map_or(Ok(1.0), super::words::unit_of_length)?;
             let kind = if unit.is_some() { LengthUnit::Known } else { LengthUnit::Metres };
             let missing = set.missing();
@@ -68,8 +69,9 @@ fn result(bytes: &[u8], file: &File, channel: Option<&str>) -> Decoded {
     let mut channels = file.root().datasets().map_err(container).map_err(fault)?;
     let is_field = |name: &String| {
         let field = dataset(file, name).ok();
-        field
-            .is_some_and(|set| [set.text("unit"), set.text("axes")] == [Some("m".into()), Some("x,y".into())])
+        field.is_some_and(|set| {
+            ["unit", "axes"].map(|name| text(&set.attributes, name)) == [Some("m".into()), Some("x,y".into())]
+        })
     };
     channels.retain(is_field);
     channels.sort_by_key(|name| (name != "lower", name != UNDERSIDE, name.clone()));
@@ -86,34 +88,45 @@ fn result(bytes: &[u8], file: &File, channel: Option<&str>) -> Decoded {
 }
 
 /// A data set and its attributes.
-struct Set {
+pub(super) struct Set {
     dataset: Dataset,
-    attributes: HashMap<String, AttrValue>,
+    pub(super) attributes: HashMap<String, AttrValue>,
 }
 
-fn dataset(file: &File, path: &str) -> Outcome<Set> {
+pub(super) fn dataset(file: &File, path: &str) -> Outcome<Set> {
     let dataset = file.dataset(path).map_err(container)?;
     let attributes = dataset.attrs().map_err(container)?;
     Ok(Set { dataset, attributes })
 }
 
-impl Set {
-    fn text(&self, name: &str) -> Option<String> {
-        self.attributes.get(name).and_then(AttrValue::as_str).map(|text| text.trim().to_owned())
-    }
+/// Returns the text of an attribute, which may be an array of one.
+pub(super) fn text(attributes: &HashMap<String, AttrValue>, name: &str) -> Option<String> {
+    attributes.get(name).and_then(AttrValue::as_str).map(|text| text.trim().to_owned())
+}
 
+/// Returns the number of an attribute, which may be an array of one.
+pub(super) fn number(attributes: &HashMap<String, AttrValue>, name: &str) -> Option<f64> {
+    match numbers(attributes, name)?[..] {
+        [number] => Some(number),
+        _ => None,
+    }
+}
+
+fn numbers(attributes: &HashMap<String, AttrValue>, name: &str) -> Option<Vec<f64>> {
+    let value = attributes.get(name)?;
+    let integers = || Some(value.to_i64s()?.into_iter().map(|n| n as f64).collect());
+    value.to_f64s().or_else(integers)
+}
+
+impl Set {
     /// Numbers that mark a missing height, by the conventions of NetCDF 4.
     fn missing(&self) -> Vec<f64> {
-        let integers = |value: &AttrValue| Some(value.to_i64s()?.into_iter().map(|n| n as f64).collect());
-        let numbers = |name| {
-            let value = self.attributes.get(name)?;
-            value.to_f64s().or_else(|| integers(value))
-        };
-        ["_FillValue", "missing_value"].into_iter().filter_map(numbers).flatten().collect()
+        let marks = ["_FillValue", "missing_value"].into_iter();
+        marks.filter_map(|name| numbers(&self.attributes, name)).flatten().collect()
     }
 
     /// Reads the numbers of the set; `bytes` is the size of the file.
-    fn values(&self, bytes: usize) -> Outcome<Field> {
+    pub(super) fn values(&self, bytes: usize) -> Outcome<Field> {
         /// Largest number of bytes that deflate expands one byte to.
         const MAX_INFLATION: usize = 1032;
         let sizes = self.dataset.shape().map_err(container)?;
@@ -132,6 +145,12 @@ impl Set {
             found: 8 * found,
         })
     }
+}
+
+fn paths_of_matrices(file: &File) -> Vec<String> {
+    let mut found = Vec::new();
+    matrices(&file.root(), "", &mut 0, &mut found);
+    found
 }
 
 /// Adds the paths of the matrices of real numbers in a group and in its subgroups.

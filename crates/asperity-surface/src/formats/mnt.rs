@@ -18,6 +18,7 @@
 use std::io::{Cursor, Read};
 
 use super::binary::{Number, Order, Raster};
+use super::foreign::kind_of_compound;
 use super::words::unit_of_length;
 use super::{Channel, Decoded, Fault, LengthUnit, several};
 use asperity_base::error::Defect;
@@ -27,27 +28,21 @@ use asperity_base::units::Metre;
 pub(super) const MAGIC: &[u8] = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1";
 
 pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
-    let Some(contents) = contents(bytes).map_err(|defect| Fault::defect("mnt", defect))? else {
-        return Err(Fault::NotATopography("it is a compound file, but no document of Mountains"));
-    };
+    let container = |error: std::io::Error| Fault::defect("mnt", Defect::Container(error.to_string()));
+    let mut file = cfb::CompoundFile::open(Cursor::new(bytes)).map_err(container)?;
+    if !file.is_stream(STREAM) {
+        return Err(Fault::NotATopography(kind_of_compound(|name| file.is_stream(name))));
+    }
+    let mut contents = Vec::new();
+    let stream = file.open_stream(STREAM).map_err(container)?;
+    stream.take(bytes.len() as u64).read_to_end(&mut contents).map_err(container)?;
     several("mnt", channel, channels(contents.get(8..).unwrap_or_default()))
 }
 
 type Outcome<T> = Result<T, Defect>;
 
-/// Returns the stream of the document, if there is one.
-fn contents(bytes: &[u8]) -> Outcome<Option<Vec<u8>>> {
-    const STREAM: &str = "/ScopedContents";
-    let container = |error: std::io::Error| Defect::Container(error.to_string());
-    let mut file = cfb::CompoundFile::open(Cursor::new(bytes)).map_err(container)?;
-    if !file.is_stream(STREAM) {
-        return Ok(None);
-    }
-    let mut contents = Vec::new();
-    let stream = file.open_stream(STREAM).map_err(container)?;
-    stream.take(bytes.len() as u64).read_to_end(&mut contents).map_err(container)?;
-    Ok(Some(contents))
-}
+/// Stream of the document.
+const STREAM: &str = "/ScopedContents";
 
 const SURFACE: u32 = 9012;
 const MEASUREMENT: u32 = 9062;

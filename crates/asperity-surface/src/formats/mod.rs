@@ -5,6 +5,7 @@
 //! it allocates memory, and decompresses no more than the header specifies.
 
 mod binary;
+mod foreign;
 mod header;
 mod numbers;
 mod labels;
@@ -17,6 +18,8 @@ mod al3d;
 mod asc;
 mod bcr;
 mod csv;
+#[cfg(feature = "hdf5")]
+mod datx;
 mod frt;
 mod gsf;
 mod gwy;
@@ -60,8 +63,9 @@ pub use write::Format;
 use crate::{Axis, Topography};
 use asperity_base::error::{Defect, Error, Result};
 use asperity_base::grid::{Field, Grid};
-use asperity_base::io::regular;
+use asperity_base::io::{self, regular};
 use asperity_base::units::{Dimension, Metre};
+use foreign::Foreign;
 
 /// Heights of a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -327,49 +331,18 @@ fn decode_plain(bytes: &[u8], options: &ReadOptions) -> Decoded {
         #[cfg(feature = "hdf5")]
         (&[hdf5::MAGIC], hdf5::decode),
     ];
-    #[cfg(not(feature = "tiff"))]
-    const TIFF_LEFT_OUT: &str = "it is TIFF, and the feature `tiff` is left out";
-    const NOT_READ: &[(&[u8], &str)] = &[
-        (b"FRTM_GLIDER", "it is an FRT file of another version than 1.00"),
-        (b"Binary TrueMap Data File", "it is a TrueMap file of another version than 2.0"),
-        (b"CDF", "it is NetCDF of another version than 1 and 2"),
-        (b"\\*Force file list", "it is a force curve of NanoScope"),
-        (b"?*File list", "it is a NanoScope file in text"),
-        (b"\x89PNG", "it is a picture (PNG)"),
-        (b"\xff\xd8\xff", "it is a picture (JPEG)"),
-        (b"BM", "it is a picture (BMP)"),
-        (b"GWYO", "it is a file of Gwyddion 1"),
-        (b"PK\x05\x06", "it is an empty zip archive"),
-        #[cfg(not(feature = "zip"))]
-        (b"PK\x03\x04", "it is a zip archive, and the feature `zip` is left out"),
-        #[cfg(not(feature = "hdf5"))]
-        (b"\x89HDF\r\n\x1a\n", "it is HDF5, and the feature `hdf5` is left out"),
-        #[cfg(not(feature = "tiff"))]
-        (b"II*\0", TIFF_LEFT_OUT),
-        #[cfg(not(feature = "tiff"))]
-        (b"MM\0*", TIFF_LEFT_OUT),
-        #[cfg(not(feature = "tiff"))]
-        (b"II+\0", TIFF_LEFT_OUT),
-        #[cfg(not(feature = "tiff"))]
-        (b"MM\0+", TIFF_LEFT_OUT),
-        #[cfg(not(feature = "compound"))]
-        (
-            b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1",
-            "it is a compound file, and the feature `compound` is left out",
-        ),
-    ];
     if bytes.is_empty() {
-        return Err(Fault::NotATopography("it is empty"));
+        return Err(Fault::NotATopography(Foreign::of("it is empty")));
     }
     let starts_with = |magics: &[&[u8]]| magics.iter().any(|magic| bytes.starts_with(magic));
     let known = READ.iter().find(|(magics, _)| starts_with(magics)).map(|(_, decode)| *decode);
-    if let (None, Some((_, reason))) = (known, NOT_READ.iter().find(|(magic, _)| bytes.starts_with(magic))) {
-        return Err(Fault::NotATopography(reason));
-    }
     let known = known
         .or_else(|| plu::is_one(bytes).then_some(plu::decode as Decode))
         .or_else(|| ibw::is_one(bytes).then_some(ibw::decode as Decode))
         .or_else(|| nms::is_one(bytes).then_some(nms::decode as Decode));
+    if let (None, Some(kind)) = (known, foreign::kind(bytes)) {
+        return Err(Fault::NotATopography(kind));
+    }
     if let Some(decode) = known {
         let scan = decode(bytes, options.channel.as_deref())?;
         return match options.skip {
@@ -377,25 +350,9 @@ fn decode_plain(bytes: &[u8], options: &ReadOptions) -> Decoded {
             _ => Err(Fault::OptionOfText { format: scan.format, option: "skip" }),
         };
     }
-    if let Some(text) = utf16(bytes) {
-        return decode_text(&text, options);
-    }
-    match std::str::from_utf8(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)) {
-        Ok(text) => decode_text(text, options),
-        Err(_) => {
-            refuse_binary(bytes)?;
-            let latin_1: String = bytes.iter().map(|byte| char::from(*byte)).collect();
-            decode_text(&latin_1, options)
-        }
-    }
-}
-
-/// Returns an error if the first bytes are not those of a text.
-fn refuse_binary(bytes: &[u8]) -> std::result::Result<(), Fault> {
-    let is_binary = |byte: &u8| *byte < 0x20 && !matches!(byte, b'\t' | b'\n' | b'\r' | 0x0c);
-    match bytes.iter().take(1 << 16).any(is_binary) {
-        true => Err(Fault::NotATopography("it is binary, of no known format")),
-        false => Ok(()),
+    match io::text::decode(bytes) {
+        Some(text) => decode_text(&text, options),
+        None => Err(Fault::NotATopography(Foreign::of("it is binary, of no known format"))),
     }
 }
 
@@ -407,7 +364,6 @@ fn decode_archive(bytes: &[u8], channel: Option<&str>) -> Decoded {
 /// Decodes text without a byte order mark. After skipped lines it is a matrix or a table, whatever the lines say.
 fn decode_text(text: &str, options: &ReadOptions) -> Decoded {
     let channel = options.channel.as_deref();
-    refuse_binary(text.as_bytes())?;
     if options.skip == 0
         && let Some(decoded) = headed::decode(text, channel).or_else(|| asc::decode(text, channel))
     {
@@ -417,23 +373,12 @@ fn decode_text(text: &str, options: &ReadOptions) -> Decoded {
     csv::decode(numbers, channel).unwrap_or_else(|| text::decode(numbers, options))
 }
 
-/// Decodes text in UTF-16 with a byte order mark; `None` for other text.
-fn utf16(bytes: &[u8]) -> Option<String> {
-    let (number, bytes): (fn([u8; 2]) -> u16, _) = match bytes {
-        [0xff, 0xfe, text @ ..] => (u16::from_le_bytes, text),
-        [0xfe, 0xff, text @ ..] => (u16::from_be_bytes, text),
-        _ => return None,
-    };
-    let units = bytes.as_chunks().0.iter().map(|unit| number(*unit));
-    Some(char::decode_utf16(units).map(|unit| unit.unwrap_or('\u{fffd}')).collect())
-}
-
 type Decoded = std::result::Result<Scan, Fault>;
 
 /// Reason for the failure of a decoder, which does not know the path.
 #[derive(Debug)]
 enum Fault {
-    NotATopography(&'static str),
+    NotATopography(Foreign),
     Corrupt { format: &'static str, reason: Defect },
     NoChannel { available: Vec<String> },
     OwnUnit { format: &'static str },
@@ -448,7 +393,9 @@ impl Fault {
     fn at(self, path: &Path, channel: Option<&str>) -> Error {
         let path = path.to_owned();
         match self {
-            Self::NotATopography(reason) => Error::NotATopography { path, reason },
+            Self::NotATopography(Foreign { reason, export }) => {
+                Error::NotATopography { path, reason, export }
+            }
             Self::Corrupt { format, reason } => Error::CorruptTopography { path, format, reason },
             Self::OwnUnit { format } => Error::OwnUnit { path, format },
             Self::OptionOfText { format, option } => Error::OptionOfText { path, format, option },

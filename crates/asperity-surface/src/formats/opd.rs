@@ -4,7 +4,7 @@
 //! entry is the directory itself, and the blocks of the others follow in order. An array (type 3) has the sizes along x and
 //! y and the bytes per element (3 u16), then its elements, y fastest and from the last y to the first. Heights are in
 //! wavelengths (`Wavelength`, nm); 16-bit integers count 1/`Mult` of them. The pitch along x is `Pixel_size`, mm, along y
-//! `Aspect` times it. A missing height is 10³⁸ or more, for integers 32766 or 32767.
+//! `Aspect` times it. A missing height is 10³⁰ or more, of either sign, for integers 32766 or 32767.
 
 use std::collections::HashMap;
 
@@ -96,14 +96,17 @@ fn heights(data: &[u8], numbers: &HashMap<&str, f64>) -> Result<Field, Defect> {
     let wavelength = numbers.get("Wavelength").ok_or(Defect::Missing("Wavelength"))? * 1e-9;
     let (number, missing, unit) = match size {
         2 => (Number::Int16, 32_766.0, wavelength / numbers.get("Mult").copied().unwrap_or(1.0)),
-        4 => (Number::Float32, f64::from(1e38_f32), wavelength),
+        4 => (Number::Float32, f64::from(1e30_f32), wavelength),
         _ => {
             let found = size.to_string();
             return Err(Defect::Value { what: "the bytes of a height", found, expected: "2 or 4" });
         }
     };
     let raster = Raster::new(shape([nx, ny])?, number, Order::Little, array.rest())?;
-    let height = |number| if number >= missing { f64::NAN } else { number * unit };
+    let height = |number: f64| {
+        let is_missing = number >= missing || (size == 4 && number <= -missing);
+        if is_missing { f64::NAN } else { number * unit }
+    };
     let mut heights = raster.heights_with_y_fastest(height);
     from_last_y_to_first(&mut heights);
     Ok(heights)

@@ -44,10 +44,61 @@ fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
 }
 
 #[test]
-fn what_is_not_read_is_named() {
-    let picture = from_bytes(Path::new("a.png"), b"\x89PNG\r\n", None, None).unwrap_err();
-    assert_eq!(picture.to_string(), "a.png is not a topography: it is a picture (PNG)");
-    assert!(picture.hint().is_some());
+fn what_is_not_read_is_named_with_the_export_that_is_read() {
+    let private = |tags: &[(u16, &str)]| {
+        let mut file = Cursor::new(Vec::new());
+        let mut encoder = ::tiff::encoder::TiffEncoder::new(&mut file).unwrap();
+        let mut image = encoder.new_image::<::tiff::encoder::colortype::Gray16>(2, 2).unwrap();
+        for (tag, text) in tags {
+            image.encoder().write_tag(::tiff::tags::Tag::from_u16_exhaustive(*tag), *text).unwrap();
+        }
+        image.write_data(&[1, 2, 3, 4]).unwrap();
+        file.into_inner()
+    };
+    let compound = |stream: &str| {
+        let mut file = cfb::CompoundFile::create(Cursor::new(Vec::new())).unwrap();
+        file.create_stream(stream).unwrap();
+        file.into_inner().into_inner()
+    };
+    let stl = [&[0; 80][..], &2u32.to_le_bytes(), &[0; 100]].concat();
+    let mut tar = vec![b'a'; 512];
+    tar[257..262].copy_from_slice(b"ustar");
+    let iges = [&[b' '; 72][..], b"S      1\n"].concat();
+    for (bytes, reason, export) in [
+        (private(&[(0x8000, "1.0")]), "JPK (Bruker)", "save it as gwy, or as text"),
+        (private(&[(50_432, "1")]), "Park Systems", "save it as gwy"),
+        (private(&[(270, "<?xml?><TiffTagDescData/>")]), "Olympus LEXT", "save it as gwy"),
+        (
+            zipped(&[("f1724dc6-686c-4502-9227-2a594bc8ed33", b"")]),
+            "Keyence profilometer (zag, zon)",
+            "as CSV",
+        ),
+        (b"KPK0 and more".to_vec(), "Keyence profilometer (zag, zon)", "as CSV"),
+        (b"OLYMPUSRAWFORMAT\0".to_vec(), "Olympus microscope (oir, poir)", "save it as gwy"),
+        (zipped(&[("a.oir", b"")]), "Olympus microscope (oir, poir)", "save it as gwy"),
+        (zipped(&[("index.xml", b""), ("recipe.txt", b"")]), "Sensofar (plux)", "as plu, sur or x3p"),
+        (zipped(&[("xl/workbook.xml", b"")]), "workbook of Excel (xlsx)", "as CSV"),
+        (zipped(&[("mimetype", b""), ("content.xml", b"")]), "LibreOffice (ods, odt)", "as CSV"),
+        (zipped(&[("word/document.xml", b"")]), "document of Office", "x3p, sdf"),
+        (zipped(&[("header.properties", b"")]), "force curves of JPK", "as text"),
+        (zipped(&[("3D/3dmodel.model", b"")]), "mesh (3MF)", "regular grid"),
+        (zipped(&[("a.txt", b"1 2"), ("b.txt", b"")]), "zip archive of other files", "unpack it"),
+        (compound("/Workbook"), "workbook of Excel (xls)", "as CSV"),
+        (compound("/Other"), "compound file, but no document of Mountains", "x3p, sdf"),
+        (b"\x89PNG\r\n".to_vec(), "it is a picture (PNG)", "export the heights themselves"),
+        (b"%PDF-1.7\n1 2 3\n".to_vec(), "document (PDF)", "export the heights themselves"),
+        (b"solid a\n facet normal 0 0 1\n".to_vec(), "mesh (STL)", "regular grid"),
+        (stl, "mesh (STL)", "regular grid"),
+        (b"ply\nformat ascii 1.0\n".to_vec(), "mesh (PLY)", "regular grid"),
+        (b"# a\nmtllib a.mtl\no b\nv 1 2 3\nv 1 2 3\n".to_vec(), "mesh (OBJ)", "regular grid"),
+        (iges, "solid model (IGES)", "regular grid"),
+        (tar, "archive (tar)", "unpack it"),
+    ] {
+        let error = from_bytes(Path::new("a"), &bytes, None, Some(1e-9)).unwrap_err();
+        let (message, hint) = (error.to_string(), error.hint().unwrap());
+        assert!(message.starts_with("a is not a topography: it "), "{message}");
+        assert!(message.contains(reason) && hint.contains(export), "{message}; {hint}");
+    }
 }
 
 #[test]
@@ -219,10 +270,10 @@ fn an_x3p_holds_as_many_bytes_as_its_header_says() {
     );
     assert_eq!(defect(&x3p_with("D", &[], None, "<DataLink/>")), "x3p: no PointDataLink in DataLink");
     assert_eq!(defect(b"PK\x03\x04 and nothing else").split(':').next(), Some("x3p"));
-    let other = zipped(&[("word/document.xml", b"<a/>")]);
+    let other = zipped(&[("document.xml", b"<a/>")]);
     assert!(matches!(
         decode(&other, None),
-        Err(Fault::NotATopography("it is a zip archive without main.xml"))
+        Err(Fault::NotATopography(Foreign { export: "unpack it, and give one of its files", .. }))
     ));
 }
 
@@ -425,7 +476,7 @@ fn a_text_that_is_no_matrix_is_an_error_with_its_line() {
     assert_eq!(defect(b"1 inf\n"), "text: line 1: `inf` is not a height");
     assert_eq!(defect(b"1,234.5;1\n"), "text: line 1: `1,234.5` is not a height");
     assert_eq!(defect(b"# nothing\n"), "text: no values");
-    assert!(matches!(decode(b"", None), Err(Fault::NotATopography("it is empty"))));
+    assert!(matches!(decode(b"", None), Err(Fault::NotATopography(Foreign { reason: "it is empty", .. }))));
 }
 
 // ---- vtk -------------------------------------------------------------------------------------------------

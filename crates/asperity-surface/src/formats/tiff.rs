@@ -3,7 +3,7 @@
 //! Format: "TIFF, Revision 6.0" and BigTIFF, plain or compressed by LZW or deflate. Lines run along x. Floating-point
 //! numbers are heights in metres. Integers are levels, whose height is not in the file. There is no pitch, because
 //! resolutions are those of a print. Each page is a channel. A missing height is NaN, or the number that the tag of GDAL
-//! (42113) gives.
+//! (42113) gives. Images of JPK, of Park Systems and of an Olympus LEXT are refused: their pages are no heights without their private tags.
 
 use std::io::Cursor;
 
@@ -12,6 +12,7 @@ use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
 use super::binary::shape;
+use super::foreign::{Foreign, maker_of_tiff};
 use super::{Decoded, Fault, LengthUnit, ONLY_CHANNEL, Scan, choose, finite, x_fastest};
 use asperity_base::error::Defect;
 use asperity_base::grid::Field;
@@ -23,7 +24,13 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let fault = |defect| Fault::defect("tiff", defect);
     let mut file = open(bytes).map_err(fault)?;
     let mut pages = 1;
-    while file.more_images() {
+    loop {
+        if let Some(maker) = maker(&mut file) {
+            return Err(Fault::NotATopography(maker));
+        }
+        if !file.more_images() {
+            break;
+        }
         file.next_image().map_err(container).map_err(fault)?;
         pages += 1;
     }
@@ -35,6 +42,13 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let (heights, unit) = heights(bytes, page).map_err(fault)?;
     let channel = channels[page].clone();
     Ok(Scan { format: "tiff", channel, channels, pitch: None, heights, unit, lines: None })
+}
+
+/// Returns the maker of an instrument whose heights, or their scale, are in private tags of a page.
+fn maker(file: &mut File<'_>) -> Option<Foreign> {
+    let tags: Vec<u16> = file.tag_iter().flatten().map(|(tag, _)| tag.to_u16()).collect();
+    let description = file.get_tag_ascii_string(Tag::ImageDescription).unwrap_or_default();
+    maker_of_tiff(|tag| tags.contains(&tag), &description)
 }
 
 type File<'a> = Decoder<Cursor<&'a [u8]>>;

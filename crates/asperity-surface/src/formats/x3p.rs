@@ -14,6 +14,7 @@ use zip::ZipArchive;
 use zip::write::{SimpleFileOptions, ZipWriter};
 
 use super::binary::{Number, Order, Raster};
+use super::foreign::{self, Foreign};
 use super::{Decoded, Fault, LengthUnit, ONLY_CHANNEL, Scan, cells, choose, finite, usable_pitch, x_fastest};
 use asperity_base::error::{Defect, Error, Result};
 use asperity_base::grid::{Field, Grid};
@@ -124,7 +125,8 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
     let fault = |defect| Fault::defect("x3p", defect);
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| fault(container("zip", error)))?;
     if archive.index_for_name(MAIN).is_none() {
-        return Err(Fault::NotATopography("it is a zip archive without main.xml"));
+        let names: Vec<_> = archive.file_names().flatten().collect();
+        return Err(Fault::NotATopography(foreign::kind_of_archive(&names)));
     }
     let main = entry(&mut archive, MAIN, MAIN, MAX_MAIN).map_err(fault)?;
     if main.len() as u64 > MAX_MAIN {
@@ -139,7 +141,8 @@ pub(super) fn decode(bytes: &[u8], channel: Option<&str>) -> Decoded {
         Document::parse_with_options(text, options).map_err(|error| fault(container("main.xml", error)))?;
     let root = document.root_element();
     if root.tag_name().name() != "ISO5436_2" {
-        return Err(Fault::NotATopography("it is a zip archive, but its main.xml is not that of an x3p"));
+        let reason = "it is a zip archive, but its main.xml is not that of an x3p";
+        return Err(Fault::NotATopography(Foreign::of(reason)));
     }
     verify_main(&mut archive, root, &main).map_err(fault)?;
 

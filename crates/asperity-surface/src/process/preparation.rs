@@ -109,6 +109,8 @@ pub enum Resample {
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Findings {
+    /// Number of samples in the window.
+    pub samples: usize,
     /// Number of undefined samples in the window, before filling.
     pub undefined: usize,
     /// Number of samples removed as spikes.
@@ -160,7 +162,7 @@ impl Preparation {
         if let Some(window) = self.window {
             topography = topography.window(window)?;
         }
-        let undefined = topography.undefined();
+        let (samples, undefined) = (topography.grid().cells(), topography.undefined());
         if let Some(factor) = self.despike {
             topography = topography.despike_until(factor, stop)?;
         }
@@ -194,7 +196,7 @@ impl Preparation {
         if let Some(width) = self.taper {
             topography = topography.taper(width)?;
         }
-        Ok((topography, Findings { undefined, spikes, form }))
+        Ok((topography, Findings { samples, undefined, spikes, form }))
     }
 }
 
@@ -260,7 +262,7 @@ mod tests {
         let (same, findings) = Preparation::default().apply(rough()).unwrap();
         let bits = |topography: &Topography| topography.heights().mapv(f64::to_bits);
         assert_eq!(bits(&same), bits(&rough()));
-        assert_eq!(findings, Findings { undefined: 2, ..Findings::default() });
+        assert_eq!(findings, Findings { samples: 3000, undefined: 2, ..Findings::default() });
     }
 
     #[test]
@@ -280,7 +282,7 @@ mod tests {
             taper: Some(4e-6),
         };
         let (prepared, findings) = preparation.apply(rough()).unwrap();
-        assert_eq!((findings.undefined, findings.spikes), (1, 1));
+        assert_eq!((findings.samples, findings.undefined, findings.spikes), (58 * 50, 1, 1));
         assert_eq!(findings.form.unwrap().axis.map(|axis| axis.is_finite()), Some(true));
         let by_hand = rough().window([1, 0, 58, 50]).unwrap().despike(8.0).unwrap();
         let by_hand = by_hand.fill(Fill::Harmonic).unwrap().level(Level::Cylinder).unwrap();

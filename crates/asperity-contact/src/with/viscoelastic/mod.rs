@@ -48,8 +48,8 @@ pub struct Viscoelasticity {
     )]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub times: Vec<Second>,
-    /// Master curve instead of `moduli` and `times`: a text with three columns, frequency in Hz, storage and loss modulus in Pa, under a line
-    /// that says so: `frequency_Hz, storage_Pa, loss_Pa`, or with MPa or GPa.
+    /// Master curve instead of `moduli` and `times`: a text whose titles name frequency, storage and loss modulus (or tan δ) with their units,
+    /// such as `frequency_Hz, storage_MPa, loss_MPa`, or the export of an instrument.
     #[key(special = path, form = "file name, relative to the case file", absent = "none", example = "\"master.csv\"")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<PathBuf>,

@@ -16,6 +16,7 @@ pub(super) fn samples() -> Vec<Vec<u8>> {
         netcdf(2, ["x", "y"], "", false),
         results(),
         declared(),
+        std::fs::read(corpus("hdf5", "zygo")).unwrap(),
         utf16("1;2;3\n4;;6\n", true),
     ]
 }
@@ -65,7 +66,7 @@ fn a_damaged_mnt_is_an_error() {
     other.create_stream("/WordDocument").unwrap();
     let other = other.into_inner().into_inner();
     let reason = "it is a compound file, but no document of Mountains";
-    assert!(matches!(decode(&other, None), Err(Fault::NotATopography(found)) if found == reason));
+    assert!(matches!(decode(&other, None), Err(Fault::NotATopography(found)) if found.reason == reason));
     // A small file allocates little memory.
     let claims = |bytes: u64| {
         let mut array = blocks(2, &[0; 12]);
@@ -476,6 +477,60 @@ fn declared() -> Vec<u8> {
     speed.with_f64_data(&[1.0, 2.0]).with_shape(&[1, 2]).set_attr("unit", AttrValue::String("m/s".into()));
     file.add_group(group.finish());
     file.finish().unwrap()
+}
+
+// ---- datx --------------------------------------------------------------------------------------------------
+
+#[test]
+fn fringes_of_a_datx_are_half_wavelengths_in_lines_along_x() {
+    // Written by h5py 3, with the groups and attributes of Mx.
+    let scan = read(&corpus("hdf5", "zygo"), None, None).unwrap();
+    assert_eq!(scan.channels, ["/Data/Surface/{1A}"]);
+    let lines = ndarray::array![[1.0, 2.0, 3.0, 4.0], [5.0, 6.0, nan(), 8.0], [9.0, 10.0, 11.0, 12.0]];
+    let heights = (lines * (6e-7 * 0.5 * 1.1)).t().as_standard_layout().into_owned();
+    assert_scan(&scan, "datx", Some([2e-6; 2]), &heights);
+}
+
+#[test]
+fn a_datx_has_its_numbers_beside_the_heights_or_among_the_attributes_of_the_measurement() {
+    let factor = |unit: &str, beside: &[(&str, f64)], among: &[(&str, f64)]| {
+        let mut file = FileBuilder::new();
+        let mut group = file.create_group("Measurement");
+        let surface = group.create_dataset("Surface");
+        surface.with_f64_data(&[1.0, 2.0, 3.0, 4.0, 1e30, 6.0]).with_shape(&[2, 3]);
+        surface.set_attr("Unit", AttrValue::StringArray(vec![unit.into()]));
+        surface.set_attr("No Data", AttrValue::F64Array(vec![1e30]));
+        beside.iter().for_each(|(name, value)| _ = surface.set_attr(name, AttrValue::F64(*value)));
+        let mut attributes = group.create_group("Attributes");
+        for (name, value) in among {
+            attributes.set_attr(&format!("Data Context.{name}:Value"), AttrValue::F64Array(vec![*value]));
+        }
+        group.add_group(attributes.finish());
+        file.add_group(group.finish());
+        decode(&file.finish().unwrap(), None).map(|scan| {
+            assert_scan(&scan, "datx", None, &(six() * scan.heights[[0, 0]]));
+            (scan.heights[[0, 0]], scan.unit)
+        })
+    };
+    let wave = ("Wavelength", 6e-7);
+    for (unit, beside, among, expected) in [
+        ("Fringes", &[wave][..], &[][..], 3e-7),
+        ("Fringes", &[wave, ("Interferometric Scale Factor", 1.0), ("Obliquity Factor", 1.5)], &[], 9e-7),
+        ("Fringes", &[], &[wave, ("Data Attributes.Interf Scale Factor", 1.0), ("Obliquity", 2.0)], 1.2e-6),
+        ("Waves", &[wave], &[], 6e-7),
+        ("NanoMeters", &[wave], &[], 1e-9),
+        ("MicroInches", &[], &[], 25.4e-9),
+    ] {
+        let (found, kind) = factor(unit, beside, among).unwrap();
+        assert_relative_eq!(found, expected, max_relative = 1e-12);
+        assert_eq!(kind, LengthUnit::Known);
+    }
+    for (unit, told) in
+        [("Fringes", "no Wavelength of its fringes"), ("NoUnits", "`NoUnits`, expected Fringes")]
+    {
+        let Err(Fault::Corrupt { reason, .. }) = factor(unit, &[], &[]) else { panic!("{unit}") };
+        assert!(reason.to_string().contains(told), "{reason}");
+    }
 }
 
 // ---- text in UTF-16 ----------------------------------------------------------------------------------------

@@ -99,6 +99,10 @@ fn an_opd_counts_wavelengths() {
     assert_six(&both, "opd", [2e-6, 1e-6], 5e-7);
     assert_six(&opd([3, 2], &[("OPD", 2, &OPD_SHORTS)]), "opd", [2e-6, 1e-6], 5e-7);
     assert_eq!(decode(&both, Some("OPD")).unwrap().channels, ["Raw", "OPD"]);
+    for missing in [1e30, 3.4e38, -1.7e38, f32::INFINITY] {
+        let file = opd([3, 2], &[("Raw", 4, &floats(&[4.0, 1.0, missing, 2.0, 6.0, 3.0]))]);
+        assert_six(&file, "opd", [2e-6, 1e-6], 5e-7);
+    }
     assert_eq!(defect(&opd([3, 2], &[("Image", 1, &[7; 6])])), "opd: no array of heights, such as Raw");
     assert_eq!(
         defect(&opd([3, 2], &[("Raw", 3, &[7; 18])])),
