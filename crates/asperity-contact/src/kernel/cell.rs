@@ -37,25 +37,40 @@ pub(super) fn integral_below(
     }
 }
 
-/// Computes the mean over −b … b of η of [`integral`] at (x, y + η), for the closed form of its third indefinite integral, twice along y.
-pub(super) fn mean_across(
+/// Computes the means over −b … b of η of [`integral`] at (x, y + 2bj + η), j below `columns`, for the closed form of its third indefinite
+/// integral, twice along y.
+pub(super) fn means_across(
     [x, y]: [f64; 2],
+    columns: usize,
     [a, b]: [f64; 2],
     closed: impl Fn(f64, f64) -> f64,
     k: impl Fn(f64, f64) -> f64,
-) -> f64 {
-    if x.hypot(y) <= FAR * a.max(2.0 * b) {
-        let along_y = |x: f64| closed(x, y + 2.0 * b) - 2.0 * closed(x, y) + closed(x, y - 2.0 * b);
-        return (along_y(x + a) - along_y(x - a)) / (2.0 * b);
-    }
-    // Two uniform widths together make a triangle.
-    let side = |sign: f64| {
-        let points = gauss_points([x, y + sign * b], [a, b]);
-        points
-            .map(|(at, weight)| weight * (1.0 - (at[1] - y).abs() / (2.0 * b)) * k(at[0], at[1]))
-            .sum::<f64>()
+) -> Vec<f64> {
+    let centre = |j: usize| y + 2.0 * b * j as f64;
+    let is_near = |y: f64| x.hypot(y) <= FAR * a.max(2.0 * b);
+    let along_x = |y: f64| closed(x + a, y) - closed(x - a, y);
+    // Neighbours share their edges.
+    let mut edges = [None; 3];
+    let mean = |j: usize| {
+        let y = centre(j);
+        if is_near(y) {
+            edges = [edges[1], edges[2], None];
+            let places = [y - 2.0 * b, y, y + 2.0 * b];
+            let [before, here, after] =
+                [0, 1, 2].map(|n| *edges[n].get_or_insert_with(|| along_x(places[n])));
+            return (before - 2.0 * here + after) / (2.0 * b);
+        }
+        edges = [None; 3];
+        // Two uniform widths together make a triangle.
+        let side = |sign: f64| {
+            let points = gauss_points([x, y + sign * b], [a, b]);
+            points
+                .map(|(at, weight)| weight * (1.0 - (at[1] - y).abs() / (2.0 * b)) * k(at[0], at[1]))
+                .sum::<f64>()
+        };
+        (side(1.0) + side(-1.0)) * a * b
     };
-    (side(1.0) + side(-1.0)) * a * b
+    (0..columns).map(mean).collect()
 }
 
 fn by_corners([x, y]: [f64; 2], [a, b]: [f64; 2], closed: impl Fn(f64, f64) -> f64) -> f64 {

@@ -316,7 +316,7 @@ fn tail_of_zeta(p: i32, m: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::{coupled_displacement, normal_displacement_across};
+    use crate::kernel::{coupled_displacement, normal_displacements_across};
     use crate::material::Material;
 
     fn pair() -> Compliances {
@@ -355,7 +355,7 @@ mod tests {
             let line = Line { axis: 1, period, datum: 1.3 };
             let rest = line.beyond_nearest(s, columns, pitch, 1.0, true);
             let nearest = |j: usize| {
-                line.nearest(j as f64 * pitch[1]).map(|y| normal_displacement_across(s, y, pitch, 1.0))
+                line.nearest(j as f64 * pitch[1]).map(|y| normal_displacements_across(s, y, 1, pitch, 1.0)[0])
             };
             let found: Vec<_> = (0..columns).map(|j| rest[j] + nearest(j).iter().sum::<f64>()).collect();
             let own = line.normal_displacement(0.0, 0.0, pitch, 1.0).abs();

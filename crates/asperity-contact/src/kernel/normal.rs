@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::grid::Field;
-use crate::kernel::cell::{asinh_term, integral, mean_across};
+use crate::kernel::cell::{asinh_term, integral, means_across};
 use crate::math::parallel;
 use crate::units::{Metre, Pascal};
 
@@ -21,14 +21,22 @@ pub fn normal_displacement(x: Metre, y: Metre, pitch: [Metre; 2], modulus: Pasca
     integral([x, y], pitch.map(|p| 0.5 * p), closed, |x, y| 1.0 / (x * x + y * y).sqrt()) / (PI * modulus)
 }
 
-/// Computes the mean of [`normal_displacement`] at `x` over the width of a cell, from y − Δy/2 to y + Δy/2, m/Pa.
+/// Computes the means of [`normal_displacement`] at `x` over the widths of `columns` cells along y, of which the first is centred at `y`, m/Pa.
 ///
 /// ```text
 /// πE*Δy ū = Σ± ±[G(x±a, y+2b) − 2G(x±a, y) + G(x±a, y−2b)],  G(s,t) = t (s asinh(t/|s|) + t asinh(s/|t|)/2) − s √(s² + t²)/2
 /// ```
-pub fn normal_displacement_across(x: Metre, y: Metre, pitch: [Metre; 2], modulus: Pascal) -> f64 {
+pub fn normal_displacements_across(
+    x: Metre,
+    y: Metre,
+    columns: usize,
+    pitch: [Metre; 2],
+    modulus: Pascal,
+) -> Vec<f64> {
     let closed = |x: f64, y: f64| y * (asinh_term(x, y) + 0.5 * asinh_term(y, x)) - 0.5 * x * x.hypot(y);
-    mean_across([x, y], pitch.map(|p| 0.5 * p), closed, |x, y| 1.0 / x.hypot(y)) / (PI * modulus)
+    let mut means = means_across([x, y], columns, pitch.map(|p| 0.5 * p), closed, |x, y| 1.0 / x.hypot(y));
+    means.iter_mut().for_each(|mean| *mean /= PI * modulus);
+    means
 }
 
 /// Returns the coefficients of all cells `[i, j]` at offsets `(i Δx, j Δy)`, m/Pa: the first row of the influence
@@ -69,7 +77,8 @@ mod tests {
                 let at = |k: usize| y + pitch[1] * ((k as f64 + 0.5) / parts as f64 - 0.5);
                 let mean =
                     (0..parts).map(|k| normal_displacement(x, at(k), pitch, 1.0)).sum::<f64>() / parts as f64;
-                assert_relative_eq!(normal_displacement_across(x, y, pitch, 1.0), mean, max_relative = 1e-8);
+                let found = normal_displacements_across(x, y - 2.0 * pitch[1], 4, pitch, 1.0)[2];
+                assert_relative_eq!(found, mean, max_relative = 1e-8);
             }
         }
     }

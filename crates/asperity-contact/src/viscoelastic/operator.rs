@@ -7,7 +7,7 @@ use asperity_transforms::num_complex::Complex64;
 
 use crate::error::{Error, Result, check_in};
 use crate::grid::{Field, Grid};
-use crate::kernel::{normal_displacement, normal_displacement_across};
+use crate::kernel::{Line, normal_displacement, normal_displacements_across};
 use crate::math::fft::angular_frequency;
 use crate::math::{SkewConvolution, SkewKernel};
 use crate::operator::Boundary;
@@ -156,14 +156,23 @@ impl Kernels {
     /// Creates the kernels of a grid that is free along x from the tables of a cell.
     fn of_cells(grid: &Grid, boundary: Boundary, creep: &Creep, speed: MetrePerSecond) -> Self {
         let (pitch, line) = (grid.pitch, boundary.line(grid, boundary.datum(grid)));
+        let columns = grid.shape[1];
         let near = |x: Metre, across: bool| -> Option<Vec<f64>> {
-            let displacement = if across { normal_displacement_across } else { normal_displacement };
-            let at = |y: Metre| displacement(x, y, pitch, 1.0);
-            let places = (0..grid.shape[1]).map(|j| j as f64 * pitch[1]);
-            let displaced = |y| line.map_or_else(|| at(y), |line| line.nearest(y).map(at).iter().sum());
-            Some(places.map(displaced).collect())
+            let row = |y: Metre, columns: usize| match across {
+                true => normal_displacements_across(x, y, columns, pitch, 1.0),
+                false => (0..columns)
+                    .map(|j| normal_displacement(x, y + j as f64 * pitch[1], pitch, 1.0))
+                    .collect(),
+            };
+            let nearest = |line: Line, j: usize| {
+                line.nearest(j as f64 * pitch[1]).map(|y| row(y, 1)[0]).iter().sum::<f64>()
+            };
+            Some(match line {
+                None => row(0.0, columns),
+                Some(line) => (0..columns).map(|j| nearest(line, j)).collect(),
+            })
         };
-        let far = |x: Metre, across: bool| Some(line?.beyond_nearest(x, grid.shape[1], pitch, 1.0, across));
+        let far = |x: Metre, across: bool| Some(line?.beyond_nearest(x, columns, pitch, 1.0, across));
         let elastic = ElasticCell { near: &near, far: &far };
         let mut glassy = creep.glassy;
         let mut decays = Vec::new();
