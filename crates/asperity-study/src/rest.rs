@@ -230,7 +230,8 @@ impl StaticProblem<'_> {
         let worn = contact.run(state, self.watch, &mut outputs(&mut observers, &mut limits, &mut kept))?;
         let (record, updates) = (worn.record.clone(), worn.state.updates.clone());
         let of_answer = review::static_contact(&worn.state.pair, self.boundary(), &worn.solution.pressure);
-        let warnings = [limits.all(), of_answer].concat();
+        let scar = review::scar(&self.pair, &worn.state.pair, self.boundary());
+        let warnings = [limits.all(), of_answer, scar.into_iter().collect()].concat();
         let result = StaticResult::of(record, worn_fields(worn, friction));
         StaticResult { updates, warnings, ..result }.seen_by(case, observers)
     }
@@ -261,12 +262,15 @@ impl StaticProblem<'_> {
 
     /// Creates the result from the end of a loading, or of rolling, with the warnings of `broken` limits.
     fn loaded(self, contact: LoadedContact, broken: Vec<String>) -> StaticResult {
+        let changed = contact.changed.as_ref();
+        let scar = changed.and_then(|changed| review::scar(&self.pair, &changed.pair, self.boundary()));
         let of_increments = with::doubts_after_increments(&contact.increments).into_iter().collect();
         let warnings = [
             broken,
             review::loaded(&contact, self.boundary()),
             of_increments,
             self.review(contact.solution.normal()),
+            scar.into_iter().collect(),
         ]
         .concat();
         let LoadedContact { record, increments, solution, plastic, slip, changed, .. } = contact;

@@ -23,6 +23,34 @@ pub(super) fn static_contact(pair: &Pair, boundary: Boundary, pressure: &Field) 
     rim.into_iter().chain(of_interface).chain(too_few_cells(spot(pressure, boundary))).collect()
 }
 
+/// Warns of a scar on curved bodies that reaches a free side of the grid, from the bodies before and after they were worn.
+pub(super) fn scar(before: &Pair, after: &Pair, boundary: Boundary) -> Option<String> {
+    /// Depth at the rim over the deepest that needs no warning.
+    const SHALLOW: f64 = 0.01;
+    // The upper heights are those of its underside.
+    let worn = |high: &Field, low: &Field| (high - low).mapv(|depth| depth.max(0.0));
+    let depth =
+        worn(&before.lower.heights, &after.lower.heights) + worn(&after.upper.heights, &before.upper.heights);
+    let deepest = |depth: ndarray::ArrayView1<f64>| depth.iter().copied().fold(0.0, f64::max);
+    let most = depth.iter().copied().fold(0.0, f64::max);
+    let at_rim = |axis: usize| {
+        let last = depth.len_of(Axis(axis)) - 1;
+        deepest(depth.index_axis(Axis(axis), 0)).max(deepest(depth.index_axis(Axis(axis), last)))
+    };
+    let free = [0, 1].into_iter().filter(|axis| !boundary.repeats(*axis));
+    let (axis, rim) = free.map(|axis| (axis, at_rim(axis))).max_by(|one, other| one.1.total_cmp(&other.1))?;
+    let is_cut_off = rim > SHALLOW * most;
+    (is_cut_off && Paraboloid::of(&before.initial_gap(&before.at_rest()), before.pitch()).is_some()).then(|| {
+        format!(
+            "the scar reaches the rim of the grid along {}: the outermost cells have lost {}, the deepest {}, and what wears beyond the \
+             grid is missing; take a larger `shape`, or let the bodies slide less far",
+            ["x", "y"][axis],
+            units::format(rim, Dimension::Length),
+            units::format(most, Dimension::Length)
+        )
+    })
+}
+
 /// Returns the warnings of a sweep, from its points and the contact of the `last` one.
 pub(super) fn sweep(points: &[SweepRecord], last: &LoadedContact) -> Vec<String> {
     let coarse =

@@ -89,3 +89,40 @@ fn a_case_slides_and_goes_on_after_an_interruption_with_the_same_bits() {
     let memory = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
     assert_eq!(memory.updates, updates);
 }
+
+#[test]
+fn a_scar_that_reaches_the_rim_of_the_grid_is_told() {
+    let case = |load: &str, k: f64, upper: &str, boundary: &str, course: &str| {
+        let steel = "young = \"210 GPa\", poisson = 0.3";
+        format!(
+            "lower = {{ {steel}, topography = {{ form = \"flat\", shape = [24, 20], pitch = \"8 um\" }} }}\n\
+             upper = {{ {steel}, topography = {{ {upper} }}, wear = {{ coefficient = \"{k} mm3/(N m)\" }} }}\n\
+             contact = {{ load = \"{load}\", boundary = {boundary} }}\nfriction.coefficient = 0.5\n{course}"
+        )
+    };
+    let ball = "form = \"sphere\", radius = \"2 mm\"";
+    let roller = "form = \"cylinder\", radius = \"2 mm\", axis = \"y\"";
+    let rough = "generate = \"self-affine\", hurst = 0.8, sq = \"0.1 um\", shortest = \"40 um\"";
+    let slide = |distance: &str| format!("sliding = {{ distance = \"{distance}\", updates = 6 }}");
+    let fret = "friction.displacement = \"5 um\"\nacceleration = { max_wear = \"1 um\" }\nhistory = [{ displacement = \"-5 um\", cycles = 3 }]";
+    for (upper, boundary, course, told) in [
+        (ball, "\"free\"", slide("5 m"), ""),
+        (ball, "\"free\"", slide("120 m"), "along y"),
+        (ball, "[\"free\", \"periodic\"]", slide("200 m"), "along x"),
+        (ball, "\"periodic\"", slide("200 m"), ""),
+        (roller, "[\"free\", \"periodic\"]", slide("500 m"), "along x"),
+        (roller, "[\"free\", \"periodic\"]", slide("5 m"), ""),
+        // Rough bodies wear everywhere.
+        (rough, "\"free\"", slide("20 m"), ""),
+        (ball, "\"free\"", fret.to_owned(), ""),
+        (ball, "\"free\"", fret.replace("= 3 }", "= 500 }"), "along y"),
+    ] {
+        let (load, k) = if course.contains("cycles") { ("20 N", 1e-3) } else { ("1 N", 1e-6) };
+        let text = case(load, k, upper, boundary, &course);
+        let case = Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap();
+        let warnings = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap().warnings;
+        let found = warnings.iter().find(|warning| warning.contains("the scar reaches the rim"));
+        assert_eq!(found.is_some(), !told.is_empty(), "{text}: {warnings:?}");
+        assert!(found.is_none_or(|found| found.contains(told)), "{text}: {found:?}");
+    }
+}
