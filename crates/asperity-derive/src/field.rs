@@ -244,10 +244,7 @@ impl<'a> Field<'a> {
     pub(crate) fn given(&self, key: &TokenStream) -> TokenStream {
         let of = self.of;
         let read = match &self.accepts {
-            Accepts::Choice => quote! {
-                value.word(<#of as ::asperity_base::choice::Choice>::NAMES)
-                    .map(|word| <#of as ::asperity_base::choice::Choice>::WORDS[word].1)
-            },
+            Accepts::Choice => quote!(::asperity_base::table::choice::<#of>(value)),
             Accepts::Flag => quote!(value.flag()),
             Accepts::Count(_) => quote!(value.count(#key, &(#key).kind)),
             Accepts::Whole(least) => quote!(value.whole(#least)),

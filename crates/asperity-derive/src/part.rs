@@ -145,7 +145,10 @@ fn choice(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
     }
     let check_all = attribute.check.as_ref().map(|check| quote!(#check(&read, __source)?;));
     let read = quote! {
-        let chosen = ::asperity_base::table::optional(__source, &KEYS[0], |value| value.word(&[#(#words),*]))?;
+        const WORDS: &[&str] = &[#(#words),*];
+        let chosen = ::asperity_base::table::optional(__source, &KEYS[0], |value| {
+            value.word(WORDS, &::asperity_base::choice::near(WORDS))
+        })?;
         let read = match chosen {
             #arms
             _ => return Err(__source.missing(&KEYS[0])),

@@ -146,7 +146,10 @@ fn both(text: &str, good: impl Fn(&str) -> Result<(), String>) -> Result<Both, S
 pub(crate) fn pair_of_materials(text: &str) -> Result<Both, String> {
     both(text, |name| match material::NAMES.contains(&name) {
         true => Ok(()),
-        false => Err(format!("no material `{name}`; `asperity materials` lists them")),
+        false => {
+            let near = material::NamedMaterial::near(name).map_or(String::new(), |hint| format!(" ({hint})"));
+            Err(format!("no material `{name}`{near}; `asperity materials` lists them"))
+        }
     })
 }
 
@@ -198,7 +201,9 @@ mod tests {
         let names = |text| pair_of_materials(text).map(|both| both.0.map(|name| name.clone()));
         assert_eq!(names("steel").unwrap(), ["steel", "steel"]);
         assert_eq!(names("steel, alumina").unwrap(), ["steel", "alumina"]);
-        assert!(names("steel,steel,steel").is_err() && names("stele").unwrap_err().contains("materials"));
+        assert!(names("steel,steel,steel").is_err() && names("stele").is_err());
+        let told = "no material `Cr` (did you mean `chromium`?); `asperity materials` lists them";
+        assert_eq!(names("steel,Cr").unwrap_err(), told);
         assert!(pair_of_hardnesses("4GPa,inf").is_ok() && pair_of_hardnesses("0").is_err());
         assert_eq!(load("0.5 N").unwrap(), Load { key: "load", text: "0.5 N".to_owned() });
         assert_eq!(load("20MPa").unwrap().key, "mean_pressure");

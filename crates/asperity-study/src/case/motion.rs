@@ -247,7 +247,7 @@ fn offset(value: &dyn Value, key: &Key) -> Result<Offset> {
     if value.text().is_err() {
         return value.count(key, &Kind::Count { least: 0, most: u64::MAX }).map(Offset::Cells);
     }
-    let random = value.word(&[RANDOM]).map(|_| Offset::Random);
+    let random = value.word(&[RANDOM], &|_| None).map(|_| Offset::Random);
     random.map_err(|_| value.unexpected("a whole number of cells, or \"random\"", None))
 }
 

@@ -7,6 +7,7 @@ use super::turn::rotated;
 use super::window::within;
 use super::{Fill, Filter, Interpolation, Level, Round};
 use crate::{Axis, NEVER, Stop, Topography, check_stop};
+use asperity_base::choice::near;
 use asperity_base::error::{Result, check_in};
 use asperity_base::exists;
 use asperity_base::grid::Grid;
@@ -221,7 +222,7 @@ fn level(value: &dyn Value, _: &Key) -> Result<Level> {
         let hint = format!("the order of a polynomial is from 0 to {}", Level::MAX_ORDER);
         return Err(value.unexpected("a polynomial such as \"polynomial-3\"", Some(&hint)));
     }
-    value.word(&Level::WORDS).map(|_| Level::None)
+    value.word(&Level::WORDS, &near(&Level::WORDS)).map(|_| Level::None)
 }
 
 /// Reads the numbers of cells to resample to.

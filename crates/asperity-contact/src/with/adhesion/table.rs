@@ -6,6 +6,7 @@ use crate::adhesion::{Adhesion, History, Potential};
 use crate::error::Result;
 use crate::grid::Grid;
 use crate::units::{Dimension, JoulePerSquareMetre, Metre, Pascal};
+use asperity_base::choice::near;
 use asperity_base::table::{Bounds, Exists, Key, Kind, Value};
 use asperity_derive::Table;
 
@@ -88,7 +89,7 @@ fn range(value: &dyn Value, key: &Key) -> Result<AdhesionRange> {
         Ok(GRID) => Ok(AdhesionRange::Grid),
         // No word is a length.
         Ok(word) if !word.contains(|c: char| c.is_ascii_digit()) => {
-            let hint = value.similar(word, &[GRID]);
+            let hint = near(&[GRID])(word);
             Err(value.unexpected("a length above 0 such as \"2 nm\", or \"grid\"", hint.as_deref()))
         }
         _ => {
