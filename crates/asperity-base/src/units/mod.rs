@@ -1,6 +1,6 @@
 //! SI quantities: type aliases for signatures, and reading and writing with a unit.
 
-mod foreign;
+mod hint;
 mod infinite;
 mod quantity;
 mod range;

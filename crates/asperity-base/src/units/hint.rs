@@ -1,6 +1,6 @@
-//! Units that are not read, with their sizes, so that a message can give the quantity in a unit that is.
+//! Hints for quantities that are not read: units that are not, with their sizes, and what they are in a unit that is.
 
-use super::quantity::{Dimension, SQUARED, format_digits};
+use super::quantity::{Dimension, SQUARED, UnitError, format_digits};
 
 /// Weight of a kilogram under standard gravity, N.
 const KILOGRAM: f64 = 9.806_65;
@@ -96,8 +96,25 @@ fn any(unit: &str, dimension: Dimension) -> Option<(f64, bool)> {
     })
 }
 
+impl UnitError {
+    /// What was probably meant, to be shown below the message.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::Unknown { unit, number, expected, suggestion } => {
+                let unit = unit.replace(['*', '·', '⋅'], " ");
+                let suggested = || suggestion.as_ref().map(|unit| format!("did you mean `{unit}`?"));
+                equal(*number, &unit, *expected).or_else(suggested)
+            }
+            Self::NotAQuantity { text, .. } if text.contains(',') => {
+                Some("the decimal mark is a point, as in `2.4`".to_owned())
+            }
+            _ => None,
+        }
+    }
+}
+
 /// Returns what `number` of a unit that is not read is in a unit that is.
-pub(super) fn hint(number: f64, unit: &str, dimension: Dimension) -> Option<String> {
+fn equal(number: f64, unit: &str, dimension: Dimension) -> Option<String> {
     let (size, is_weight) = any(unit, dimension)?;
     let equal = format_digits(number * size, dimension, 6);
     Some(match (is_weight, dimension) {
@@ -107,4 +124,40 @@ pub(super) fn hint(number: f64, unit: &str, dimension: Dimension) -> Option<Stri
         (true, _) => format!("a mass is no force: the weight makes {number} {unit} `\"{equal}\"`"),
         _ => format!("{number} {unit} is `\"{equal}\"`"),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Dimension::{Energy, Force, Length, Pressure};
+    use super::UnitError;
+    use crate::units::parse;
+
+    #[test]
+    fn a_quantity_in_a_unit_that_is_not_read_is_given_in_one_that_is() {
+        for (text, dimension, hint) in [
+            ("1 kg", Force, "a mass is no force: the weight of 1 kg is `\"9.80665 N\"`"),
+            ("2e3 g", Force, "a mass is no force: the weight of 2000 g is `\"19.6133 N\"`"),
+            ("3 tons", Force, "a mass is no force: the weight of 3 tons is `\"29.4199 kN\"`"),
+            ("-1 lb", Force, "a mass is no force: the weight of -1 lb is `\"-4.44822 N\"`"),
+            ("1 kgf", Force, "1 kgf is `\"9.80665 N\"`"),
+            ("50 gf", Force, "50 gf is `\"490.333 mN\"`"),
+            ("2 lbf", Force, "2 lbf is `\"8.89644 N\"`"),
+            ("30 psi", Pressure, "30 psi is `\"206.843 kPa\"`"),
+            ("100 ksi", Pressure, "100 ksi is `\"689.476 MPa\"`"),
+            ("1 kg/cm2", Pressure, "a mass is no force: the weight makes 1 kg/cm2 `\"98.0665 kPa\"`"),
+            ("1 kgf/mm²", Pressure, "1 kgf/mm² is `\"9.80665 MPa\"`"),
+            ("1 lbf/in^2", Pressure, "1 lbf/in^2 is `\"6.89476 kPa\"`"),
+            ("1 N/in2", Pressure, "1 N/in2 is `\"1.55 kPa\"`"),
+            ("700 HV", Pressure, "700 HV is `\"6.86466 GPa\"`"),
+            ("2 inch", Length, "2 inch is `\"50.8 mm\"`"),
+            ("5 microns", Length, "5 microns is `\"5 µm\"`"),
+            ("80 kJ/mol", Energy, "80 kJ/mol is `\"0.132843 aJ\"`"),
+        ] {
+            let error = parse(text, dimension).unwrap_err();
+            assert!(matches!(error, UnitError::Unknown { .. }), "{text}: {error}");
+            assert_eq!(error.hint().as_deref(), Some(hint), "{text}");
+            let given = hint.rsplit('`').nth(1).unwrap().trim_matches('"');
+            assert!(parse(given, dimension).is_ok(), "{given}");
+        }
+    }
 }
