@@ -6,6 +6,7 @@
 
 use std::fmt;
 
+use crate::beside::Beside;
 use crate::choice::{Choice, choice};
 use crate::error::{Error, Result};
 use crate::grid::MAX_CELLS;
@@ -37,6 +38,8 @@ pub struct Key {
     pub text: &'static str,
     /// Magnitudes of the quantity that exist; a value outside is accepted with a warning.
     pub exists: Exists,
+    /// Quantities of the case that limit plausible values; others are accepted with a warning.
+    pub beside: &'static [Beside],
 }
 
 /// The accepted values of a key. Its text is, for example, `length > 0`.

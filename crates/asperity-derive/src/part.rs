@@ -106,6 +106,7 @@ fn choice(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
             example: #example,
             text: #meaning,
             exists: ::asperity_base::table::Exists::Undeclared,
+            beside: &[],
         }
     };
     let choice_of = |word: &String| format!("{} = \"{word}\"", key.value());

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use asperity::material;
-use asperity::units::Dimension;
+use asperity::units::{self, Dimension};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
@@ -166,11 +166,14 @@ fn pair_of_hardnesses(text: &str) -> Result<Both, String> {
 pub(crate) fn load(text: &str) -> Result<Load, String> {
     const EXPECTED: &str = "expected a force such as 0.5N, or a pressure such as 20MPa, above 0";
     let text = text.trim();
-    let [force, pressure] = [Dimension::Force, Dimension::Pressure].map(|kind| quantity(text, kind));
+    let [force, pressure] = [Dimension::Force, Dimension::Pressure].map(|kind| units::parse(text, kind));
     let (key, value) = match (force, pressure) {
         (Ok(force), _) => ("load", force),
         (_, Ok(pressure)) => ("mean_pressure", pressure),
-        _ => return Err(EXPECTED.to_owned()),
+        (Err(force), Err(pressure)) => {
+            let hint = force.hint().or_else(|| pressure.hint());
+            return Err(hint.map_or(EXPECTED.to_owned(), |hint| format!("{EXPECTED}; {hint}")));
+        }
     };
     match value > 0.0 && value.is_finite() {
         true => Ok(Load { key, text: text.to_owned() }),
@@ -208,5 +211,9 @@ mod tests {
         assert_eq!(load("0.5 N").unwrap(), Load { key: "load", text: "0.5 N".to_owned() });
         assert_eq!(load("20MPa").unwrap().key, "mean_pressure");
         assert!(load("-1N").is_err() && load("3 um").is_err() && load("inf").is_err());
+        assert!(
+            load("1kg").unwrap_err().ends_with("; a mass is no force: the weight of 1 kg is `\"9.80665 N\"`")
+        );
+        assert!(load("30 psi").unwrap_err().ends_with("; 30 psi is `\"206.843 kPa\"`"));
     }
 }

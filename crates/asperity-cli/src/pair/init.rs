@@ -37,7 +37,7 @@ fn with_more(text: &str) -> String {
         }
     };
     add("friction", "friction of the bodies");
-    add("output", "fields that are kept, such as the pressure of every 8th position");
+    add("output", "keep the fields of every 4th position, point or increment");
     each_capability!(C => add(C::NAME, C::MEANING));
     each_law!(L => add(&format!("lower.{}", L::NAME), L::MEANING));
     let head = "# Remove the leading \"# \" of a line that you need; docs/input.md explains each key.\n";
