@@ -38,7 +38,7 @@ pub struct Beside {
     pub least: f64,
     /// The largest multiple of the larger end.
     pub most: f64,
-    /// What smaller and larger values mean.
+    /// Meaning of smaller and of larger values, in words.
     pub meaning: [&'static str; 2],
 }
 

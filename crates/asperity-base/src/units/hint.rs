@@ -97,7 +97,7 @@ fn any(unit: &str, dimension: Dimension) -> Option<(f64, bool)> {
 }
 
 impl UnitError {
-    /// What was probably meant, to be shown below the message.
+    /// Returns the quantity that was probably meant, to be shown below the message.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::Unknown { unit, number, expected, suggestion } => {

@@ -90,7 +90,7 @@ pub struct StageSpec {
     pub period: Option<Second>,
 }
 
-/// What short and long times mean in which viscoelastic bodies wait.
+/// Meaning of short and of long times in which viscoelastic bodies wait.
 pub(super) const WAITS: [&str; 2] =
     ["hardly anything relaxes meanwhile", "everything has relaxed long before"];
 const CYCLES: [&str; 2] = ["nothing relaxes in a cycle", "the bodies are relaxed throughout"];
