@@ -340,7 +340,7 @@ class FatigueLimits(_RequiredFatigueLimits, total=False):
     tension : float or str
         Limit σ₋₁ in alternating tension: an amplitude, at most twice that in torsion; pressure > 0. Required.
     exponent : float
-        Exponent m of Basquin's law: a pass does the damage (f/b)^m/N₀; number > 0. By default `10.0`.
+        Exponent m of Basquin's law: a pass does the damage (f/b)^m/N₀; number > 0, ≤ 100. By default `10.0`.
     cycles : float
         Cycles N₀ that a material endures at the limit; number > 0. By default `2e6`.
     endurance : bool

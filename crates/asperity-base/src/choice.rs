@@ -32,6 +32,23 @@ pub trait Choice: Copy + PartialEq + 'static {
     fn of_word(word: &str) -> Option<Self> {
         Self::WORDS.iter().find(|(known, _)| *known == word).map(|(_, choice)| *choice)
     }
+
+    /// Returns a hint for a word that is no choice.
+    fn hint(word: &str) -> Option<String> {
+        did_you_mean(word, Self::NAMES.iter().copied())
+    }
+}
+
+/// Returns a hint with the most similar of `words`, if it is similar enough.
+pub fn did_you_mean<'w>(word: &str, words: impl Iterator<Item = &'w str>) -> Option<String> {
+    let likeness = |candidate: &str| strsim::jaro_winkler(candidate, &word.to_lowercase());
+    let nearest = words.max_by(|a, b| likeness(a).total_cmp(&likeness(b)))?;
+    (likeness(nearest) > 0.8).then(|| format!("did you mean `{nearest}`?"))
+}
+
+/// Returns the hint of [`did_you_mean`] for these words.
+pub fn near(words: &[&str]) -> impl Fn(&str) -> Option<String> {
+    |word| did_you_mean(word, words.iter().copied())
 }
 
 /// Implements [`Choice`] for an enum of unit variants with these words, and serialises to them.

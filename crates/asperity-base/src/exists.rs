@@ -41,7 +41,7 @@ pub const FRICTION: Exists = within(1e-5, 3.0, "graphite without friction to rub
 /// Shear strengths of interfaces.
 pub const SHEAR_STRENGTH: Exists = within(1e2, 2e10, "liquid films to hard metals", &["MPa"]);
 /// Speeds.
-pub const SPEED: Exists = within(1e-13, 2e4, "creep of geological faults to projectiles", &["mm/s", "um/s"]);
+pub const SPEED: Exists = within(1e-13, 3e3, "creep of geological faults to projectiles", &["mm/s", "um/s"]);
 /// Temperatures.
 pub const TEMPERATURE: Exists = within(1.0, 4000.0, "liquid helium to melting tungsten", &["°C"]);
 /// Sizes of cells.
@@ -56,11 +56,12 @@ pub const RADIUS: Exists =
 /// Wavelengths.
 pub const WAVE: Exists = within(1e-11, 1e2, "atoms to waviness of roads", &["um", "mm"]);
 
+/// Angles.
+pub const ANGLE: Exists = within(1e-6, 6.3, "parts of a second of arc to a full turn", &["deg"]);
+
 /// Loads.
 pub const LOAD: Exists = Any("a load has any size; the pressures of the result are judged");
 /// Lengths.
 pub const LENGTH: Exists = Any("a length beside the size of the surface, which is judged by its pitch");
-/// Angles.
-pub const ANGLE: Exists = Any("an angle may turn several times");
 /// Units of numbers in files.
 pub const UNIT: Exists = Any("a unit, not a quantity");

@@ -35,6 +35,17 @@ pub fn in_rows<T: Clone>(field: &ndarray::Array2<T>) -> Cow<'_, ndarray::Array2<
     }
 }
 
+/// Returns the length of `count` cells, without the rounding of a product where a metre has a whole number of cells.
+///
+/// ```
+/// assert_eq!(asperity_base::grid::length_of(115.0, 5e-7), 5.75e-5);
+/// assert_eq!(115.0 * 5e-7, 5.7499999999999995e-5);
+/// ```
+pub fn length_of(count: f64, pitch: Metre) -> Metre {
+    let per_metre = pitch.recip().round();
+    if per_metre.recip() == pitch { count / per_metre } else { count * pitch }
+}
+
 /// Returns the mutable values of a field by flat index.
 #[inline]
 pub fn flat_mut<T>(field: &mut ndarray::Array2<T>) -> &mut [T] {

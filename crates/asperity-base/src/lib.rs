@@ -23,6 +23,7 @@ pub mod choice;
 pub mod error;
 pub mod grid;
 pub mod record;
+pub mod beside;
 pub mod table;
 pub mod exists;
 #[cfg(feature = "io")]

@@ -6,7 +6,8 @@
 
 use std::fmt;
 
-use crate::choice::choice;
+use crate::beside::Beside;
+use crate::choice::{Choice, choice};
 use crate::error::{Error, Result};
 use crate::grid::MAX_CELLS;
 use crate::units::{Dimension, Range};
@@ -37,6 +38,8 @@ pub struct Key {
     pub text: &'static str,
     /// Magnitudes of the quantity that exist; a value outside is accepted with a warning.
     pub exists: Exists,
+    /// Quantities of the case that limit plausible values; others are accepted with a warning.
+    pub beside: &'static [Beside],
 }
 
 /// The accepted values of a key. Its text is, for example, `length > 0`.
@@ -244,11 +247,11 @@ pub trait Value {
     /// As all methods.
     fn flag(&self) -> Result<bool>;
 
-    /// Reads one of several words, as its index.
+    /// Reads one of several words, as its index. `hint` is about another word.
     ///
     /// # Errors
     /// As all methods.
-    fn word(&self, words: &[&'static str]) -> Result<usize>;
+    fn word(&self, words: &[&'static str], hint: &dyn Fn(&str) -> Option<String>) -> Result<usize>;
 
     /// Reads a text.
     ///
@@ -298,9 +301,6 @@ pub trait Value {
     /// # Errors
     /// As all methods.
     fn several(&self, key: &Key, kind: &Kind, spacing: Spacing, example: &str) -> Result<Vec<[f64; 2]>>;
-
-    /// Returns a hint if `word` is similar to one of `words`.
-    fn similar(&self, word: &str, words: &[&'static str]) -> Option<String>;
 
     /// Returns the error for a value that is not accepted, with what was `expected`.
     fn unexpected(&self, expected: &str, hint: Option<&str>) -> Error;
@@ -368,6 +368,14 @@ pub fn list<T>(value: &dyn Value, expected: &str, read: impl Fn(&dyn Value) -> R
 /// As the methods of [`Value`].
 pub fn two<T>(value: &dyn Value, expected: &str, read: impl Fn(&dyn Value) -> Result<T>) -> Result<[T; 2]> {
     list(value, expected, read)?.try_into().map_err(|_| value.unexpected(expected, None))
+}
+
+/// Reads a choice by its word.
+///
+/// # Errors
+/// As the methods of [`Value`].
+pub fn choice<C: Choice>(value: &dyn Value) -> Result<C> {
+    value.word(C::NAMES, &C::hint).map(|index| C::WORDS[index].1)
 }
 
 /// Reads the size of a unit of the dimension of a key.

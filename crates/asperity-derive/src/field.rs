@@ -61,6 +61,7 @@ pub(crate) struct Field<'a> {
     absent: Option<LitStr>,
     example: Option<LitStr>,
     exists: Option<Expr>,
+    beside: Option<Expr>,
     /// Choices with which the key has a meaning; empty if it always has.
     pub(crate) with: Vec<String>,
     meaning: String,
@@ -109,6 +110,7 @@ impl<'a> Field<'a> {
             absent: None,
             example: None,
             exists: None,
+            beside: None,
             with: Vec::new(),
             meaning: String::new(),
         };
@@ -140,6 +142,7 @@ impl<'a> Field<'a> {
                 "absent" => field.absent = Some(meta.value()?.parse()?),
                 "example" => field.example = Some(meta.value()?.parse()?),
                 "exists" => field.exists = Some(meta.value()?.parse()?),
+                "beside" => field.beside = Some(meta.value()?.parse()?),
                 "with" => {
                     let value = meta.value()?;
                     let kinds;
@@ -194,6 +197,7 @@ impl<'a> Field<'a> {
             }
             (None, None) => quote!(Required),
         };
+        let beside = self.beside.as_ref().map_or(quote!(&[]), |beside| quote!(const { &#beside }));
         let exists = match &self.exists {
             Some(exists) => quote!(#exists),
             None => quote!(::asperity_base::table::Exists::Undeclared),
@@ -206,6 +210,7 @@ impl<'a> Field<'a> {
                 example: #example,
                 text: #meaning,
                 exists: #exists,
+                beside: #beside,
             }
         })
     }
@@ -244,10 +249,7 @@ impl<'a> Field<'a> {
     pub(crate) fn given(&self, key: &TokenStream) -> TokenStream {
         let of = self.of;
         let read = match &self.accepts {
-            Accepts::Choice => quote! {
-                value.word(<#of as ::asperity_base::choice::Choice>::NAMES)
-                    .map(|word| <#of as ::asperity_base::choice::Choice>::WORDS[word].1)
-            },
+            Accepts::Choice => quote!(::asperity_base::table::choice::<#of>(value)),
             Accepts::Flag => quote!(value.flag()),
             Accepts::Count(_) => quote!(value.count(#key, &(#key).kind)),
             Accepts::Whole(least) => quote!(value.whole(#least)),

@@ -50,7 +50,7 @@ use syn::{DeriveInput, parse_macro_input};
 /// `range` is a variant of `Bounds`. A field that is an `Option` is `None` without the key. Any other field has a `default`, or its key must
 /// be given. A default is an expression as a case file writes it; `written = "\"5 nm\""` writes it with a unit. The `written` value of an
 /// `Option` is the one that the reader of the whole case puts in place of `None`. `absent` describes in words what holds without the key.
-/// `exists` is an expression of the type `Exists`. A key has a meaning only `with = ["file"]`, one of several kinds, if it names them.
+/// `exists` is an expression of the type `Exists`, `beside` an array of the type `Beside`. A key has a meaning only `with = ["file"]`, one of several kinds, if it names them.
 ///
 /// `#[table("output", default)]` also implements `Default`, for a table all of whose keys have a default. `#[table("…", check = function)]`
 /// names a function that gets the struct and the source, and returns an error for values that do not go together.

@@ -106,6 +106,7 @@ fn choice(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
             example: #example,
             text: #meaning,
             exists: ::asperity_base::table::Exists::Undeclared,
+            beside: &[],
         }
     };
     let choice_of = |word: &String| format!("{} = \"{word}\"", key.value());
@@ -145,7 +146,10 @@ fn choice(input: &DeriveInput, data: &DataEnum, attribute: &Attribute) -> Result
     }
     let check_all = attribute.check.as_ref().map(|check| quote!(#check(&read, __source)?;));
     let read = quote! {
-        let chosen = ::asperity_base::table::optional(__source, &KEYS[0], |value| value.word(&[#(#words),*]))?;
+        const WORDS: &[&str] = &[#(#words),*];
+        let chosen = ::asperity_base::table::optional(__source, &KEYS[0], |value| {
+            value.word(WORDS, &::asperity_base::choice::near(WORDS))
+        })?;
         let read = match chosen {
             #arms
             _ => return Err(__source.missing(&KEYS[0])),

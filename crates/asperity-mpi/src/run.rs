@@ -149,7 +149,7 @@ pub fn run_on_ranks(
     index.write(directory)?;
     let closed_form = closed_form(case, slab.whole_grid().extent(), &outcome);
     let computed = Computed::of(outcome).with_closed_form(closed_form);
-    conclude(case, &writer, resolved, began, computed, Vec::new()).map(Some)
+    conclude(case, &writer, began, computed, Vec::new()).map(Some)
 }
 
 /// Gathers the fields that the ranks of a run left in `directory` into one file, as from a run of one process. Adds to the

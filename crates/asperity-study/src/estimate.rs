@@ -1,5 +1,6 @@
 //! Estimate of a case before anything is solved: its key figures and its warnings.
 
+mod beside;
 mod contact;
 mod demand;
 mod plausible;
@@ -17,10 +18,10 @@ use asperity_base::error::{Error, Result};
 use asperity_base::grid::{CellValues, Field, Grid};
 use asperity_base::math::parallel;
 use asperity_base::math::sum::sums;
-use asperity_base::units::{self, Dimension, Metre, Newton, Pascal, SquareMetre};
+use asperity_base::units::{self, Dimension, Metre, Newton, Pascal, Second, SquareMetre};
 use asperity_contact::material::{Compliances, plastic_share};
 use asperity_contact::motion::{
-    LoadControl, Position, Stage, Strategy, check_limit, initial_gap, opposing_values,
+    LoadControl, Paraboloid, Position, Stage, Strategy, check_limit, initial_gap, opposing_values,
 };
 use asperity_contact::reference::HertzSphere;
 use asperity_contact::solver::{Control, Coupling, Creep, Friction, Rolling, Tangential};
@@ -29,6 +30,10 @@ use asperity_surface::{Form, Level};
 
 /// Largest rms slope of the gap for a half-space theory: up to here tan and sin of a slope agree within about 5 %.
 pub(super) const STEEP: f64 = 0.3;
+
+/// Share of E* that the pressure of elastic bodies may reach. The shear strength of a perfect crystal is about G/2π (Frenkel,
+/// Z. Phys. 37, 572 (1926)), and Hertz' contact has it below a pressure of about E*/10.
+pub(super) const STRENGTH: f64 = 0.1;
 
 /// Properties of a computation known before it starts.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,6 +80,14 @@ pub struct Estimate {
     pub warnings: Vec<String>,
     /// Warnings from Hertz' estimate, which a result shows by itself.
     pub predicted: Vec<String>,
+}
+
+impl Estimate {
+    /// The shortest relaxation time and the longest retardation time of the bodies, and how much stiffer they are when they are fast; `None` for
+    /// elastic bodies.
+    fn relaxation(&self) -> Option<([Second; 2], f64)> {
+        self.viscoelastic.as_ref().map(|bodies| (bodies.times, bodies.stiffening))
+    }
 }
 
 /// Estimates `case` on its `bodies`.
@@ -157,8 +170,8 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
     };
     estimate.warnings = warnings(case, bodies, &estimate);
     estimate.warnings.extend(estimate.viscoelastic.iter().flat_map(|bodies| bodies.warnings.clone()));
-    if case.interface.is_empty() {
-        contacts(case, bodies, &positions, &mut estimate);
+    let curved = if case.interface.is_empty() {
+        contacts(case, bodies, &positions, &mut estimate)
     } else {
         // Hertz' contact says little about bodies that are no hard walls to each other.
         let heights = [&bodies.lower, &bodies.upper].map(|body| body.topography.heights());
@@ -167,7 +180,11 @@ pub fn estimate(case: &Case, bodies: &Bodies) -> Result<Estimate> {
         let (numbers, doubts) = case.interface.numbers(&lower_grid, &gap, boundary, estimate.modulus)?;
         estimate.warnings.extend(doubts);
         estimate.interface = numbers;
-    }
+        Paraboloid::of(&gap, lower_grid.pitch).is_some()
+    };
+    let out_of_scale = beside::out_of_scale(case, bodies, &estimate, curved);
+    let lost = beside::lost(case, bodies, &estimate);
+    estimate.warnings.splice(0..0, out_of_scale.into_iter().chain(lost));
     let yields = rolls_plastically(case, bodies, &estimate);
     estimate.predicted.extend(yields);
     Ok(estimate)
@@ -441,36 +458,45 @@ fn thin(name: &str, case: &Case, pitch: [Metre; 2]) -> Option<String> {
     })
 }
 
-/// Warns if there is no contact, if the boundary of the grid cuts the contact off, or if the contact has too few cells.
-fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], estimate: &mut Estimate) {
+/// Warns if there is no contact, if the boundary of the grid cuts the contact off, or if the contact has too few cells. Returns whether the
+/// bodies are curved.
+fn contacts(case: &Case, bodies: &Bodies, positions: &[Position], estimate: &mut Estimate) -> bool {
     let surfaces = [bodies.lower.topography.heights(), bodies.upper.topography.heights()];
     if let Control::Approach(approach) = estimate.control
         && let Some(touch) = contact::apart(surfaces, positions, approach)
     {
         estimate.warnings.push(contact::no_contact(approach, touch));
-        return;
+        return true;
     }
     let most = positions.iter().map(|position| position.columns).max().unwrap_or(0);
     let fullest: Vec<&Position> = positions.iter().filter(|position| position.columns == most).collect();
-    let Some(position) = fullest.get(fullest.len() / 2) else { return };
+    let Some(position) = fullest.get(fullest.len() / 2) else { return true };
     let control = match (estimate.control, estimate.load_control) {
         (Control::Load(load), LoadControl::Pass) => {
             Control::Load(load * estimate.apparent_area / estimate.mean_facing_area)
         }
         (control, _) => control,
     };
+    // The largest load of a history.
+    let control =
+        estimate.course.stages().iter().fold(control, |most, stage| match (most, stage.loading.normal) {
+            (Control::Load(most), Control::Load(load)) => Control::Load(most.max(load)),
+            (most, _) => most,
+        });
     let gap = initial_gap(surfaces, position);
     let pitch = bodies.lower.topography.grid().pitch;
     if case.is_coated() {
         // Hertz' theory does not cover layers.
-        return;
+        return true;
     }
     let prediction = contact::predict(&gap, pitch, estimate.modulus, case.contact.boundary, control);
     // A motion and a load sweep leave only tables, which do not show where in a contact the pressure is.
     let tabled = estimate.course.moves() || estimate.course.is_sweep();
     let warnings = if tabled { &mut estimate.warnings } else { &mut estimate.predicted };
     warnings.extend(prediction.rim);
+    estimate.warnings.extend(prediction.wide);
     estimate.predicted.extend(prediction.coarse);
+    prediction.curved
 }
 
 /// Warns if friction is modelled more simply than the user may expect.

@@ -1,6 +1,5 @@
 //! Shared beginning and end of every run.
 
-use serde_json::Value;
 use web_time::Instant;
 
 use crate::case::Case;
@@ -56,7 +55,6 @@ impl Computed {
 pub fn conclude(
     case: &Case,
     writer: &Writer,
-    resolved: Value,
     began: Instant,
     Computed { outcome, subsurface, sliding, plasticity, interface, closed_form, found }: Computed,
     mut warnings: Vec<String>,
@@ -77,7 +75,7 @@ pub fn conclude(
         interface,
         closed_form,
         version: env!("CARGO_PKG_VERSION").to_owned(),
-        case: resolved,
+        case: writer.case().clone(),
         outcome,
         subsurface,
         found,

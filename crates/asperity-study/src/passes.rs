@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use serde_json::Value;
 use web_time::Instant;
 
 use crate::case::{Case, CounterBody};
@@ -38,7 +37,6 @@ pub struct Passes {
     output: StepWriter,
     observers: Observers,
     limits: Limits,
-    resolved: Value,
     interface: InterfaceNumbers,
     warnings: Vec<String>,
     began: Instant,
@@ -94,8 +92,15 @@ impl Passes {
         let observers =
             Observers::new(case, simulation.pair(), simulation.positions(), (Some(&writer), done))?;
         let limits = Limits::new(case, simulation.pair(), &estimate, (Some(&writer), done))?;
-        let Estimate { interface, warnings, .. } = estimate;
+        let Estimate { interface, mut warnings, .. } = estimate;
         let represented = passes.iter().map(PassRecord::represents).sum();
+        if represented > motion.passes {
+            warnings.push(format!(
+                "the results hold {represented} finished passes, more than `passes = {}` of the case: all of them stay, and the case in \
+                 summary.json has their number",
+                motion.passes
+            ));
+        }
         let simulation = match passes.len() {
             0 => {
                 writer.write_initial(simulation.pair(), motion.friction.as_ref())?;
@@ -133,7 +138,6 @@ impl Passes {
             output,
             observers,
             limits,
-            resolved,
             interface,
             warnings,
             began,
@@ -212,7 +216,7 @@ impl Passes {
             plasticity: plasticity.transpose()?,
             closed_form: None,
         };
-        let summary = conclude(&self.case, &self.writer, self.resolved, self.began, outcome, self.warnings)?;
+        let summary = conclude(&self.case, &self.writer, self.began, outcome, self.warnings)?;
         Ok((summary, self.writer))
     }
 }

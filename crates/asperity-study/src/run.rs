@@ -15,7 +15,7 @@ use crate::passes::Passes;
 use crate::prepare::bodies_until;
 use crate::rest::{self, StaticResult};
 use crate::results::{Existing, Writer};
-use crate::summary::Summary;
+use crate::summary::{Outcome, Summary};
 use asperity_base::error::Result;
 use asperity_contact::motion::Watch;
 
@@ -95,7 +95,11 @@ pub(super) fn run_with(
         closed_form,
         found: observe::summary(&found),
     };
-    let summary = conclude(case, &writer, resolved, began, computed, warnings)?;
-    writer.results().remove_state()?;
+    let summary = conclude(case, &writer, began, computed, warnings)?;
+    // A resumed sweep solves its last point again, from where it started.
+    let starts = matches!(&summary.outcome, Outcome::Sweep(points) if points.iter().any(|point| point.steady.is_some()));
+    if !starts {
+        writer.results().remove_state()?;
+    }
     Ok((summary, writer))
 }

@@ -4,6 +4,7 @@
 //! A table grows by the rows of each finished step. Only rows with a line end count, so that half a row left by a power cut
 //! is ignored. Numbers read back to the same bits.
 
+use std::borrow::Cow;
 use std::io::{BufRead, BufReader, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::{fmt, io};
@@ -120,8 +121,16 @@ fn write_rows(path: &Path, columns: &[String], rows: &[Row]) -> Result<()> {
 
 /// Formats the rows in the order of these `columns`, one line each. A missing volume of a law is 0.
 fn lines(columns: &[String], rows: &[Row]) -> String {
-    let line = |row: &Row| row.values(columns).join(",") + "\n";
+    let line = |row: &Row| row.values(columns).into_iter().map(short).collect::<Vec<_>>().join(",") + "\n";
     rows.iter().map(line).collect()
+}
+
+/// Writes a number with many zeros after its point with a power of ten: `5.75e-5`.
+fn short(number: &str) -> Cow<'_, str> {
+    match number.parse::<f64>() {
+        Ok(value) if number.contains("0.0000") && value != 0.0 => format!("{value:?}").into(),
+        _ => number.into(),
+    }
 }
 
 /// Truncates a table after its header and `rows` rows; returns its columns.
@@ -378,6 +387,12 @@ mod tests {
 
     fn write_new<T: Record>(path: &Path, records: &[T]) {
         GrowingTable::open(path.to_owned(), 0).unwrap().add(records).unwrap();
+    }
+
+    #[test]
+    fn small_numbers_have_a_power_of_ten() {
+        let numbers = ["0.0000575", "-0.00001", "0.00025", "0.0", "2.5e-9", "", "text"];
+        assert_eq!(numbers.map(short), ["5.75e-5", "-1e-5", "0.00025", "0.0", "2.5e-9", "", "text"]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use crate::case::{Body, Case, StageSpec};
 use crate::master_curve::MasterCurve;
 use asperity_base::error::{Error, Result};
-use asperity_base::units::{self, Dimension, Kelvin, Metre, MetrePerSecond, Pascal};
+use asperity_base::units::{self, Dimension, Kelvin, Metre, MetrePerSecond, Pascal, Second};
 use asperity_contact::motion::{MovingBody, Pair};
 use asperity_contact::operator::Boundary;
 use asperity_contact::viscoelastic::{Creep, MasterFit, MasterPoint, Relaxation};
@@ -77,6 +77,10 @@ pub struct ViscoelasticEstimate {
     pub bodies: Vec<String>,
     /// Reasons to doubt the answer.
     pub warnings: Vec<String>,
+    /// The shortest relaxation time and the longest retardation time of both bodies.
+    pub times: [Second; 2],
+    /// The largest ratio of the modulus of a fast body to its relaxed modulus.
+    pub stiffening: f64,
 }
 
 /// Examines the viscoelastic bodies of a case, their steady sliding and their history; `None` without such bodies.
@@ -92,7 +96,12 @@ pub(super) fn estimate(
         return Ok(None);
     }
     let relaxations = relaxations(case, curves)?;
-    let mut estimate = ViscoelasticEstimate::default();
+    let found = || relaxations.iter().flatten().map(|(relaxation, _)| relaxation);
+    let shortest = found().flat_map(Relaxation::terms).map(|term| term.time).fold(f64::INFINITY, f64::min);
+    let longest = found().flat_map(|body| body.creep().terms).map(|term| term.time).fold(0.0, f64::max);
+    let stiffening = found().map(|body| body.glassy() / body.relaxed()).fold(1.0, f64::max);
+    let mut estimate =
+        ViscoelasticEstimate { times: [shortest, longest], stiffening, ..ViscoelasticEstimate::default() };
     for (index, (name, body)) in [("lower", &case.lower), ("upper", &case.upper)].into_iter().enumerate() {
         estimate.bodies.extend(relaxations[index].as_ref().map(|found| described(name, found)));
         let doubt =

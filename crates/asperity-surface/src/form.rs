@@ -5,6 +5,7 @@ use serde::Serialize;
 use crate::Topography;
 use std::ops::Range;
 
+use asperity_base::beside::{self, Beside, Scale};
 use asperity_base::choice::choice;
 use asperity_base::error::{Result, check_in};
 use asperity_base::exists;
@@ -73,7 +74,8 @@ pub enum Form {
             range = AboveZeroOrInfinite("no variation in that direction"),
             pair,
             example = "\"64 um\"",
-            exists = exists::WAVE
+            exists = exists::WAVE,
+            beside = [Beside::most(Scale::Side, 10.0, "the surface has less than a tenth of a wave")]
         )]
         #[serde(serialize_with = "or_infs")]
         wavelength: [Metre; 2],
@@ -85,7 +87,7 @@ pub enum Form {
     /// Sa/d is 4/(9√3) = 0.257 and Sq/d is 2/(3√5) = 0.298.
     Grooves {
         /// Distance from ridge to ridge, at least two pitches.
-        #[key(quantity = Length, range = AboveZero, example = "\"0.1 mm\"", exists = exists::LENGTH)]
+        #[key(quantity = Length, range = AboveZero, example = "\"0.1 mm\"", exists = exists::LENGTH, beside = [beside::LONG])]
         period: Metre,
         /// Depth d.
         ///

@@ -1,5 +1,6 @@
 //! SI quantities: type aliases for signatures, and reading and writing with a unit.
 
+mod hint;
 mod infinite;
 mod quantity;
 mod range;

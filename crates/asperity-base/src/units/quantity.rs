@@ -78,6 +78,8 @@ pub enum UnitError {
         unit: String,
         /// The expected dimension.
         expected: Dimension,
+        /// The number before it.
+        number: f64,
         /// The most similar unit of that dimension.
         suggestion: Option<String>,
     },
@@ -133,8 +135,15 @@ pub fn parse(text: &str, expected: Dimension) -> Result<f64, UnitError> {
         return Err(not_a_quantity());
     }
     let (power_of_ten, factor) = if unit.is_empty() { (0, 1.0) } else { find_unit(text, unit, expected)? };
-    let decimal = format!("{mantissa}e{}", exponent.saturating_add(power_of_ten));
-    let value = decimal.parse::<f64>().map_err(|_| not_a_quantity())? * factor;
+    let read = |mantissa: &str, exponent: i32| {
+        format!("{mantissa}e{}", exponent.saturating_add(power_of_ten)).parse::<f64>()
+    };
+    let value = match (times(mantissa, factor), factor.recip().round()) {
+        (Some((digits, decimals)), _) => read(&digits.to_string(), exponent - decimals),
+        (None, parts) if factor == parts.recip() => read(mantissa, exponent).map(|value| value / parts),
+        _ => read(mantissa, exponent).map(|value| value * factor),
+    };
+    let value = value.map_err(|_| not_a_quantity())?;
     let is_celsius =
         expected == Dimension::Temperature && !unit.is_empty() && unit != "K" && unit.ends_with('C');
     let value = if is_celsius { value + CELSIUS } else { value };
@@ -148,6 +157,13 @@ pub fn parse(text: &str, expected: Dimension) -> Result<f64, UnitError> {
 pub fn parse_unit(text: &str, expected: Dimension) -> Result<f64, UnitError> {
     let is_name = text.trim_start().starts_with(char::is_alphabetic);
     if is_name { parse(&format!("1 {}", text.trim()), expected) } else { parse(text, expected) }
+}
+
+/// Returns the digits and the number of decimals of a decimal number times a whole `factor`; `None` if it has too many digits.
+fn times(mantissa: &str, factor: f64) -> Option<(i128, i32)> {
+    let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits = format!("{whole}{decimals}").parse::<i128>().ok().filter(|_| factor.fract() == 0.0)?;
+    Some((digits.checked_mul(factor as i128)?, i32::try_from(decimals.len()).ok()?))
 }
 
 /// Unit in which volumes per load and distance are written.
@@ -233,23 +249,17 @@ pub struct Multiple {
     pub symbol: String,
 }
 
+impl Multiple {
+    /// Writes a value, SI, with four significant digits.
+    pub fn write(&self, value: f64) -> String {
+        format!("{} {}", format_number(value / self.factor), self.symbol)
+    }
+}
+
 impl UnitError {
     /// The message for a known key: `unknown unit 'GPb' in 'hardness', expected a pressure such as "2.4 GPa"`.
     pub fn for_key(&self, key: &str) -> String {
         self.message(&format!(" in '{key}'"))
-    }
-
-    /// The probably intended unit, to be shown below the message.
-    pub fn hint(&self) -> Option<String> {
-        match self {
-            Self::Unknown { suggestion, .. } => {
-                suggestion.as_ref().map(|unit| format!("did you mean `{unit}`?"))
-            }
-            Self::NotAQuantity { text, .. } if text.contains(',') => {
-                Some("the decimal mark is a point, as in `2.4`".to_owned())
-            }
-            _ => None,
-        }
     }
 
     fn message(&self, place: &str) -> String {
@@ -503,7 +513,8 @@ impl Dimension {
         use std::f64::consts::PI;
         match self {
             Self::Length => &[("Å", -10, 1.0)],
-            Self::Pressure => &[("bar", 5, 1.0), ("N/mm²", 6, 1.0), ("N/mm2", 6, 1.0), ("N/mm^2", 6, 1.0)],
+            Self::Volume => &[("Å³", -30, 1.0), ("Å^3", -30, 1.0), ("Å3", -30, 1.0)],
+            Self::Pressure => &[("bar", 5, 1.0), ("mbar", 2, 1.0), ("hPa", 2, 1.0)],
             Self::Angle => &[("deg", 0, PI / 180.0), ("°", 0, PI / 180.0)],
             Self::Time => &[("min", 0, 60.0), ("h", 0, 3600.0)],
             Self::Energy => &[("eV", -19, 1.602176634)],
@@ -573,16 +584,21 @@ impl Dimension {
                 ("uJ/m2", -6, 1.0),
                 ("J/m^2", 0, 1.0),
                 ("mJ/m^2", -3, 1.0),
+                ("N/m", 0, 1.0),
+                ("mN/m", -3, 1.0),
                 ("erg/cm2", -3, 1.0),
             ],
             _ => &[],
         }
     }
 
-    /// Power of ten and factor of a unit of this dimension.
-    fn unit(self, unit: &str) -> Option<(i32, f64)> {
+    /// Power of ten and factor of a unit of this dimension. A pressure may be a force over an area: `N/mm²`.
+    pub(super) fn unit(self, unit: &str) -> Option<(i32, f64)> {
         if let Some(&(_, exponent, factor)) = self.special().iter().find(|(name, ..)| *name == unit) {
             return Some((exponent, factor));
+        }
+        if let (Self::Pressure, Some((force, area))) = (self, unit.split_once('/')) {
+            return Some((Self::Force.unit(force)?.0 - Self::Area.unit(area)?.0, 1.0));
         }
         let Scale { base, power, smallest, .. } = self.scale();
         let (stem, factor) = match base {
@@ -591,7 +607,7 @@ impl Dimension {
                 let (length, time) = unit.split_once('/')?;
                 (length, 1.0 / Self::Time.unit(time).filter(|(exponent, _)| *exponent == 0)?.1)
             }
-            Base::Squared => (["²", "^2", "2"].iter().find_map(|end| unit.strip_suffix(end))?, 1.0),
+            Base::Squared => (SQUARED.iter().find_map(|end| unit.strip_suffix(end))?, 1.0),
             Base::CubedPerSecond => {
                 (["³/s", "^3/s", "3/s"].iter().find_map(|end| unit.strip_suffix(end))?, 1.0)
             }
@@ -653,6 +669,9 @@ impl Base {
     }
 }
 
+/// How the square of a unit ends.
+pub(super) const SQUARED: [&str; 3] = ["²", "^2", "2"];
+
 /// Ascending. The centi- prefix is for metres only, and is read but never written.
 const PREFIXES: [(&str, i32); 12] = [
     ("a", -18),
@@ -678,7 +697,13 @@ fn find_unit(text: &str, unit: &str, expected: Dimension) -> Result<(i32, f64), 
     if let Some(found) = Dimension::ALL.into_iter().find(|dimension| dimension.unit(&spaced).is_some()) {
         return Err(UnitError::WrongDimension { text: text.to_owned(), found, expected });
     }
-    Err(UnitError::Unknown { unit: unit.to_owned(), expected, suggestion: suggest(unit, expected) })
+    let number = text.trim().strip_suffix(unit).and_then(|number| number.trim().parse().ok());
+    Err(UnitError::Unknown {
+        unit: unit.to_owned(),
+        number: number.unwrap_or(1.0),
+        expected,
+        suggestion: suggest(unit, expected),
+    })
 }
 
 /// Suggests a unit that differs by one slip: another case, or one letter added, missing, wrong or swapped.
@@ -825,9 +850,21 @@ mod tests {
             ("2e9", Pressure, 2e9),
             ("inf", Pressure, f64::INFINITY),
             ("240 N/mm²", Pressure, 240e6),
+            ("5 N/cm2", Pressure, 5e4),
+            ("1.2 kN/mm^2", Pressure, 1.2e9),
+            ("3 N/m2", Pressure, 3.0),
+            ("40 mbar", Pressure, 4e3),
+            ("1013 hPa", Pressure, 101_300.0),
+            ("50 mN/m", Dimension::SurfaceEnergy, 0.05),
+            ("3.8 Å3", Volume, 3.8e-30),
+            ("57.5 um", Length, 5.75e-5),
             ("180 deg", Angle, std::f64::consts::PI),
             ("20 mrad", Angle, 0.02),
             ("2 min", Time, 120.0),
+            ("0.55 h", Time, 1980.0),
+            ("-.1 h", Time, -360.0),
+            ("7 m/min", Speed, 7.0 / 60.0),
+            ("0.07 ml/min", Dimension::VolumeFlow, 7e-8 / 60.0),
             ("4 um2", Area, 4e-12),
             ("8 µm³", Volume, 8e-18),
             ("3 nJ", Energy, 3e-9),
@@ -959,6 +996,11 @@ mod tests {
             assert!((number.parse::<f64>().unwrap() * factor / value - 1.0).abs() < 1e-3, "{written}");
         }
         assert_eq!(Length.multiple(0.0).symbol, "m");
+        let flow = Dimension::VolumeFlow.multiple(5.932e-12);
+        assert_eq!(
+            [5.932e-12, 9.178e-13].map(|value| flow.write(value)),
+            ["0.005932 mm³/s", "0.0009178 mm³/s"]
+        );
         assert_eq!(Angle.multiple(1.0).symbol, "°");
     }
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use asperity::material;
-use asperity::units::Dimension;
+use asperity::units::{self, Dimension};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
@@ -146,7 +146,10 @@ fn both(text: &str, good: impl Fn(&str) -> Result<(), String>) -> Result<Both, S
 pub(crate) fn pair_of_materials(text: &str) -> Result<Both, String> {
     both(text, |name| match material::NAMES.contains(&name) {
         true => Ok(()),
-        false => Err(format!("no material `{name}`; `asperity materials` lists them")),
+        false => {
+            let near = material::NamedMaterial::near(name).map_or(String::new(), |hint| format!(" ({hint})"));
+            Err(format!("no material `{name}`{near}; `asperity materials` lists them"))
+        }
     })
 }
 
@@ -163,11 +166,14 @@ fn pair_of_hardnesses(text: &str) -> Result<Both, String> {
 pub(crate) fn load(text: &str) -> Result<Load, String> {
     const EXPECTED: &str = "expected a force such as 0.5N, or a pressure such as 20MPa, above 0";
     let text = text.trim();
-    let [force, pressure] = [Dimension::Force, Dimension::Pressure].map(|kind| quantity(text, kind));
+    let [force, pressure] = [Dimension::Force, Dimension::Pressure].map(|kind| units::parse(text, kind));
     let (key, value) = match (force, pressure) {
         (Ok(force), _) => ("load", force),
         (_, Ok(pressure)) => ("mean_pressure", pressure),
-        _ => return Err(EXPECTED.to_owned()),
+        (Err(force), Err(pressure)) => {
+            let hint = force.hint().or_else(|| pressure.hint());
+            return Err(hint.map_or(EXPECTED.to_owned(), |hint| format!("{EXPECTED}; {hint}")));
+        }
     };
     match value > 0.0 && value.is_finite() {
         true => Ok(Load { key, text: text.to_owned() }),
@@ -198,10 +204,16 @@ mod tests {
         let names = |text| pair_of_materials(text).map(|both| both.0.map(|name| name.clone()));
         assert_eq!(names("steel").unwrap(), ["steel", "steel"]);
         assert_eq!(names("steel, alumina").unwrap(), ["steel", "alumina"]);
-        assert!(names("steel,steel,steel").is_err() && names("stele").unwrap_err().contains("materials"));
+        assert!(names("steel,steel,steel").is_err() && names("stele").is_err());
+        let told = "no material `Cr` (did you mean `chromium`?); `asperity materials` lists them";
+        assert_eq!(names("steel,Cr").unwrap_err(), told);
         assert!(pair_of_hardnesses("4GPa,inf").is_ok() && pair_of_hardnesses("0").is_err());
         assert_eq!(load("0.5 N").unwrap(), Load { key: "load", text: "0.5 N".to_owned() });
         assert_eq!(load("20MPa").unwrap().key, "mean_pressure");
         assert!(load("-1N").is_err() && load("3 um").is_err() && load("inf").is_err());
+        assert!(
+            load("1kg").unwrap_err().ends_with("; a mass is no force: the weight of 1 kg is `\"9.80665 N\"`")
+        );
+        assert!(load("30 psi").unwrap_err().ends_with("; 30 psi is `\"206.843 kPa\"`"));
     }
 }

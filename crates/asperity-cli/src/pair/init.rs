@@ -4,6 +4,8 @@ use std::fmt::Write as _;
 use std::io::{BufRead, Write as _};
 use std::path::Path;
 
+use asperity::study::case::schema::{Fallback, Key, Section};
+use asperity::study::{Case, keys};
 use asperity::with::{BodyLaw, Capability};
 use asperity::{each_capability, each_law, io};
 
@@ -14,18 +16,57 @@ use crate::args::{Init, Load, load, pair_of_materials};
 use crate::place;
 use crate::report::{Failure, Outcome, note, print};
 
-/// Other tables of a case, as comments.
-const MORE: &str = include_str!("more.toml");
-
-/// Returns the tables that a case may have beside those of the draft, as comments.
-fn more() -> String {
-    let mut text = MORE.to_owned();
-    let mut table = |name: &str, meaning: &str| {
-        let _ = writeln!(text, "#\n# {:<32} # {meaning}", format!("[{name}]"));
+/// Adds tables that the case may have, each on a line that is a comment, and becomes part of a valid case without its leading `# `.
+fn with_more(text: &str) -> String {
+    let (title, rest) = text.split_once('\n').expect("a case begins with its title");
+    let topography = "[lower.topography]\n";
+    let place = |name: &str, lines: &str| match name.strip_prefix("lower.") {
+        Some(_) => text.replacen(topography, &format!("{lines}{topography}"), 1),
+        None => format!("{title}\n{lines}{rest}"),
     };
-    each_law!(L => table(&format!("lower.{}", L::NAME), L::MEANING));
-    each_capability!(C => table(C::NAME, C::MEANING));
-    text
+    let is_case = |text: &str| Case::parse(text, Path::new("case.toml"), Path::new("")).is_ok();
+    let (mut of_case, mut of_body) = (String::new(), String::new());
+    let mut add = |path: &str, meaning: &str| {
+        let name = path.strip_prefix("lower.").unwrap_or(path);
+        let line = |keys: String| format!("{name} = {{ {keys} }}\n");
+        if let Some(line) = examples(path).map(line).find(|line| is_case(&place(path, line))) {
+            let lines = if name == path { &mut of_case } else { &mut of_body };
+            // Without the links of the documents.
+            let meaning = meaning.split(", see [").next().unwrap_or_default();
+            let _ = writeln!(lines, "# {:<54} # {meaning}", line.trim_end());
+        }
+    };
+    add("friction", "friction of the bodies");
+    add("output", "keep the fields of every 4th position, point or increment");
+    each_capability!(C => add(C::NAME, C::MEANING));
+    each_law!(L => add(&format!("lower.{}", L::NAME), L::MEANING));
+    let head = "# Remove the leading \"# \" of a line that you need; docs/input.md explains each key.\n";
+    let rest = rest.replacen(topography, &format!("{of_body}{topography}"), 1);
+    format!("{title}\n\n{head}{of_case}{rest}")
+}
+
+/// Returns examples of the keys of a table: those that are required with each of its choices, or one of the others.
+fn examples(path: &str) -> impl Iterator<Item = String> {
+    let sections = keys().iter().filter(move |section| section.tables.contains(&path));
+    let (own, choices): (Vec<&Section>, Vec<&Section>) =
+        sections.partition(|section| section.kind.is_empty());
+    let own: Vec<&Key> = own.iter().flat_map(|section| section.keys).collect();
+    let example = |key: &Key| format!("{} = {}", key.name, key.example);
+    let required = |keys: &mut dyn Iterator<Item = &Key>| {
+        keys.filter(|key| key.default == Fallback::Required).map(example).collect::<Vec<_>>()
+    };
+    let of_choice = |choice: &&Section| {
+        let chooses = |key: &&&Key| !choice.kind.starts_with(&format!("{} =", key.name));
+        let keys = required(&mut own.iter().filter(chooses).copied().chain(choice.keys));
+        [vec![choice.kind.to_owned()], keys].concat().join(", ")
+    };
+    let all = required(&mut own.iter().copied()).join(", ");
+    let found: Vec<String> = match (&choices[..], all.is_empty()) {
+        ([], false) => vec![all],
+        ([], true) => own.iter().copied().map(example).collect(),
+        (choices, _) => choices.iter().map(of_choice).collect(),
+    };
+    found.into_iter()
 }
 
 /// A rough surface, for bodies without a file.
@@ -66,7 +107,7 @@ pub(crate) fn init(arguments: &Init) -> Outcome {
             text.parse::<u32>().map_err(|_| "expected a whole number".to_owned())
         })?,
     };
-    let text = draft([&lower, &upper], materials.0, pressed, passes).text() + &more();
+    let text = with_more(&draft([&lower, &upper], materials.0, pressed, passes).text());
     io::replace(&arguments.case, text.as_bytes())?;
     let case = place::shown(&arguments.case);
     note(&format!("next: asperity check {case}, then asperity run {case}"));

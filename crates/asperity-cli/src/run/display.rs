@@ -5,12 +5,13 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use asperity::motion::{PassRecord, Progress, SweepRecord, Watch};
-use asperity::study::{Case, Results};
+use asperity::study::case::Course;
+use asperity::study::{Case, Existing, Results};
 use asperity::units::{Dimension, format};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::rows::Rows;
-use crate::report::{self, print, report_warning};
+use crate::report::{self, note, print, report_warning};
 use crate::signals::Stop;
 use asperity_report::page::LivePage;
 
@@ -27,6 +28,8 @@ pub(super) struct Display {
     page: Mutex<LivePage>,
     /// Warnings printed so far.
     warned: Mutex<Vec<String>>,
+    /// Where a resumed run continues, until that is printed.
+    continues: Mutex<Option<String>>,
 }
 
 struct Table {
@@ -39,7 +42,12 @@ struct Table {
 }
 
 impl Display {
-    pub(super) fn new(quiet: bool, case: &Case, directory: &Path, stop: Stop) -> Self {
+    pub(super) fn new(
+        quiet: bool,
+        case: &Case,
+        (directory, existing): (&Path, Existing),
+        stop: Stop,
+    ) -> Self {
         let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let style = ProgressStyle::with_template("{bar:24.cyan/dim} {msg}").expect("a valid template");
         let bar = ProgressBar::with_draw_target(None, target).with_style(style);
@@ -47,7 +55,10 @@ impl Display {
         let table = Table { rows: Rows::new(case), printed: Ok(()), began: Instant::now(), finished: None };
         let (directory, page) = (directory.to_owned(), Mutex::new(LivePage::begin()));
         let warned = Mutex::default();
-        Self { bar, quiet, step, stop, table: Mutex::new(table), directory, page, warned }
+        let continues =
+            (existing == Existing::Resume && !quiet).then(|| continued(case, &directory)).flatten();
+        let continues = Mutex::new(continues);
+        Self { bar, quiet, step, stop, table: Mutex::new(table), directory, page, warned, continues }
     }
 
     /// Removes the bar, and returns the result of writing the table, and the warnings printed.
@@ -91,6 +102,14 @@ impl Display {
         page.refresh(|| Results::open(&self.directory));
     }
 
+    /// Prints where a resumed run continues, once.
+    fn begin(&self) {
+        let mut continues = self.continues.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(text) = continues.take() {
+            self.bar.suspend(|| note(&text));
+        }
+    }
+
     /// Counts a finished step.
     fn finish(&self) {
         let mut table = self.table();
@@ -99,8 +118,26 @@ impl Display {
     }
 }
 
+/// Describes the finished steps in a directory from which a run continues; `None` if there are none.
+fn continued(case: &Case, directory: &Path) -> Option<String> {
+    let results = Results::open(directory).ok()?;
+    let course = case.course(1.0);
+    let done = match &course {
+        Course::Passes(_) => results.passes().ok()?.iter().map(PassRecord::represents).sum(),
+        Course::InPlace(_) => results.updates().ok()?.last()?.update,
+        Course::Sweep(_) => results.sweep().ok()?.len(),
+        Course::Stages(_) | Course::Rolling(_) => results.increments().ok()?.len(),
+    };
+    (done > 0).then(|| match case.motion {
+        Some(motion) if done >= motion.passes => format!("all {done} passes are finished"),
+        Some(motion) => format!("continues after pass {done} of {}", motion.passes),
+        None => format!("continues after {} {done}", course.step()),
+    })
+}
+
 impl Watch for Display {
     fn at(&self, progress: &Progress) {
+        self.begin();
         let Progress { pass, passes, trial, solved, positions, load, together, .. } = *progress;
         let (place, part, steps) = if self.step == "pass" {
             let place = match together {
@@ -123,6 +160,7 @@ impl Watch for Display {
     }
 
     fn solving(&self, progress: &Progress) {
+        self.begin();
         let Progress { solved, positions, load, together, .. } = *progress;
         let way = together.unwrap_or(0.0);
         let place = match positions {
@@ -136,6 +174,7 @@ impl Watch for Display {
     }
 
     fn pass(&self, record: &PassRecord) {
+        self.begin();
         // The rows of an earlier run arrive before the first solution.
         if self.bar.length().is_some() {
             self.finish();
@@ -145,6 +184,7 @@ impl Watch for Display {
     }
 
     fn point(&self, record: &SweepRecord) {
+        self.begin();
         self.add(|rows| rows.point(record));
         self.refresh_page();
     }

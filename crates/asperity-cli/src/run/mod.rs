@@ -53,7 +53,7 @@ pub(crate) fn compute(
     machine::device(&case)?;
     // A contact in one step has no results until it is solved, so Ctrl-C ends it at once.
     let stop = Stop::at_ctrl_c(case.course(1.0).keeps_steps());
-    let display = Display::new(is_quiet, &case, directory, stop.clone());
+    let display = Display::new(is_quiet, &case, (directory, existing), stop.clone());
     let outcome = study::run(&case, study::SurfaceInput::default(), directory, existing, &display);
     let (printed, warned) = display.end();
     if let Err(

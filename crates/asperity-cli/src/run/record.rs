@@ -19,7 +19,7 @@ use asperity_report::words::closed_form;
 /// The rows of the capabilities are those of all contacts that were `found`, or those of the summary.
 pub fn text(case: &Case, summary: &Summary, found: &Observations) -> String {
     let contact = match &summary.outcome {
-        Outcome::Static(record) => static_table(case, record),
+        Outcome::Static(record) => static_table(case, &summary.interface.as_shown(record)),
         Outcome::Passes(passes) => changes(passes),
         Outcome::Sweep(points) => with::after_points(points).iter().map(told).collect(),
     };

@@ -115,6 +115,19 @@ fn five_answers_make_a_case() {
     assert!(ok(&at("check other.toml")).contains("256 × 256 cells"));
     ok(&init("all.toml --lower disc.x3p --upper disc.x3p --material glass --load 5MPa --passes 0", ""));
     ok(&at("check all.toml"));
+    // Each comment that is a table becomes part of a valid case, and none has the marks of Markdown.
+    let mut tables = std::collections::BTreeSet::new();
+    for name in ["case.toml", "other.toml", "all.toml"] {
+        let text = fs::read_to_string(folder.path().join(name)).unwrap();
+        assert!(!text.contains('`') && !text.contains("]("), "{text}");
+        for comment in text.lines().filter(|line| line.starts_with("# ") && line.contains(" = {")) {
+            fs::write(folder.path().join("one.toml"), text.replacen(comment, &comment[2..], 1)).unwrap();
+            ok(&at("check one.toml"));
+            tables.insert(comment.split_whitespace().nth(1).unwrap().to_owned());
+        }
+    }
+    let tables: Vec<_> = tables.iter().map(String::as_str).collect();
+    assert_eq!(tables, ["conductance", "film", "flow", "friction", "output", "wear"]);
     assert!(refused(&init("", "")).contains("`case.toml` exists"));
     assert!(refused(&init("new.toml --lower disc.x3p", "")).contains("give --upper"));
 }

@@ -19,7 +19,9 @@ fn more_passes_are_appended_to_finished_ones() {
     change(&folder.path().join("case.toml"), "passes = 3", "passes = 1");
     ok(&run(&folder, "case.toml --out parts"));
     change(&folder.path().join("case.toml"), "passes = 1", "passes = 3");
-    let table = ok(&run(&folder, "case.toml --out parts --resume"));
+    let output = run(&folder, "case.toml --out parts --resume");
+    assert!(stderr(&output).contains("continues after pass 1 of 3\n"), "{}", stderr(&output));
+    let table = ok(&output);
     assert_eq!(table.lines().count(), 7, "{table}");
     assert_same_passes(&folder.path().join("parts"), &folder.path().join("whole"));
     assert_eq!(summary(&folder.path().join("parts"))["case"]["motion"]["passes"], 3);
@@ -27,6 +29,19 @@ fn more_passes_are_appended_to_finished_ones() {
     let steps = fs::read(folder.path().join("parts/steps.csv")).unwrap();
     assert_eq!(ok(&run(&folder, "case.toml --out parts --resume")), table);
     assert!(fs::read(folder.path().join("parts/steps.csv")).unwrap() == steps);
+    // Fewer passes than there are.
+    change(&folder.path().join("case.toml"), "passes = 3", "passes = 2");
+    let output = run(&folder, "case.toml --out parts --resume");
+    assert_eq!(ok(&output), table);
+    let told = [
+        "all 3 passes are finished\n",
+        "the results hold 3 finished passes, more than `passes = 2` of the case",
+    ];
+    assert!(told.iter().all(|told| stderr(&output).contains(told)), "{}", stderr(&output));
+    for file in ["summary.json", "case.json"] {
+        let text = fs::read_to_string(folder.path().join("parts").join(file)).unwrap();
+        assert!(text.contains("\"passes\": 3,"), "{file}");
+    }
 }
 
 #[test]

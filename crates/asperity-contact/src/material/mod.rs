@@ -6,6 +6,7 @@ pub use named::{MATERIALS, NAMES, NamedMaterial};
 
 use crate::error::{Error, Result, check, check_in};
 use crate::units::{Dimension, Metre, Pascal};
+use asperity_base::beside::{Beside, Scale};
 use asperity_base::exists;
 use asperity_base::table::Table as _;
 use asperity_derive::Table;
@@ -24,12 +25,14 @@ pub struct Material {
     pub coating: Option<Coating>,
 }
 
+const THICK: Beside = Beside::most(Scale::Side, 1.0, "contacts do not feel the body under it");
+
 /// An elastic, isotropic layer of uniform thickness, bonded to a body.
 #[derive(Table, Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 #[table("lower.coating", "upper.coating")]
 pub struct Coating {
     /// Thickness of the layer.
-    #[key(quantity = Length, range = AboveZero, example = "\"2 um\"", exists = exists::LAYER)]
+    #[key(quantity = Length, range = AboveZero, example = "\"2 um\"", exists = exists::LAYER, beside = [THICK])]
     pub thickness: Metre,
     /// Its Young's modulus.
     #[key(quantity = Pressure, range = AboveZero, example = "\"300 GPa\"", exists = exists::YOUNG)]

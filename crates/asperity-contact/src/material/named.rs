@@ -3,7 +3,7 @@
 use super::Material;
 use crate::error::Result;
 use crate::units::Pascal;
-use asperity_base::Choice;
+use asperity_base::choice::{Choice, did_you_mean};
 
 /// Constants of a material at room temperature. Those that differ too much between grades are missing.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -35,6 +35,12 @@ impl NamedMaterial {
     /// Returns the material of this name.
     pub fn of(name: &str) -> Option<&'static Self> {
         MATERIALS.iter().find(|material| material.name == name)
+    }
+
+    /// Returns a hint with the material that another name probably means.
+    pub fn near(name: &str) -> Option<String> {
+        let meant = meant(name).map(|name| format!("did you mean `{name}`?"));
+        meant.or_else(|| did_you_mean(name, NAMES.iter().copied()))
     }
 
     /// Returns its elastic constants.
@@ -230,6 +236,53 @@ impl Choice for &'static NamedMaterial {
     fn word(self) -> &'static str {
         self.name
     }
+
+    fn hint(word: &str) -> Option<String> {
+        let other = || "give `young` and `poisson` of a material that is not in the list".to_owned();
+        NamedMaterial::near(word).or_else(|| Some(other()))
+    }
+}
+
+/// Other names of materials, in small letters.
+const OTHER_NAMES: &[(&str, &str)] = &[
+    ("stainless", "stainless-steel"),
+    ("inox", "stainless-steel"),
+    ("fe", "iron"),
+    ("aluminum", "aluminium"),
+    ("al", "aluminium"),
+    ("cr", "chromium"),
+    ("cu", "copper"),
+    ("au", "gold"),
+    ("mo", "molybdenum"),
+    ("ni", "nickel"),
+    ("ag", "silver"),
+    ("ti", "titanium-alloy"),
+    ("titanium", "titanium-alloy"),
+    ("w", "tungsten"),
+    ("al2o3", "alumina"),
+    ("sic", "silicon-carbide"),
+    ("si3n4", "silicon-nitride"),
+    ("sio2", "fused-silica"),
+    ("silica", "fused-silica"),
+    ("si", "silicon"),
+    ("acrylic", "pmma"),
+    ("plexiglas", "pmma"),
+];
+
+/// Returns the name of the material that another name means: in other letters, a symbol, or a grade such as 100Cr6.
+fn meant(word: &str) -> Option<&'static str> {
+    let plain = |text: &str| text.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase();
+    let wanted = plain(word);
+    let is_grade = |about: &str| {
+        let mut grades = about
+            .split([' ', ',', '(', ')'])
+            .map(plain)
+            .filter(|part| part.contains(|c: char| c.is_ascii_digit()));
+        plain(about) == wanted || grades.any(|grade| grade == wanted)
+    };
+    let other = OTHER_NAMES.iter().find(|(other, _)| *other == wanted).map(|(_, name)| *name);
+    let is_meant = |material: &&NamedMaterial| plain(material.name) == wanted || is_grade(material.about);
+    other.or_else(|| MATERIALS.iter().find(is_meant).map(|material| material.name))
 }
 
 #[cfg(test)]
@@ -257,6 +310,40 @@ mod tests {
             assert!(within(exists::RESISTIVITY, material.resistivity), "{name}");
             // Without plastic deformation a solid carries no more than about a fifth of its modulus.
             assert!(material.hardness.is_none_or(|hardness| hardness < 0.2 * material.young), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_name_that_is_not_in_the_list_has_a_hint() {
+        let hint = |word| <&NamedMaterial>::hint(word).unwrap();
+        for (word, name) in [
+            ("Steel", "steel"),
+            ("steal", "steel"),
+            ("carbon steel", "steel"),
+            ("100Cr6", "bearing-steel"),
+            ("100cr6", "bearing-steel"),
+            ("52100", "bearing-steel"),
+            ("1.4301", "stainless-steel"),
+            ("stainless", "stainless-steel"),
+            ("Stainless Steel", "stainless-steel"),
+            ("cast iron", "cast-iron"),
+            ("aluminum", "aluminium"),
+            ("Alumina", "alumina"),
+            ("Al2O3", "alumina"),
+            ("Si", "silicon"),
+            ("SiC", "silicon-carbide"),
+            ("Si3N4", "silicon-nitride"),
+            ("Ti-6Al-4V", "titanium-alloy"),
+            ("coper", "copper"),
+            ("PMMA", "pmma"),
+        ] {
+            assert_eq!(hint(word), format!("did you mean `{name}`?"), "{word}");
+        }
+        for (other, name) in OTHER_NAMES {
+            assert!(NAMES.contains(name) && !NAMES.contains(other), "{other}");
+        }
+        for word in ["PDMS", "rubber", "PTFE", "5", ""] {
+            assert_eq!(hint(word), "give `young` and `poisson` of a material that is not in the list");
         }
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::error::Result;
-use crate::grid::{Field, Placement};
+use crate::grid::{Field, Placement, length_of};
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::motion::record::{StaticRecord, StepRecord};
@@ -211,7 +211,7 @@ impl Contact {
         StepRecord {
             pass,
             step,
-            offset: self.position.offset * pair.pitch()[0],
+            offset: length_of(self.position.offset, pair.pitch()[0]),
             offset_y: None,
             overlap_columns: self.position.columns,
             approach: self.approach,

@@ -11,6 +11,7 @@ use crate::motion::law::{Law, Sums};
 use crate::motion::pair::Pair;
 use crate::operator::Boundary;
 use crate::units::{Dimension, MAX_COUNT, Metre};
+use asperity_base::beside::{Beside, Scale};
 use asperity_base::table::Exists;
 use asperity_derive::Table;
 
@@ -37,10 +38,14 @@ pub struct Acceleration {
         default = 5e-9,
         written = "\"5 nm\"",
         example = "\"2 nm\"",
-        exists = Exists::Any("a limit of the method, not a property of the bodies")
+        exists = DEPTH,
+        beside = [Beside::most(Scale::Heights, 20.0, "an extrapolation wears the surfaces off")]
     )]
     pub max_wear: Metre,
 }
+
+const DEPTH: Exists =
+    Exists::Within { least: 5e-11, most: 1e-3, of: "half an atom to grooves", slips: &["nm", "um"] };
 
 impl Acceleration {
     /// Computes every pass.

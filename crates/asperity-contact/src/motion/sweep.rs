@@ -33,7 +33,8 @@ pub struct Point {
 pub struct SweepState {
     /// The finished points.
     pub records: Vec<SweepRecord>,
-    /// Pressure of the last one, from which the next one starts, Pa; `None` where it starts anew.
+    /// Pressure from which the next point starts, Pa; once all are finished, that from which the last one started, so that it can be solved
+    /// again. `None` where points start anew.
     pub start: Option<Field>,
 }
 
@@ -137,7 +138,10 @@ impl Course for Sweep<'_> {
         let watch = StaticWatch::new(watch, done, points, point.control);
         let (contact, record) =
             self.contact(done + 1, &watch).map_err(|error| error.unless_interrupted(at))?;
-        let start = record.steady.map(|_| contact.solution.normal().pressure.clone());
+        let start = match record.steady {
+            Some(_) if done + 1 < points => Some(contact.solution.normal().pressure.clone()),
+            _ => self.state.start.take(),
+        };
         let mut records = std::mem::take(&mut self.state.records);
         records.push(record);
         Ok(Some(Solved { contact, state: SweepState { records, start } }))

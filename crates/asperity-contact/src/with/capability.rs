@@ -233,12 +233,24 @@ impl Surroundings {
         match (self.moves, every) {
             (true, 0) => "once a pass".to_owned(),
             (true, 1) => "at each position".to_owned(),
-            (true, every) => format!("at every {every}th position"),
+            (true, every) => format!("at every {} position", ordinal(every)),
             (false, 0) => "of the last contact".to_owned(),
             (false, 1) => "of each contact".to_owned(),
-            (false, every) => format!("of every {every}th contact"),
+            (false, every) => format!("of every {} contact", ordinal(every)),
         }
     }
+}
+
+/// Writes an ordinal number: `2nd`.
+fn ordinal(number: usize) -> String {
+    let ending = match (number % 10, number % 100) {
+        (1..=3, 11..=13) => "th",
+        (1, _) => "st",
+        (2, _) => "nd",
+        (3, _) => "rd",
+        _ => "th",
+    };
+    format!("{number}{ending}")
 }
 
 /// Everything that a capability gets before the first contact.
@@ -254,3 +266,16 @@ pub struct Given<'a> {
 
 /// A combination that excludes a capability `C`, or something that it requires. It is broken only where its key is given.
 pub type Rule<C> = table::Rule<fn(&C, &Surroundings) -> bool>;
+
+#[cfg(test)]
+mod tests {
+    use super::ordinal;
+
+    #[test]
+    fn ordinal_numbers_have_their_endings() {
+        let numbers = [2, 3, 4, 10, 11, 12, 13, 21, 22, 103, 111, 1012];
+        let words =
+            ["2nd", "3rd", "4th", "10th", "11th", "12th", "13th", "21st", "22nd", "103rd", "111th", "1012th"];
+        assert_eq!(numbers.map(ordinal), words);
+    }
+}

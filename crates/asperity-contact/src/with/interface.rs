@@ -9,7 +9,7 @@ use super::{Interfaces, adhesion};
 use crate::adhesion::Adhesion;
 use crate::error::Result;
 use crate::grid::{Field, Grid};
-use crate::motion::IncrementRecord;
+use crate::motion::{IncrementRecord, StaticRecord};
 use crate::operator::Boundary;
 use crate::solver::{HardWall, Interface, InterfaceCost, InterfacePassRecord, InterfaceRecord};
 use crate::units::Pascal;
@@ -92,6 +92,31 @@ impl InterfaceNumbers {
     /// Returns the numbers for the terminal.
     pub fn lines(&self) -> Vec<Line> {
         self.adhesion.iter().flat_map(adhesion::AdhesionSummary::lines).collect()
+    }
+
+    /// Returns the record of a contact at rest for people: 0 where a force, a pressure or an energy is nothing beside the largest, as the
+    /// attraction of separated bodies.
+    pub fn as_shown(&self, record: &StaticRecord) -> StaticRecord {
+        /// Share of the largest value below which the tolerance of the solver decides.
+        const NOTHING: f64 = 1e-7;
+        let [force, pressure, energy] =
+            self.adhesion.as_ref().map_or([0.0; 3], adhesion::AdhesionSummary::scales);
+        let force = force.max(record.load.abs());
+        let pressure = pressure.max(record.max_pressure);
+        let energy = energy.max(record.elastic_energy);
+        let shown = |value: f64, scale: f64| if value.abs() < NOTHING * scale { 0.0 } else { value };
+        StaticRecord {
+            load: shown(record.load, force),
+            max_pressure: shown(record.max_pressure, pressure),
+            elastic_energy: shown(record.elastic_energy, energy),
+            interface: record.interface.map(|interface| InterfaceRecord {
+                adhesive_load: shown(interface.adhesive_load, force),
+                min_pressure: shown(interface.min_pressure, pressure),
+                adhesion_energy: shown(interface.adhesion_energy, energy),
+                ..interface
+            }),
+            ..record.clone()
+        }
     }
 
     /// Returns what a contact at rest with this `record` shows.

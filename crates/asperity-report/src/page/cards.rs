@@ -44,8 +44,8 @@ pub(super) fn html(found: &PageData, answers: Vec<Answer>) -> String {
         ([first, .., last], _) => of_passes(found, first, last),
         ([only], _) => of_passes(found, only, only),
         ([], [_, ..]) => of_points(&found.points),
-        ([], []) => match found.summary.as_ref().map(|summary| &summary.outcome) {
-            Some(Outcome::Static(record)) => of_rest(found, record),
+        ([], []) => match found.summary.as_ref().map(|summary| (&summary.outcome, &summary.interface)) {
+            Some((Outcome::Static(record), interface)) => of_rest(found, &interface.as_shown(record)),
             _ => Vec::new(),
         },
     });

@@ -36,7 +36,7 @@ fn html(found: &PageData, name: &str, labels: &[(&str, &str)], charts: &mut Vec<
         summary.interface.record().and_then(|numbers| serde_json::to_value(numbers).ok())
     {
         let place = |name: &str| labels.iter().position(|(column, _)| column.replace('_', " ") == name);
-        let mut named = numbers::of(name, &record);
+        let mut named = numbers::of(name, &record, &record);
         named.sort_by_key(|(name, _)| place(name).unwrap_or(labels.len()));
         // A number with its meaning beside it.
         let with_meaning = named.into_iter().map(|(name, value)| {
@@ -51,10 +51,10 @@ fn html(found: &PageData, name: &str, labels: &[(&str, &str)], charts: &mut Vec<
             last.interface.and_then(|record| serde_json::to_value(record).ok())
     {
         html += &format!("<h3>Pass {}</h3>", found.done[found.passes.len()]);
-        html += &facts(numbers::of(&format!("passes.{}", found.passes.len() - 1), &record));
+        html += &facts(numbers::of(&format!("passes.{}", found.passes.len() - 1), &record, &record));
     }
     if let Outcome::Static(record) = &summary.outcome
-        && let Some(record) = &record.interface
+        && let Some(record) = &summary.interface.as_shown(record).interface
     {
         html += "<h3>At the end</h3>";
         html += &facts(record.lines().into_iter().map(shown));

@@ -21,15 +21,16 @@ pub(super) fn section(found: &PageData) -> String {
         steps.chain(increments).chain(found.points.iter().map(|point| point.residual))
     };
     let at_rest = found.summary.as_ref().and_then(|summary| match &summary.outcome {
-        Outcome::Static(record) => Some(record),
+        Outcome::Static(record) => Some((record, summary.interface.as_shown(record))),
         _ => None,
     });
-    let largest = residuals().chain(at_rest.map(|record| record.residual)).fold(0.0, f64::max);
+    let at_rest = at_rest.as_ref();
+    let largest = residuals().chain(at_rest.map(|(record, _)| record.residual)).fold(0.0, f64::max);
     if largest > 0.0 {
         let tolerance = found.case.contact.tolerance;
         rows.push(("largest residual η".to_owned(), format!("{largest:.1e}, tolerance {tolerance:.0e}")));
     }
-    let reached = found.passes.last().map(|pass| pass.mean_load).or(at_rest.map(|record| record.load));
+    let reached = found.passes.last().map(|pass| pass.mean_load).or(at_rest.map(|(_, shown)| shown.load));
     // The last stage that prescribes a load or an approach decides.
     let last = found.case.history.iter().rev().find_map(StageSpec::normal);
     let prescribed = last.unwrap_or(found.case.contact.prescribed());
@@ -52,10 +53,11 @@ pub(super) fn section(found: &PageData) -> String {
     }
     rows.extend(cost(found));
     let mut html = facts(rows);
-    if let Some(record) = at_rest
-        && let Ok(Value::Object(record)) = serde_json::to_value(record)
+    if let Some((record, shown)) = at_rest
+        && let (Ok(Value::Object(record)), Ok(Value::Object(shown))) =
+            (serde_json::to_value(record), serde_json::to_value(shown))
     {
-        html += &details("All numbers of the contact", &facts(numbers::of("static", &record)));
+        html += &details("All numbers of the contact", &facts(numbers::of("static", &record, &shown)));
     }
     html += &details("The case with all its defaults", &case::html(&found.resolved));
     html += &details("Files", &files(found.directory()));

@@ -6,6 +6,7 @@ use serde::{Serialize, Serializer};
 
 use super::hardness::{Hardness, hardness};
 use super::source::{Source, TopographySpec};
+use asperity_base::beside::{Beside, Scale};
 use asperity_base::choice::choice;
 use asperity_base::error::{Error, Result};
 use asperity_base::exists;
@@ -89,7 +90,8 @@ pub(super) struct BodyKeys {
         dimension = Pressure,
         written = "inf",
         example = "\"4 GPa\"",
-        exists = exists::HARDNESS
+        exists = exists::HARDNESS,
+        beside = [Beside::least(Scale::Young, 1e-4, "no solid of this modulus is so soft")]
     )]
     hardness: Option<Hardness>,
     /// Elastic surface layer, see [below](#lowercoating-and-uppercoating).

@@ -3,10 +3,10 @@
 use serde::Serialize;
 
 use super::prescribed::{ContactLoad, Prescribed};
-use asperity_base::choice::{Choice, choice};
+use asperity_base::choice;
 use asperity_base::error::Result;
-use asperity_base::table::{Key, Value, two};
-use asperity_contact::operator::{Boundary, Edge};
+use asperity_base::table::{Key, Value, choice, two};
+use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Device, Method};
 use asperity_derive::Table;
 
@@ -79,8 +79,7 @@ impl Contact {
 /// A word for both axes, or one for each.
 fn boundary(value: &dyn Value, _: &Key) -> Result<Boundary> {
     const EXPECTED: &str = "\"free\", \"periodic\", or one of them for x and one for y";
-    let edge = |value: &dyn Value| value.word(Edge::NAMES).map(|word| Edge::WORDS[word].1);
-    Ok(Boundary(if value.is_array() { two(value, EXPECTED, edge)? } else { [edge(value)?; 2] }))
+    Ok(Boundary(if value.is_array() { two(value, EXPECTED, choice)? } else { [choice(value)?; 2] }))
 }
 
 // Default values are omitted, so that cases from before these keys keep their digests.

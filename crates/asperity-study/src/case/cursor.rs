@@ -5,6 +5,7 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 use super::document::{Document, join};
+use asperity_base::choice::did_you_mean;
 use asperity_base::error::{Error, Result};
 use asperity_base::units::{self, Dimension, MAX_COUNT, NUMBERS};
 
@@ -412,17 +413,13 @@ impl<'a> Entry<'a> {
         if self.is_array() { self.array(expected, read) } else { read(self).map(|x| [x, 0.0]) }
     }
 
-    /// Returns the value that belongs to one of several words.
-    pub(crate) fn word<T: Copy>(&self, choices: &[(&str, T)]) -> Result<T> {
-        let words = || choices.iter().map(|(word, _)| *word);
-        let expected =
-            format!("one of {}", words().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", "));
+    /// Returns the index of one of several words. `hint` is about another word.
+    pub(super) fn word(&self, words: &[&str], hint: impl Fn(&str) -> Option<String>) -> Result<usize> {
+        let quoted = words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
+        let expected = format!("one of {quoted}");
         let Some(text) = self.value.as_str() else { return Err(self.wrong_type(&expected)) };
-        choices
-            .iter()
-            .find(|(word, _)| *word == text)
-            .map(|(_, choice)| *choice)
-            .ok_or_else(|| self.unexpected(&expected, did_you_mean(text, words())))
+        let index = words.iter().position(|word| *word == text);
+        index.ok_or_else(|| self.unexpected(&expected, hint(text)))
     }
 }
 
@@ -470,13 +467,6 @@ fn known_by_symbol(symbol: &str, known: &[&str]) -> Option<String> {
     }
     let named = |(symbols, key): &&(&[&str], &str)| symbols.contains(&symbol) && known.contains(key);
     KEYS.iter().find(named).map(|(_, key)| format!("did you mean `{key}`?"))
-}
-
-/// Returns the most similar of `words`, if it is similar enough.
-pub(crate) fn did_you_mean<'w>(word: &str, words: impl Iterator<Item = &'w str>) -> Option<String> {
-    let likeness = |candidate: &str| strsim::jaro_winkler(candidate, &word.to_lowercase());
-    let nearest = words.max_by(|a, b| likeness(a).total_cmp(&likeness(b)))?;
-    (likeness(nearest) > 0.8).then(|| format!("did you mean `{nearest}`?"))
 }
 
 fn expectation(dimension: Dimension, range: &str) -> String {

@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use asperity_base::error::Result;
-use asperity_base::exists;
 use asperity_base::table::{Bounds, Key, Kind, Value, two};
 use asperity_base::units::{Metre, Newton};
+use asperity_base::{beside, exists};
 use asperity_contact::solver::{Creep, Friction, Rolling, Tangential};
 use asperity_derive::{Part, Table};
 
@@ -41,10 +41,10 @@ pub struct FrictionSpec {
 #[serde(rename_all = "snake_case")]
 pub enum InPlane {
     /// Force of the upper body on the lower one.
-    #[key(quantity = Force, vector, absent = "0", example = "\"0.1 N\"", exists = exists::LOAD)]
+    #[key(quantity = Force, vector, absent = "0", example = "\"0.1 N\"", exists = exists::LOAD, beside = [beside::FORCE])]
     Force([Newton; 2]),
     /// Displacement of the upper body relative to the lower one.
-    #[key(quantity = Length, vector, example = "\"0.1 um\"", exists = exists::LENGTH)]
+    #[key(quantity = Length, vector, example = "\"0.1 um\"", exists = exists::LENGTH, beside = [beside::DISPLACEMENT])]
     Displacement([Metre; 2]),
     /// Sliding direction of the upper body; every cell slips.
     ///
@@ -60,7 +60,7 @@ pub enum InPlane {
     #[key(number = "a finite number", vector, several = "[0.001, 0]", spacing = Linear, example = "[0.001]")]
     Creepages(Vec<[f64; 2]>),
     /// Steady rolling along x: force of the upper body on the lower one.
-    #[key(quantity = Force, vector, example = "\"0.1 N\"", exists = exists::LOAD)]
+    #[key(quantity = Force, vector, example = "\"0.1 N\"", exists = exists::LOAD, beside = [beside::FORCE])]
     RollingForce([Newton; 2]),
 }
 

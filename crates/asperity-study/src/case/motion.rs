@@ -3,6 +3,8 @@
 use serde::{Serialize, Serializer};
 
 use super::prescribed::Prescribed;
+use super::stage::WAITS;
+use asperity_base::beside::{self, Beside, Scale};
 use asperity_base::choice::choice;
 use asperity_base::error::Result;
 use asperity_base::exists;
@@ -52,13 +54,13 @@ pub struct MotionSpec {
     /// `"shift"` only: speed of the lower surface along x; apart from times, only the ratio of the speeds matters.
     ///
     /// Always there in a shift.
-    #[key(quantity = Speed, written = "0", example = "\"0.3 m/s\"", exists = exists::SPEED)]
+    #[key(quantity = Speed, written = "0", example = "\"0.3 m/s\"", exists = exists::SPEED, beside = [beside::SPEED])]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_lower: Option<MetrePerSecond>,
     /// `"shift"` only: speed of the upper surface along x; at most one speed may be 0.
     ///
     /// Always there in a shift.
-    #[key(quantity = Speed, written = "\"1 m/s\"", example = "\"0.5 m/s\"", exists = exists::SPEED)]
+    #[key(quantity = Speed, written = "\"1 m/s\"", example = "\"0.5 m/s\"", exists = exists::SPEED, beside = [beside::SPEED])]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_upper: Option<MetrePerSecond>,
     /// `"overlap"` only: speed of the upper body; required for growing films, temperature and viscoelastic bodies.
@@ -67,7 +69,7 @@ pub struct MotionSpec {
         range = AboveZero,
         absent = "unknown",
         example = "\"0.5 m/s\"",
-        exists = exists::SPEED
+        exists = exists::SPEED, beside = [beside::SPEED]
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<MetrePerSecond>,
@@ -78,7 +80,8 @@ pub struct MotionSpec {
         default = 0.0,
         written = "0",
         example = "\"10 s\"",
-        exists = Exists::Any("a pause of any time")
+        exists = Exists::Any("a pause of any time"),
+        beside = [Beside::within(Scale::RelaxationTimes, [0.03, 200.0], WAITS)]
     )]
     #[serde(skip_serializing_if = "is_zero")]
     pub pause: Second,
@@ -247,7 +250,7 @@ fn offset(value: &dyn Value, key: &Key) -> Result<Offset> {
     if value.text().is_err() {
         return value.count(key, &Kind::Count { least: 0, most: u64::MAX }).map(Offset::Cells);
     }
-    let random = value.word(&[RANDOM]).map(|_| Offset::Random);
+    let random = value.word(&[RANDOM], &|_| None).map(|_| Offset::Random);
     random.map_err(|_| value.unexpected("a whole number of cells, or \"random\"", None))
 }
 

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use asperity_base::exists;
 use asperity_base::units::{Metre, Newton, Pascal, SquareMetre};
+use asperity_base::{beside, exists};
 use asperity_contact::solver;
 use asperity_derive::Part;
 
@@ -16,14 +16,14 @@ use asperity_derive::Part;
 #[serde(rename_all = "snake_case")]
 pub enum ContactLoad {
     /// Total normal force; in a motion, the mean over a pass or the force at each position, see `control`.
-    #[key(quantity = Force, range = AboveZero, example = "\"2 N\"", exists = exists::LOAD)]
+    #[key(quantity = Force, range = AboveZero, example = "\"2 N\"", exists = exists::LOAD, beside = [beside::LOADS])]
     Load(Newton),
     /// Load over the apparent area, the area of all cells at full overlap; during an overlap motion half of them overlap on average, so that
     /// the mean pressure there is about twice as large.
-    #[key(quantity = Pressure, range = AboveZero, example = "\"1 MPa\"", exists = exists::LOAD)]
+    #[key(quantity = Pressure, range = AboveZero, example = "\"1 MPa\"", exists = exists::LOAD, beside = [beside::LOADS])]
     MeanPressure(Pascal),
     /// Distance by which the bodies have approached, of any sign; 0 if the planes z = 0 of both height maps coincide.
-    #[key(quantity = Length, example = "\"10 nm\"", exists = exists::LENGTH)]
+    #[key(quantity = Length, example = "\"10 nm\"", exists = exists::LENGTH, beside = [beside::APPROACH])]
     Approach(Metre),
     /// Several loads, one after the other.
     #[key(
@@ -31,7 +31,8 @@ pub enum ContactLoad {
         range = AboveZero,
         several = "\"0.1 N\"",
         example = "[\"0.1 N\", \"1 N\"]",
-        exists = exists::LOAD
+        exists = exists::LOAD,
+        beside = [beside::LOADS]
     )]
     Loads(Vec<Newton>),
     /// Several mean pressures, one after the other.
@@ -40,7 +41,8 @@ pub enum ContactLoad {
         range = AboveZero,
         several = "\"1 MPa\"",
         example = "[\"1 MPa\", \"10 MPa\"]",
-        exists = exists::LOAD
+        exists = exists::LOAD,
+        beside = [beside::LOADS]
     )]
     MeanPressures(Vec<Pascal>),
     /// Several approaches, one after the other.
@@ -49,7 +51,8 @@ pub enum ContactLoad {
         several = "\"10 nm\"",
         spacing = Linear,
         example = "[\"10 nm\", \"20 nm\"]",
-        exists = exists::LENGTH
+        exists = exists::LENGTH,
+        beside = [beside::APPROACH]
     )]
     Approaches(Vec<Metre>),
 }

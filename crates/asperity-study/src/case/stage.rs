@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::friction::direction;
 use super::prescribed::Prescribed;
+use asperity_base::beside::{self, Beside, Scale};
 use asperity_base::error::Result;
 use asperity_base::exists;
 use asperity_base::table::{Exists, Source, at_most_one};
@@ -20,23 +21,23 @@ use asperity_derive::Table;
 #[non_exhaustive]
 pub struct StageSpec {
     /// As in \[contact\]; at most one of the three; with \[adhesion\] it may be 0 or pull, below 0.
-    #[key(quantity = Force, absent = "unchanged", example = "\"2 N\"", exists = exists::LOAD)]
+    #[key(quantity = Force, absent = "unchanged", example = "\"2 N\"", exists = exists::LOAD, beside = [beside::LOAD])]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load: Option<Newton>,
     /// As in \[contact\]; at most one of the three; with \[adhesion\] it may be 0 or pull, below 0.
-    #[key(quantity = Pressure, absent = "unchanged", example = "\"1 MPa\"", exists = exists::LOAD)]
+    #[key(quantity = Pressure, absent = "unchanged", example = "\"1 MPa\"", exists = exists::LOAD, beside = [beside::LOAD])]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mean_pressure: Option<Pascal>,
     /// As in \[contact\]; at most one of the three.
-    #[key(quantity = Length, absent = "unchanged", example = "\"10 nm\"", exists = exists::LENGTH)]
+    #[key(quantity = Length, absent = "unchanged", example = "\"10 nm\"", exists = exists::LENGTH, beside = [beside::APPROACH])]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub approach: Option<Metre>,
     /// As in \[friction\], which it requires; at most one of the three.
-    #[key(quantity = Force, vector, absent = "unchanged", example = "\"0.1 N\"", exists = exists::LOAD)]
+    #[key(quantity = Force, vector, absent = "unchanged", example = "\"0.1 N\"", exists = exists::LOAD, beside = [beside::FORCE])]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force: Option<[Newton; 2]>,
     /// As in \[friction\], which it requires; at most one of the three.
-    #[key(quantity = Length, vector, absent = "unchanged", example = "\"0.1 um\"", exists = exists::LENGTH)]
+    #[key(quantity = Length, vector, absent = "unchanged", example = "\"0.1 um\"", exists = exists::LENGTH, beside = [beside::DISPLACEMENT])]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub displacement: Option<[Metre; 2]>,
     /// As in \[friction\], which it requires; at most one of the three.
@@ -62,7 +63,8 @@ pub struct StageSpec {
         range = AboveZero,
         absent = "none: at once",
         example = "\"0.1 s\"",
-        exists = Exists::Any("a stage of any time")
+        exists = Exists::Any("a stage of any time"),
+        beside = [Beside::least(Scale::RelaxationTimes, 1e-3, "nothing relaxes meanwhile")]
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub duration: Option<Second>,
@@ -72,7 +74,8 @@ pub struct StageSpec {
         range = AboveZero,
         absent = "none",
         example = "\"10 s\"",
-        exists = Exists::Any("a dwell of any time")
+        exists = Exists::Any("a dwell of any time"),
+        beside = [Beside::within(Scale::RelaxationTimes, [0.1, 200.0], WAITS)]
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dwell: Option<Second>,
@@ -82,11 +85,17 @@ pub struct StageSpec {
         range = AboveZero,
         absent = "unknown",
         example = "\"50 ms\"",
-        exists = Exists::Any("a cycle of any time")
+        exists = Exists::Any("a cycle of any time"),
+        beside = [Beside::within(Scale::RelaxationTimes, [0.01, 100.0], CYCLES)]
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub period: Option<Second>,
 }
+
+/// Meaning of short and of long times in which viscoelastic bodies wait.
+pub(super) const WAITS: [&str; 2] =
+    ["hardly anything relaxes meanwhile", "everything has relaxed long before"];
+const CYCLES: [&str; 2] = ["nothing relaxes in a cycle", "the bodies are relaxed throughout"];
 
 fn at_most_one_of_each(_: &StageSpec, source: &dyn Source) -> Result<()> {
     at_most_one(source, &["force", "displacement", "sliding"], "give one of them, or none")?;

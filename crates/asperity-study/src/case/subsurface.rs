@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use asperity_base::beside::{Beside, DEEPEST, DEPTH, Scale};
 use asperity_base::choice::choice;
 use asperity_base::error::Result;
 use asperity_base::exists;
@@ -10,13 +11,15 @@ use asperity_base::units::{Dimension, Metre};
 use asperity_derive::Table;
 
 /// Requested output of the stress under the surface. Positions x and y are relative to the corner of the body, depths to
+const INSIDE: Beside = Beside::least(Scale::Cell, 0.1, "a part of a cell makes no difference");
+
 /// its surface.
 #[derive(Table, Debug, Clone, PartialEq, Serialize)]
 #[table("subsurface")]
 #[non_exhaustive]
 pub struct SubsurfaceSpec {
     /// Deepest plane; the largest stress of a contact spot lies at about a quarter of its width.
-    #[key(quantity = Length, range = AboveZero, example = "\"20 um\"", exists = exists::LENGTH)]
+    #[key(quantity = Length, range = AboveZero, example = "\"20 um\"", exists = exists::LENGTH, beside = [DEPTH, DEEPEST])]
     pub to: Metre,
     /// Steps from the surface to `to`.
     ///
@@ -34,7 +37,8 @@ pub struct SubsurfaceSpec {
         default = Vec::new(),
         absent = "none",
         example = "[\"1 um\", \"5 um\"]",
-        exists = exists::LENGTH
+        exists = exists::LENGTH,
+        beside = [DEPTH, INSIDE]
     )]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub planes: Vec<Metre>,
@@ -44,7 +48,8 @@ pub struct SubsurfaceSpec {
         range = FromZero,
         absent = "the most stressed point",
         example = "\"20 um\"",
-        exists = exists::LENGTH
+        exists = exists::LENGTH,
+        beside = [INSIDE]
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub section: Option<Metre>,
@@ -58,7 +63,8 @@ pub struct SubsurfaceSpec {
         default = Vec::new(),
         absent = "none",
         example = "[[\"5 um\", \"10 um\"]]",
-        exists = exists::LENGTH
+        exists = exists::LENGTH,
+        beside = [INSIDE]
     )]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub columns: Vec<[Metre; 2]>,

@@ -13,6 +13,9 @@ use asperity_contact::solver::Control;
 /// Number of cells across a contact spot from which its pressures are accurate to a few per cent.
 pub(crate) const CELLS_ACROSS: usize = 6;
 
+/// Half-width of a contact over its radius of curvature up to which strains are small: they are about a third of it.
+const SMALL_STRAIN: f64 = 0.1;
+
 /// Returns the predictions of Hertz' estimate for bodies with this initial `gap`: whether the boundary cuts the contact
 /// off, and whether it has too few cells.
 pub(super) fn predict(
@@ -22,8 +25,8 @@ pub(super) fn predict(
     boundary: Boundary,
     control: Control,
 ) -> HertzPrediction {
-    let mut prediction = HertzPrediction::default();
-    let Some(paraboloid) = Paraboloid::of(gap, pitch) else { return prediction };
+    let Some(paraboloid) = Paraboloid::of(gap, pitch) else { return HertzPrediction::default() };
+    let mut prediction = HertzPrediction { curved: true, ..HertzPrediction::default() };
     let touch = gap.iter().copied().fold(f64::INFINITY, f64::min);
     let presses = match control {
         Control::Load(_) => true,
@@ -48,6 +51,20 @@ pub(super) fn predict(
             length(rim)
         ));
     }
+    let [widest, radius] = [0, 1]
+        .map(|axis| [contact.semi_axes[axis], 1.0 / paraboloid.curvatures[axis]])
+        .into_iter()
+        .reduce(|one, other| if other[0] / other[1] > one[0] / one[1] { other } else { one })
+        .expect("two axes");
+    if widest > SMALL_STRAIN * radius {
+        prediction.wide = Some(format!(
+            "the contact is wide for a theory of small strains: by Hertz it reaches {} from its centre, {} of the radius of curvature, \
+             {}, and the theory holds up to {SMALL_STRAIN}; check `radius` and the load",
+            length(widest),
+            units::format_number_digits(widest / radius, 2),
+            length(radius)
+        ));
+    }
     let narrow = 2.0 * contact.semi_axes[0].min(contact.semi_axes[1]);
     let cells = narrow / paraboloid.pitch[0].max(paraboloid.pitch[1]);
     if cells < CELLS_ACROSS as f64 {
@@ -63,10 +80,14 @@ pub(super) fn predict(
 /// Predictions of Hertz' estimate.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct HertzPrediction {
+    /// Whether the bodies are curved rather than rough.
+    pub(super) curved: bool,
     /// Warning that the boundary of the grid cuts the contact off.
     pub(super) rim: Option<String>,
     /// Warning that the contact has too few cells.
     pub(super) coarse: Option<String>,
+    /// Warning that the contact is too wide for small strains.
+    pub(super) wide: Option<String>,
 }
 
 /// Finds the free side of the grid with the highest edge pressure for a contact with these semi-axes along the

@@ -13,41 +13,61 @@ use asperity_base::units::{self, Dimension, Metre, Pascal, format_number};
 const WIDE: Metre = 1e-3;
 /// Composite modulus of the softest rubbers. Gels are softer, and rarely meant.
 const SOFT: Pascal = 1e6;
-/// Hardness over E*: glass and the hardest ceramics come near this value, and metals stay below a fifth of it.
+/// Hardness over E/(1 − ν²) of a body: glass and the hardest ceramics come near this value, and metals stay below a fifth of it.
 const HARD: f64 = 0.1;
 
 /// Warns of implausible quantities in `case` on `grid`.
 pub(super) fn implausible(case: &Case, grid: &Grid, estimate: &Estimate, warnings: &mut Vec<String>) {
-    let given = case.document().values();
-    warnings.extend(given.filter_map(|(path, text)| unheard_of(declaration(path)?, path, &text)));
+    warnings.extend(given(case).iter().filter_map(unheard_of));
     if grid.pitch.iter().any(|pitch| *pitch > WIDE) {
         warnings.extend(wide(case, grid));
     }
     if estimate.modulus < SOFT && !case.is_coated() {
         warnings.extend(soft(case, estimate));
     }
-    if estimate.hardness > HARD * estimate.modulus && !case.is_coated() && estimate.hardness.is_finite() {
-        warnings.push(hard(case, estimate));
+    warnings.extend([("lower", &case.lower), ("upper", &case.upper)].into_iter().filter_map(hard));
+}
+
+/// A value of a case file.
+pub(super) struct GivenValue {
+    /// The dotted key.
+    pub(super) path: String,
+    /// The text of the value.
+    pub(super) text: String,
+    /// The declaration of the key.
+    pub(super) key: &'static Key,
+    /// Its numbers, SI, with their texts without a unit.
+    pub(super) numbers: Vec<(f64, String)>,
+}
+
+/// Returns the values of the keys in a case file.
+pub(super) fn given(case: &Case) -> Vec<GivenValue> {
+    case.document().values().filter_map(|(path, text)| GivenValue::of(path, text)).collect()
+}
+
+impl GivenValue {
+    fn of(path: &str, text: String) -> Option<Self> {
+        let key = declaration(path)?;
+        let written: toml::Table = toml::from_str(&format!("value = {text}")).ok()?;
+        let numbers = quantities(&written["value"], key.kind.dimension());
+        Some(Self { path: path.to_owned(), text, key, numbers })
     }
 }
 
-/// Warns of a value of `key`, written as `text` at the dotted `path`, outside what exists.
-fn unheard_of(key: &Key, path: &str, text: &str) -> Option<String> {
+/// Warns of a value outside what exists.
+fn unheard_of(given: &GivenValue) -> Option<String> {
+    let GivenValue { path, text, key, numbers } = given;
     let Exists::Within { least, most, of, slips } = key.exists else { return None };
     let dimension = key.kind.dimension();
     let exists = |value: f64| value == 0.0 || value.is_infinite() || (least..=most).contains(&value.abs());
-    let given: toml::Table = toml::from_str(&format!("value = {text}")).ok()?;
-    let (value, number) =
-        quantities(&given["value"], dimension).into_iter().find(|(value, _)| !exists(*value))?;
-    let said = dimension.map_or_else(|| format_number(value), |dimension| units::format(value, dimension));
-    let far =
-        |ratio: f64| format_number(if ratio < 10.0 { (10.0 * ratio).round() / 10.0 } else { ratio.round() });
+    let (value, number) = numbers.iter().find(|(value, _)| !exists(*value))?;
+    let said = dimension.map_or_else(|| format_number(*value), |dimension| units::format(*value, dimension));
     let beyond = match value.abs() > most {
         true => format!("{} times the most", far(value.abs() / most)),
         false => format!("1/{} of the least", far(least / value.abs())),
     };
     let meant = |slip: &&str| match (slip.contains("{}"), dimension) {
-        (true, _) => Some(format!("`{}`", slip.replace("{}", &number))),
+        (true, _) => Some(format!("`{}`", slip.replace("{}", number))),
         (false, Some(dimension)) => {
             let other = format!("{number} {slip}");
             units::parse(&other, dimension)
@@ -64,7 +84,12 @@ fn unheard_of(key: &Key, path: &str, text: &str) -> Option<String> {
     Some(format!("`{path} = {text}` is {said}, {beyond} that exists, {of}: {advice}"))
 }
 
-/// Numbers in a value, SI, with their texts without a unit.
+/// Writes a ratio: with a decimal below 10.
+pub(super) fn far(ratio: f64) -> String {
+    format_number(if ratio < 10.0 { (10.0 * ratio).round() / 10.0 } else { ratio.round() })
+}
+
+/// Numbers in a value, SI, with their texts without a unit. Those of a range are its ends.
 fn quantities(value: &Value, dimension: Option<Dimension>) -> Vec<(f64, String)> {
     match value {
         Value::Integer(number) => vec![(*number as f64, number.to_string())],
@@ -75,7 +100,11 @@ fn quantities(value: &Value, dimension: Option<Dimension>) -> Vec<(f64, String)>
             value.map(|value| (value, number.unwrap_or_default().to_owned())).into_iter().collect()
         }
         Value::Array(items) => items.iter().flat_map(|item| quantities(item, dimension)).collect(),
-        Value::Boolean(_) | Value::Datetime(_) | Value::Table(_) => Vec::new(),
+        Value::Table(table) => {
+            let ends = ["from", "to"].into_iter().filter_map(|end| table.get(end));
+            ends.flat_map(|end| quantities(end, dimension)).collect()
+        }
+        Value::Boolean(_) | Value::Datetime(_) => Vec::new(),
     }
 }
 
@@ -103,19 +132,18 @@ fn soft(case: &Case, estimate: &Estimate) -> Option<String> {
     })
 }
 
-fn hard(case: &Case, estimate: &Estimate) -> String {
-    let bears = |body: &Body| match body.hardness {
-        Hardness::Uniform(value) => value,
-        Hardness::Map(_) => 0.0,
-    };
-    let body = softer(bears(&case.lower), bears(&case.upper));
-    let pressure = |value| units::format(value, Dimension::Pressure);
-    format!(
-        "`hardness = {}` of the {body} body is above a tenth of E*, {}, and hardly any solid is so hard: check the \
-         units of `hardness` and `young`, or leave `hardness` out for an elastic body",
-        case.written(&format!("{body}.hardness")),
-        pressure(HARD * estimate.modulus)
-    )
+/// Warns of a body that is too hard for its modulus. A coating carries the pressure in place of the body.
+fn hard((name, body): (&str, &Body)) -> Option<String> {
+    let Hardness::Uniform(hardness) = body.hardness else { return None };
+    let bound = HARD * body.material.young / (1.0 - body.material.poisson.powi(2));
+    let is_hard = hardness.is_finite() && hardness > bound && body.material.coating.is_none();
+    let [hardness, bound] = [hardness, bound].map(|value| units::format(value, Dimension::Pressure));
+    is_hard.then(|| {
+        format!(
+            "the hardness of the {name} body, {hardness}, is above a tenth of its E/(1 − ν²), {bound}, and hardly any solid is so hard: \
+             check the units of `hardness` and `young`, or leave `hardness` out for an elastic body"
+        )
+    })
 }
 
 /// Name of the body with the smaller value.
@@ -125,6 +153,7 @@ fn softer(lower: f64, upper: f64) -> &'static str {
 
 #[cfg(test)]
 mod tests {
+    use super::GivenValue;
     use crate::case::Case;
     use crate::case::schema::{Bounds, Exists, Kind};
     use crate::estimate::estimate;
@@ -179,16 +208,15 @@ mod tests {
         let found = warnings("\"210 GPa\"", "", "[\"1 um\", \"2 mm\"]");
         assert!(found.len() == 2 && found[0].contains("is 2 mm, 2 times the most that exists"), "{found:?}");
         let found = warnings("\"70 GPa\"", "hardness = \"9 GPa\"", "\"0.5 um\"");
-        let words = ["`hardness = \"9 GPa\"` of the lower body", "7.69", "elastic"];
+        let words = ["the hardness of the lower body, 9 GPa,", "7.692 GPa", "elastic"];
         assert!(found.len() == 1 && words.iter().all(|word| found[0].contains(word)), "{found:?}");
     }
 
     /// The slip of the trade: a dimensionless number where 1/Pa is meant.
     #[test]
     fn wear_numbers_friction_adhesion_and_thermal_constants_are_held_against_what_exists() {
-        let said = |path: &str, text: &str| {
-            super::unheard_of(crate::case::schema::tables::declaration(path).unwrap(), path, text)
-        };
+        let said =
+            |path: &str, text: &str| super::unheard_of(&GivenValue::of(path, text.to_owned()).unwrap());
         for (path, text, words) in [
             (
                 "lower.wear.coefficient",
@@ -201,6 +229,10 @@ mod tests {
             ("adhesion.work", "\"50 J/m2\"", "was \"50 mJ/m2\" meant?"),
             ("flow.viscosity", "\"80 Pa s\"", "was \"80 mPa s\" meant?"),
             ("upper.conductivity", "0.046", "was \"0.046 W/(mm K)\" meant?"),
+            ("lower.topography.lay", "90", "was \"90 deg\" meant?"),
+            ("lower.fatigue.cycles", "1e10", "2 times the most that exists"),
+            ("flow.outlet", "\"1000 bar\"", "3.3 times the most that exists, vacuum pumps to gas cylinders"),
+            ("steady.speeds", "{ from = \"1 mm/s\", to = \"10 km/s\" }", "3.3 times the most that exists"),
             ("upper.density", "7.85", "was \"7.85 g/cm3\" meant?"),
             ("upper.heat_capacity", "0.46", "was \"0.46 J/(g K)\" meant?"),
         ] {
@@ -233,7 +265,10 @@ mod tests {
             if let Exists::Within { least, most, .. } = key.exists {
                 assert!(least < most);
                 if !key.example.is_empty() {
-                    assert_eq!(super::unheard_of(key, key.name, key.example), None);
+                    let value: toml::Table = toml::from_str(&format!("value = {}", key.example)).unwrap();
+                    let numbers = super::quantities(&value["value"], key.kind.dimension());
+                    let (path, text) = (key.name.to_owned(), key.example.to_owned());
+                    assert_eq!(super::unheard_of(&GivenValue { path, text, key, numbers }), None);
                 }
             }
         }

@@ -3,15 +3,12 @@
 use std::f64::consts::{PI, SQRT_2};
 
 use crate::case::Case;
-use crate::estimate::{Estimate, STEEP};
+use crate::estimate::{Estimate, STEEP, STRENGTH};
 use asperity_base::grid::Field;
 use asperity_base::units::{Kelvin, Metre, Pascal};
 use asperity_contact::motion::Pair;
 use asperity_contact::solver::Control;
 
-/// Share of E* that the pressure of elastic bodies may reach. The shear strength of a perfect crystal is about G/2π (Frenkel,
-/// Z. Phys. 37, 572 (1926)), and Hertz' contact has it below a pressure of about E*/10.
-const STRENGTH: f64 = 0.1;
 /// E* up to which bodies are rubbers and gels, which stay elastic at any strain.
 const RUBBER: Pascal = 1e8;
 /// Share of the cells at the hardness above which hardly a gap is left, as the share of the plastic limit in an estimate.
@@ -51,7 +48,8 @@ impl Bounds {
         let [dx, dy] = pair.pitch();
         let modulus = pair.modulus();
         let strength = STRENGTH * modulus;
-        let too_hard = pair.min_hardness().is_finite() && pair.min_hardness() > strength;
+        // A hardness that is not much larger caps the pressure.
+        let is_capped = (strength..=2.0 * strength).contains(&pair.min_hardness());
         let near = matches!(estimate.control, Control::Load(load) if load > NEAR_PLASTIC_LIMIT * estimate.plastic_limit);
         let sides = [pair.lower_grid(), pair.upper_grid()].map(|grid| grid.extent());
         let longest = sides.into_iter().flatten().fold(0.0, f64::max);
@@ -59,7 +57,7 @@ impl Bounds {
         Self {
             slope: unless(estimate.gap_slope > STEEP, STEEP),
             removal: if steep > 0.0 { steep.min(dx).min(dy) } else { dx.min(dy) },
-            pressure: unless(case.is_coated() || too_hard || modulus < RUBBER, strength),
+            pressure: unless(case.is_coated() || is_capped || modulus < RUBBER, strength),
             hardness: unless(near, NEAR_PLASTIC_LIMIT),
             temperature: MELTING,
             displacement: LARGE_DISPLACEMENT * longest,

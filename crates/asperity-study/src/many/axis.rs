@@ -10,6 +10,7 @@ use crate::case::document::join;
 use crate::case::schema::sweep::points_entry;
 use crate::case::schema::tables::dimension;
 use asperity_base::error::Result;
+use asperity_base::table::{Spacing, choice};
 use asperity_base::units::{self, Dimension};
 
 /// A key of the case and its values.
@@ -238,23 +239,24 @@ fn ranged(key: &str, entry: &Entry<'_>) -> Result<Vec<ValueInFile>> {
     }
     let [from, to] = ["from", "to"].map(|key| table.required(key, r#""1 N""#));
     let (from, to) = (from?, to?);
-    let ends = [end(&from)?, end(&to)?];
+    let mut ends = [end(&from)?, end(&to)?];
     if ends[0].1 != ends[1].1 {
-        let message = format!("the axis '{key}' is from {} to {}", from.literal()?, to.literal()?);
-        return Err(to.error(message, Some("give both ends in one unit".to_owned())));
+        let Some(dimension) = dimension(key) else {
+            let message = format!("the axis '{key}' is from {} to {}", from.literal()?, to.literal()?);
+            return Err(to.error(message, Some("give both ends in one unit".to_owned())));
+        };
+        ends = [(from.quantity(dimension)?, String::new()), (to.quantity(dimension)?, String::new())];
     }
+    let [(a, unit), (b, _)] = ends;
     let number = points_entry(&table)?.count(2)?;
-    let spacing = table.get("spacing").map_or(Ok(Spacing::Linear), |word| {
-        word.word(&[("linear", Spacing::Linear), ("log", Spacing::Log)])
-    })?;
-    let [(a, unit), (b, _)] = &ends;
-    if spacing == Spacing::Log && !(*a > 0.0 && *b > 0.0) {
+    let spacing = table.get("spacing").map_or(Ok(Spacing::Linear), |word| choice(&word))?;
+    if spacing == Spacing::Log && !(a > 0.0 && b > 0.0) {
         let hint = Some("give ends above 0, or leave `spacing` out".to_owned());
         return Err(
             from.error(format!("the axis '{key}' has a logarithmic spacing from or to 0 or less"), hint)
         );
     }
-    let numbers = spaced([*a, *b], number, spacing);
+    let numbers = spaced([a, b], number, spacing);
     let whole = from.literal()?.is_integer() && to.literal()?.is_integer();
     let whole = whole && numbers.iter().all(|number| number.fract() == 0.0);
     let value = |number: f64| match unit.as_str() {
@@ -263,12 +265,6 @@ fn ranged(key: &str, entry: &Entry<'_>) -> Result<Vec<ValueInFile>> {
         unit => Value::String(format!("{number} {unit}")),
     };
     Ok(numbers.into_iter().map(|number| at(value(number))).collect())
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Spacing {
-    Linear,
-    Log,
 }
 
 /// Returns `count` numbers from one end to the other, both included, rounded to twelve digits in between.
@@ -313,12 +309,43 @@ fn split(text: &str) -> Option<(f64, &str)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::document::Document;
 
     #[test]
     fn ranges_meet_their_ends_and_are_round_between_them() {
         assert_eq!(spaced([0.05, 0.3], 6, Spacing::Linear), [0.05, 0.1, 0.15, 0.2, 0.25, 0.3]);
         assert_eq!(spaced([1.0, 1000.0], 4, Spacing::Log), [1.0, 10.0, 100.0, 1000.0]);
         assert_eq!(spaced([5.0, 1.0], 2, Spacing::Linear), [5.0, 1.0]);
+    }
+
+    #[test]
+    fn a_range_has_ends_in_any_prefix() {
+        let axis = |key: &str, range: &str| {
+            let text = format!("\"{key}\" = {range}");
+            let mut document = Document::default();
+            let entries = document.parse(&text).unwrap();
+            let axis = axes(&Table::root(&document, entries.get_ref())).unwrap().remove(0);
+            (0..axis.len())
+                .map(|index| format!("{} = {}", axis.text(index), axis.value(index)))
+                .collect::<Vec<_>>()
+        };
+        let log = "points = 3, spacing = \"log\"";
+        assert_eq!(
+            axis("steady.speed", &format!("{{ from = \"1 mm/s\", to = \"10 m/s\", {log} }}")),
+            ["1 mm/s = 0.001", "100 mm/s = 0.1", "10 m/s = 10.0"]
+        );
+        assert_eq!(
+            axis("contact.load", "{ from = 1, to = \"3000 mN\", points = 3 }"),
+            ["1 N = 1.0", "2 N = 2.0", "3 N = 3.0"]
+        );
+        assert_eq!(
+            axis("temperature.bulk", "{ from = \"20 °C\", to = \"300 K\", points = 2 }"),
+            ["293 K = 293.15", "300 K = 300.0"]
+        );
+        assert_eq!(
+            axis("lower.viscoelastic.moduli.0", "{ from = \"100 kPa\", to = \"1 MPa\", points = 2 }"),
+            ["100 kPa = 100000.0", "1 MPa = 1000000.0"]
+        );
     }
 
     #[test]

@@ -123,28 +123,38 @@ fn inner<'v>(value: &'v Value, key: &str) -> Option<&'v Value> {
     }
 }
 
-/// Inserts a value under a dotted key, through tables, which are created if missing, and arrays of tables:
-/// `history.0.load`.
+/// Inserts a value under a dotted key, through tables, which are created if missing, and lists: `history.0.load`, `subsurface.planes.0`.
 fn set(table: &mut toml::Table, key: &str, value: Value) -> std::result::Result<(), String> {
     let (first, rest) = key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
     let Some(rest) = rest else {
         table.insert(first.to_owned(), value);
         return Ok(());
     };
-    match table.entry(first).or_insert_with(|| Value::Table(toml::Table::new())) {
-        Value::Table(inner) => set(inner, rest, value),
-        Value::Array(items) => {
-            let (index, rest) = rest.split_once('.').unwrap_or((rest, ""));
-            let count = items.len();
-            let item = index.parse::<usize>().ok().and_then(|index| items.get_mut(index));
-            match item {
-                Some(Value::Table(inner)) if !rest.is_empty() => set(inner, rest, value),
-                _ => Err(format!(
-                    "'{first}' in the base is a list of {count}, expected '{first}.0.…' and so on"
-                )),
-            }
+    set_within(table.entry(first).or_insert_with(|| Value::Table(toml::Table::new())), first, rest, value)
+}
+
+/// Inserts a value under a dotted key within the value of the key `name`.
+fn set_within(within: &mut Value, name: &str, key: &str, value: Value) -> std::result::Result<(), String> {
+    let items = match within {
+        Value::Table(inner) => return set(inner, key, value),
+        Value::Array(items) => items,
+        _ => return Err(format!("'{name}' in the base is no table and no list, so that nothing lies in it")),
+    };
+    let (index, rest) = key.split_once('.').map_or((key, None), |(index, rest)| (index, Some(rest)));
+    let (count, last) = (items.len(), items.len().saturating_sub(1));
+    let item = index.parse::<usize>().ok().and_then(|index| items.get_mut(index));
+    match (item, rest) {
+        (Some(item), Some(rest)) => set_within(item, &format!("{name}.{index}"), rest, value),
+        (Some(item), None) if item.is_table() == value.is_table() => {
+            *item = value;
+            Ok(())
         }
-        _ => Err(format!("'{first}' in the base is no table, so that nothing lies in it")),
+        (Some(_), None) => {
+            Err(format!("'{name}.{index}' in the base is a table, expected a key of it: '{name}.{index}.…'"))
+        }
+        (None, _) => {
+            Err(format!("'{name}' in the base is a list of {count}, expected '{name}.0' to '{name}.{last}'"))
+        }
     }
 }
 
@@ -209,7 +219,7 @@ mod tests {
 
     #[test]
     fn values_find_their_place_and_files_are_seen_from_the_case() {
-        let text = "[lower]\ntopography = { file = \"a.npy\" }\n[[history]]\nload = 1\n";
+        let text = "[lower]\ntopography = { file = \"a.npy\" }\nmoduli = [1, 1]\ncurve = [[0, 1], [1, 1]]\n[[history]]\nload = 1\n";
         let base = Base::new(
             toml::from_str(text).unwrap(),
             ["there", "here"].map(Path::new),
@@ -221,8 +231,27 @@ mod tests {
         set(&mut table, "friction.coefficient", Value::Float(0.1)).unwrap();
         assert_eq!(table["history"][0]["load"].as_integer(), Some(2));
         assert_eq!(table["friction"]["coefficient"].as_float(), Some(0.1));
-        assert!(set(&mut table, "history.1.load", Value::Integer(2)).is_err());
-        assert!(set(&mut table, "history.0", Value::Integer(2)).is_err());
+        set(&mut table, "lower.moduli.1", Value::Integer(2)).unwrap();
+        set(&mut table, "lower.curve.1.0", Value::Integer(2)).unwrap();
+        assert_eq!(table["lower"]["moduli"].to_string(), "[1, 2]");
+        assert_eq!(table["lower"]["curve"].to_string(), "[[0, 1], [2, 1]]");
+        let refused = |table: &mut toml::Table, key| set(table, key, Value::Integer(2)).unwrap_err();
+        assert_eq!(
+            refused(&mut table, "history.1.load"),
+            "'history' in the base is a list of 1, expected 'history.0' to 'history.0'"
+        );
+        assert_eq!(
+            refused(&mut table, "history.0"),
+            "'history.0' in the base is a table, expected a key of it: 'history.0.…'"
+        );
+        assert_eq!(
+            refused(&mut table, "lower.moduli.first"),
+            "'moduli' in the base is a list of 2, expected 'moduli.0' to 'moduli.1'"
+        );
+        assert_eq!(
+            refused(&mut table, "lower.moduli.0.x"),
+            "'moduli.0' in the base is no table and no list, so that nothing lies in it"
+        );
         assert!(set(&mut table, "lower.topography.file.name", Value::Integer(2)).is_err());
         assert!(base.has("lower.topography.file") && base.has("history.0") && !base.has("history.1"));
 

@@ -3,7 +3,8 @@
 use toml::Value;
 
 use super::axis::{Axis, number};
-use crate::case::cursor::{Entry, Table, did_you_mean};
+use crate::case::cursor::{Entry, Table};
+use asperity_base::choice::did_you_mean;
 use asperity_base::error::Result;
 
 /// A table `[[exclude]]`.

@@ -232,7 +232,10 @@ impl Study {
     fn located(&self, case: usize, error: &CaseError) -> Error {
         let of_axis = |axis: &Axis| {
             let (axis, key) = (axis.key(), error.key.as_str());
-            axis == key || beneath(key, axis) || beneath(axis, key) && !self.file.base.has(key)
+            let is_element = || axis.rsplit('.').next().is_some_and(|last| last.parse::<usize>().is_ok());
+            axis == key
+                || beneath(key, axis)
+                || beneath(axis, key) && (is_element() || !self.file.base.has(key))
         };
         match self.axes().iter().position(of_axis) {
             Some(axis) => self.error_at(case, axis, &error.message, error.hint.clone()),

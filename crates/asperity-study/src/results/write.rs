@@ -17,7 +17,7 @@ use crate::{identity, summary};
 use asperity_base::choice::Choice;
 use asperity_base::error::Result;
 use asperity_base::grid::Placement;
-use asperity_contact::motion::{Pair, PlasticResult, PlasticVolume};
+use asperity_contact::motion::{Pair, PassRecord, PlasticResult, PlasticVolume};
 use asperity_contact::solver::Friction;
 use asperity_contact::subsurface::Tractions;
 use asperity_contact::with::plasticity::Keep;
@@ -53,13 +53,19 @@ impl Writer {
         lock: Option<Lock>,
     ) -> Result<Self> {
         let (lock, kept) = entry::enter(directory, case, existing, lock)?;
-        Ok(Self {
-            results: Results { directory: directory.to_owned() },
-            case: case.clone(),
-            identity: identity::of(case),
-            kept,
-            lock,
-        })
+        let results = Results { directory: directory.to_owned() };
+        let mut case = case.clone();
+        if let (ExistingResults::Passes(_), Some(passes)) = (kept, case.pointer_mut("/motion/passes")) {
+            // Finished passes beyond those of the case stay.
+            let finished: usize = results.passes()?.iter().map(PassRecord::represents).sum();
+            *passes = passes.as_u64().unwrap_or(0).max(finished as u64).into();
+        }
+        Ok(Self { results, identity: identity::of(&case), case, kept, lock })
+    }
+
+    /// The case of the results, the content of `case.json`: it has at least as many passes as are finished.
+    pub(crate) fn case(&self) -> &Value {
+        &self.case
     }
 
     /// Clears replaced files and remains of killed runs, and writes `case.json`.

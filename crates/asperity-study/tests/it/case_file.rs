@@ -8,6 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use asperity_base::Error;
+use asperity_base::beside::Beside;
 use asperity_base::units::{Dimension, format, format_number};
 use asperity_contact::material::{MATERIALS, NamedMaterial};
 use asperity_study::Case;
@@ -81,23 +82,54 @@ fn what_exists_of_each_quantity_is_in_the_documents() {
             Some(dimension) => format(value, dimension),
             None => format_number(value),
         });
-        // Both bodies have the same keys.
-        let table = section
-            .tables
-            .first()
-            .map_or(String::new(), |table| table.replace("lower.", "….").replace("lower", "…"));
-        let row = format!("| `{table}.{}` | {least} … {most} | {of} |\n", key.name);
+        let row = format!("| `{}.{}` | {least} … {most} | {of} |\n", body_left_out(section), key.name);
         if !rows.contains(&row) {
             rows.push(row);
         }
     }
     let table = format!("\n| key | exists | from, to |\n|---|---|---|\n{}", rows.concat());
-    let written = format!("{before}<!-- ranges -->\n{table}{after}");
+    let written = format!("{before}<!-- ranges -->\n{table}\n{}{after}", beside());
     if std::env::var_os("UPDATE_DOCS").is_some() {
         fs::write(&path, &written).unwrap();
     } else {
         assert!(page == written, "docs/warnings.md is not as the program has it; UPDATE_DOCS=1");
     }
+}
+
+/// Returns the table of the quantities beside which values are judged.
+fn beside() -> String {
+    let mut rows: Vec<String> = Vec::new();
+    for section in asperity_study::keys() {
+        for key in section.keys.iter().filter(|key| !key.beside.is_empty()) {
+            let [mut below, mut above] = [String::new(), String::new()];
+            for Beside { scale, least, most, meaning } in key.beside {
+                let [small, large] = scale.words();
+                let times = |factor: f64| {
+                    if factor == 1.0 { String::new() } else { format!("{} × ", format_number(factor)) }
+                };
+                if *least > 0.0 {
+                    below = format!("{}{small}: {}", times(*least), meaning[0]);
+                }
+                if most.is_finite() {
+                    above = format!("{}{large}: {}", times(*most), meaning[1]);
+                }
+            }
+            let row = format!("| `{}.{}` | {below} | {above} |\n", body_left_out(section), key.name);
+            if !rows.contains(&row) {
+                rows.push(row);
+            }
+        }
+    }
+    format!(
+        "These values are judged beside others of the case:\n\n| key | below | above |\n|---|---|---|\n{}",
+        rows.concat()
+    )
+}
+
+/// Returns the first table of a section, without the name of the body: both bodies have the same keys.
+fn body_left_out(section: &Section) -> String {
+    let table = section.tables.first();
+    table.map_or(String::new(), |table| table.replace("lower.", "….").replace("lower", "…"))
 }
 
 #[test]

@@ -15,6 +15,7 @@ mod kinematics;
 mod limits;
 mod loading;
 mod passage;
+mod plausible;
 mod python_keys;
 mod real_surface;
 mod resume;

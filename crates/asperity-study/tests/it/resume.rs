@@ -162,3 +162,54 @@ fn a_run_from_the_surfaces_of_a_pass_does_what_the_next_pass_did() {
         }
     }
 }
+
+#[test]
+fn a_finished_contact_that_is_resumed_has_the_same_bytes() {
+    let rubber = "viscoelastic = { moduli = [\"9 MPa\", \"90 MPa\"], times = [\"10 ms\", \"0.2 ms\"] }";
+    let wear = "wear = { coefficient = \"1e-6 mm3/(N m)\" }";
+    let load = "contact = { load = \"2 mN\" }\n";
+    let rubbing = "friction = { coefficient = 0.3 }\n";
+    for (lower, keys) in [
+        (
+            rubber,
+            "contact = { mean_pressure = \"50 kPa\", boundary = \"periodic\" }\nsteady = { speeds = { from = \"1 mm/s\", to = \"1 m/s\", points = 4 } }",
+        ),
+        (
+            rubber,
+            &format!(
+                "{load}[[history]]\nload = \"4 mN\"\nduration = \"5 ms\"\n[[history]]\ndwell = \"20 ms\""
+            ),
+        ),
+        ("", "contact = { loads = { from = \"1 mN\", to = \"100 mN\", points = 3 } }"),
+        ("", "contact = { approaches = { from = \"1 nm\", to = \"20 nm\", points = 3 } }"),
+        (
+            "",
+            "contact = { loads = [\"1 mN\", \"5 mN\"] }\nadhesion = { work = \"50 mJ/m2\", range = \"grid\" }",
+        ),
+        ("", &format!("{load}friction = {{ coefficient = 0.3, creepages = [0.0001, 0.001, 0.01] }}")),
+        (wear, &format!("{load}{rubbing}sliding = {{ distance = \"1 m\", updates = 3 }}")),
+        (wear, &format!("{load}{rubbing}[[history]]\nforce = \"0.2 mN\"\nincrements = 3\ncycles = 2")),
+    ] {
+        let case = format!(
+            r#"
+lower = {{ young = "1 MPa", poisson = 0.5, {lower}{comma}topography = {{ form = "flat", shape = [16, 16], pitch = "10 um" }} }}
+upper = {{ young = "1 GPa", poisson = 0.3, topography = {{ form = "sphere", radius = "5 mm" }} }}
+{keys}
+"#,
+            comma = if lower.is_empty() { "" } else { ", " }
+        );
+        let folder = tempfile::tempdir().unwrap();
+        let files = |existing| {
+            let results = run(&folder, &case, "out", existing);
+            let paths = fs::read_dir(results.directory()).unwrap().map(|entry| entry.unwrap().path());
+            let is_content = |path: &Path| path.is_file() && !path.ends_with("summary.json");
+            let content = |path: std::path::PathBuf| (path.clone(), fs::read(path).unwrap());
+            paths.filter(|path| is_content(path)).map(content).collect::<BTreeMap<_, _>>()
+        };
+        let (finished, resumed) = (files(Existing::Keep), files(Existing::Resume));
+        assert!(finished.keys().eq(resumed.keys()) && finished.len() > 2, "{keys}");
+        for (path, bytes) in finished {
+            assert!(resumed[&path] == bytes, "{keys}: {}", path.display());
+        }
+    }
+}

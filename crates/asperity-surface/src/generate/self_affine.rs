@@ -12,13 +12,13 @@ use serde::Serialize;
 use super::check_sq;
 use crate::Topography;
 use asperity_base::error::{Error, Result, check, check_in};
-use asperity_base::exists;
 use asperity_base::grid::Grid;
 use asperity_base::math::RealFft2;
 use asperity_base::math::fft::angular_frequency;
 use asperity_base::math::parallel;
 use asperity_base::table::{Source, require};
 use asperity_base::units::{Dimension, Metre};
+use asperity_base::{beside, exists};
 use asperity_derive::Part;
 
 /// Periodic heights with the spectrum |ẑ(q)|² ∝ q^(−2−2H) from the roll-off to the shortest wave, constant for longer waves
@@ -51,7 +51,8 @@ pub struct SelfAffine {
         range = AboveZero,
         absent = "none: the law holds up to the longest wave",
         example = "\"32 um\"",
-        exists = exists::LENGTH
+        exists = exists::LENGTH,
+        beside = [beside::LONG]
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rolloff: Option<Metre>,

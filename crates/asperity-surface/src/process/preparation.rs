@@ -7,11 +7,12 @@ use super::turn::rotated;
 use super::window::within;
 use super::{Fill, Filter, Interpolation, Level, Round};
 use crate::{Axis, NEVER, Stop, Topography, check_stop};
+use asperity_base::choice::near;
 use asperity_base::error::{Result, check_in};
-use asperity_base::exists;
 use asperity_base::grid::Grid;
 use asperity_base::table::{Key, Kind, Source, Value, cells, list, require};
 use asperity_base::units::{Dimension, Metre};
+use asperity_base::{beside, exists};
 use asperity_derive::Part;
 
 /// Preparation steps of a topography; none by default.
@@ -72,7 +73,7 @@ pub struct Preparation {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub s_filter: Option<Metre>,
     /// L-filter: nesting index above which waves are removed, at least two pitches.
-    #[key(quantity = Length, range = AboveZero, absent = "none", example = "\"0.8 mm\"", exists = exists::LENGTH)]
+    #[key(quantity = Length, range = AboveZero, absent = "none", example = "\"0.8 mm\"", exists = exists::LENGTH, beside = [beside::LONG])]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub l_filter: Option<Metre>,
     /// Kind of both filters.
@@ -223,7 +224,7 @@ fn level(value: &dyn Value, _: &Key) -> Result<Level> {
         let hint = format!("the order of a polynomial is from 0 to {}", Level::MAX_ORDER);
         return Err(value.unexpected("a polynomial such as \"polynomial-3\"", Some(&hint)));
     }
-    value.word(&Level::WORDS).map(|_| Level::None)
+    value.word(&Level::WORDS, &near(&Level::WORDS)).map(|_| Level::None)
 }
 
 /// Reads the numbers of cells to resample to.

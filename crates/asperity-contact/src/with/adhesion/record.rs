@@ -65,6 +65,12 @@ impl AdhesionSummary {
         }
     }
 
+    /// Returns the largest force, pressure and energy among the numbers, 0 where they are unknown.
+    pub fn scales(&self) -> [f64; 3] {
+        let known = |value: Option<f64>| value.map_or(0.0, f64::abs);
+        [known(self.pull_off), self.max_tension, known(self.work_of_separation)]
+    }
+
     /// Adds what a retreat shows: the increments over which the approach falls. It goes beyond the pull-off where the load rises again,
     /// or the surfaces do not touch any more.
     pub fn after(self, increments: &[IncrementRecord]) -> Self {

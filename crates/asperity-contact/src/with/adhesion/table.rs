@@ -6,6 +6,8 @@ use crate::adhesion::{Adhesion, History, Potential};
 use crate::error::Result;
 use crate::grid::Grid;
 use crate::units::{Dimension, JoulePerSquareMetre, Metre, Pascal};
+use asperity_base::beside::{Beside, Scale};
+use asperity_base::choice::near;
 use asperity_base::table::{Bounds, Exists, Key, Kind, Value};
 use asperity_derive::Table;
 
@@ -23,7 +25,8 @@ pub struct Attraction {
         form = "length > 0, or `\"grid\"`: the shortest range that the grid resolves",
         dimension = Length,
         example = "\"2 nm\"",
-        exists = RANGE
+        exists = RANGE,
+        beside = [Beside::most(Scale::FreeSide, 0.2, "the attraction ends at the rim of the grid")]
     )]
     pub range: AdhesionRange,
     /// Tension as a function of the gap: `"exponential"`, or constant up to the range, for comparison with closed forms.
@@ -36,9 +39,9 @@ pub struct Attraction {
     pub history: History,
 }
 
-/// Israelachvili, Intermolecular and Surface Forces: 10 mJ/m² in liquids to some J/m² of clean metals.
+/// Israelachvili, Intermolecular and Surface Forces: 0.1 mJ/m² in liquids to some J/m² of clean metals.
 const WORK: Exists =
-    Exists::Within { least: 1e-5, most: 10.0, of: "solids in liquids to clean metals", slips: &["mJ/m2"] };
+    Exists::Within { least: 1e-4, most: 10.0, of: "solids in liquids to clean metals", slips: &["mJ/m2"] };
 const RANGE: Exists =
     Exists::Within { least: 1e-11, most: 1e-4, of: "atoms to capillary bridges", slips: &["nm"] };
 
@@ -88,7 +91,7 @@ fn range(value: &dyn Value, key: &Key) -> Result<AdhesionRange> {
         Ok(GRID) => Ok(AdhesionRange::Grid),
         // No word is a length.
         Ok(word) if !word.contains(|c: char| c.is_ascii_digit()) => {
-            let hint = value.similar(word, &[GRID]);
+            let hint = near(&[GRID])(word);
             Err(value.unexpected("a length above 0 such as \"2 nm\", or \"grid\"", hint.as_deref()))
         }
         _ => {

@@ -115,7 +115,7 @@ const GAS: Exists =
     Exists::Within { least: 1e-3, most: 1.0, of: "heavy vapours to hydrogen", slips: &["mW/(m K)"] };
 /// Temperature jump distances.
 const JUMP: Exists =
-    Exists::Within { least: 1e-10, most: 1.0, of: "compressed to rarefied gases", slips: &["um", "nm"] };
+    Exists::Within { least: 1e-9, most: 1.0, of: "compressed to rarefied gases", slips: &["um", "nm"] };
 
 fn is_zero(value: &f64) -> bool {
     *value == 0.0

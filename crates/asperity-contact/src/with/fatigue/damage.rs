@@ -16,18 +16,18 @@ impl Basquin {
     /// below the limit.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless both are above 0.
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless both are above 0, and the exponent at most 100.
     pub fn new(exponent: f64, cycles: f64, endurance: bool) -> Result<Self> {
-        check("exponent", exponent, exponent > 0.0 && exponent.is_finite(), "a number above 0")?;
+        check("exponent", exponent, exponent > 0.0 && exponent <= 100.0, "a number above 0, at most 100")?;
         check("cycles", cycles, cycles > 0.0 && cycles.is_finite(), "a number above 0")?;
         Ok(Self { exponent, cycles, endurance })
     }
 
-    /// Damage of a pass in which f is this multiple of its limit.
+    /// Damage of a pass in which f is this multiple of its limit, at most 1e200.
     pub fn damage(&self, over_limit: f64) -> f64 {
         match over_limit {
             over if over <= 0.0 || self.endurance && over < 1.0 => 0.0,
-            over => over.powf(self.exponent) / self.cycles,
+            over => (over.powf(self.exponent) / self.cycles).min(1e200),
         }
     }
 }
@@ -101,6 +101,8 @@ mod tests {
         let endures = Basquin::new(10.0, 2e6, true).unwrap();
         assert!(endures.damage(0.999) == 0.0 && endures.damage(1.0) == steel.damage(1.0));
         assert!(Basquin::new(0.0, 1.0, false).is_err() && Basquin::new(1.0, f64::NAN, false).is_err());
+        assert!(Basquin::new(101.0, 1.0, false).is_err());
+        assert_eq!(Basquin::new(100.0, 1.0, false).unwrap().damage(1e6), 1e200);
     }
 
     #[test]

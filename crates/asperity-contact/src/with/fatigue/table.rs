@@ -6,6 +6,7 @@ use super::{Basquin, DangVan};
 use crate::error::Result;
 use crate::units::{Metre, Pascal};
 use crate::with::BodyProperty;
+use asperity_base::beside::{Beside, DEEPEST, DEPTH, Scale};
 use asperity_base::exists;
 use asperity_base::table::{Bounds, Exists, Key, Kind, Source, Value, list, require};
 use asperity_derive::Table;
@@ -16,7 +17,7 @@ use asperity_derive::Table;
 #[non_exhaustive]
 pub struct Fatigue {
     /// Largest depth, below which nothing is looked at.
-    #[key(quantity = Length, range = AboveZero, example = "\"8 um\"", exists = exists::LAYER)]
+    #[key(quantity = Length, range = AboveZero, example = "\"8 um\"", exists = exists::LAYER, beside = [DEPTH, DEEPEST])]
     pub to: Metre,
     /// Number of depths, geometric from half a cell to the largest.
     #[key(count = 1, default = 8, example = "12")]
@@ -45,13 +46,19 @@ pub struct FatigueLimits {
     #[key(quantity = Pressure, range = AboveZero, example = "\"350 MPa\"", exists = STRENGTH)]
     pub torsion: Pascal,
     /// Limit σ₋₁ in alternating tension: an amplitude, at most twice that in torsion.
-    #[key(quantity = Pressure, range = AboveZero, example = "\"600 MPa\"", exists = STRENGTH)]
+    #[key(quantity = Pressure, range = AboveZero, example = "\"600 MPa\"", exists = STRENGTH, beside = [TENSION])]
     pub tension: Pascal,
     /// Exponent m of Basquin's law: a pass does the damage (f/b)^m/N₀.
-    #[key(number = "a number", range = AboveZero, default = 10.0, example = "8")]
+    #[key(
+        number = "a number",
+        range = Between { least: 0.0, most: 100.0, open: [true, false] },
+        default = 10.0,
+        example = "8",
+        exists = EXPONENT
+    )]
     pub exponent: f64,
     /// Cycles N₀ that a material endures at the limit.
-    #[key(number = "a number", range = AboveZero, default = 2e6, example = "1e7")]
+    #[key(number = "a number", range = AboveZero, default = 2e6, example = "1e7", exists = CYCLES)]
     pub cycles: f64,
     /// Whether there is no damage below the limit.
     #[key(flag, default = false, example = "true")]
@@ -63,7 +70,8 @@ pub struct FatigueLimits {
         default = 0.0,
         written = "\"0 um\"",
         example = "\"5 um\"",
-        exists = Exists::Any("a choice of the user: how deep a crack counts as a micropit")
+        exists = Exists::Any("a choice of the user: how deep a crack counts as a micropit"),
+        beside = [DEPTH, DEEPEST]
     )]
     pub pit_depth: Metre,
     /// Whether the life is compared to that of the bodies without their roughness.
@@ -74,6 +82,14 @@ pub struct FatigueLimits {
 /// Ashby, Materials Selection in Mechanical Design: endurance limits of soft polymers to hardened steels, with a margin.
 const STRENGTH: Exists =
     Exists::Within { least: 1e5, most: 5e9, of: "soft polymers to hardened steels", slips: &["MPa"] };
+
+/// Stephens, Fatemi, Stephens, Fuchs, Metal Fatigue in Engineering: 3 of welds to about 25 of smooth steel and ceramics.
+const EXPONENT: Exists = Exists::Within { least: 2.0, most: 40.0, of: "welds to ceramics", slips: &[] };
+const CYCLES: Exists =
+    Exists::Within { least: 3e4, most: 5e9, of: "the knee of soft metals to very high cycles", slips: &[] };
+/// A brittle material fails under the same amplitude of the largest stress, so that both limits are equal.
+const TENSION: Beside =
+    Beside::least(Scale::Key("torsion"), 0.8, "no material bears more torsion than tension");
 
 fn passes(value: &dyn Value, key: &Key) -> Result<Vec<usize>> {
     let one = |item: &dyn Value| match item.real(key, &Kind::Number("a whole number", Bounds::AboveZero))? {

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::error::{Result, check_in};
 use crate::units::{CubicMetre, Dimension, Joule, Kelvin, Metre, MetrePerSecond, Pascal, PerPascal, Range};
+use asperity_base::beside::{Beside, Scale};
 use asperity_base::choice::choice;
 use asperity_base::exists::{HARDNESS, VOLUME_PER_WORK};
 use asperity_base::table::{Exists, Source, Table as _, require};
@@ -19,7 +20,7 @@ pub struct Film {
     #[serde(flatten)]
     pub law: FilmLaw,
     /// Upper limit of the film thickness.
-    #[key(quantity = Length, range = AboveZero, example = "\"150 nm\"", exists = THICKNESS)]
+    #[key(quantity = Length, range = AboveZero, example = "\"150 nm\"", exists = THICKNESS, beside = [THIN])]
     pub max_thickness: Metre,
     /// Hardness under the thickest film, at most the hardness of the body; interpolated linearly in the thickness.
     #[key(
@@ -27,7 +28,8 @@ pub struct Film {
         range = AboveZero,
         absent = "the hardness of the body",
         example = "\"2 GPa\"",
-        exists = HARDNESS
+        exists = HARDNESS,
+        beside = [Beside::least(Scale::Hardness, 1e-3, "hardly any film is so soft")]
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hardness: Option<Pascal>,
@@ -56,10 +58,10 @@ pub enum FilmLaw {
         #[key(quantity = Pressure, range = FromZero, example = "\"3 GPa\"", exists = STRESS)]
         at_stress: Pascal,
         /// Activation energy of the growth.
-        #[key(quantity = Energy, range = Within(ENERGIES, true), example = "\"0.8 eV\"")]
+        #[key(quantity = Energy, range = Within(ENERGIES, true), example = "\"0.8 eV\"", exists = ENERGY)]
         activation_energy: Joule,
         /// Activation volume of the growth.
-        #[key(quantity = Volume, range = Within(VOLUMES, true), example = "\"3.8e-3 nm3\"")]
+        #[key(quantity = Volume, range = Within(VOLUMES, true), example = "\"3.8e-3 nm3\"", exists = VOLUME)]
         activation_volume: CubicMetre,
         /// Stress that activates the growth; `"shear"` requires \[friction\].
         #[key(choice, default = FilmStress::Pressure, example = "\"shear\"")]
@@ -115,20 +117,26 @@ const FACTORS: Range = Range { least: 1e-45, most: 1.0, unit: "" };
 /// Accepted rates C₄ of the mechano-chemical law, besides 0.
 const RATES: Range = Range { least: 1e-15, most: 1e15, unit: "1/s" };
 
+/// Tribofilms have 0.5 eV to 1.5 eV and some Å³ to some 10 Å³: N. N. Gosvami et al., Science 348, 102 (2015).
+const ENERGY: Exists =
+    Exists::Within { least: 5e-21, most: 2e-18, of: "diffusion to chemical bonds", slips: &["eV"] };
+const VOLUME: Exists = Exists::Within {
+    least: 1e-31,
+    most: 1e-27,
+    of: "parts of an atom to segments of polymers",
+    slips: &["nm3"],
+};
+const THIN: Beside = Beside::most(Scale::Side, 0.1, "a film is thin beside its body");
 const THICKNESS: Exists = Exists::Within {
-    least: 1e-10,
+    least: 2e-10,
     most: 1e-3,
     of: "a layer of atoms to thick coatings",
     slips: &["nm", "um"],
 };
 const GROWTH: Exists =
     Exists::Within { least: 1e-16, most: 1e-3, of: "slow tribofilms to plating", slips: &["nm/s"] };
-const STRESS: Exists = Exists::Within {
-    least: 1e3,
-    most: 1e12,
-    of: "traffic on rubber to diamond anvils",
-    slips: &["GPa", "MPa"],
-};
+const STRESS: Exists =
+    Exists::Within { least: 1e5, most: 1e11, of: "soft polymers to diamond", slips: &["GPa", "MPa"] };
 const REMOVAL: Exists =
     Exists::Within { least: 1e-22, most: 1e-3, of: "lubricated films to brushes", slips: &[] };
 

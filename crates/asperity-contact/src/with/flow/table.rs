@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::{Along, Ends, Fluid};
 use crate::operator::Boundary;
 use crate::units::{Pascal, PascalSecond};
+use asperity_base::beside::{Beside, Scale};
 use asperity_base::exists;
 use asperity_base::table::Exists;
 use asperity_derive::Table;
@@ -18,7 +19,7 @@ pub struct Leakage {
     #[key(quantity = Viscosity, range = AboveZero, example = "\"80 mPa s\"", exists = VISCOSITY)]
     pub viscosity: PascalSecond,
     /// Pressure difference that drives the leakage.
-    #[key(quantity = Pressure, range = FromZero, default = 1e5, example = "\"1 bar\"", exists = PRESSURE)]
+    #[key(quantity = Pressure, range = FromZero, default = 1e5, example = "\"1 bar\"", exists = PRESSURE, beside = [LIFTS])]
     pub pressure: Pascal,
     /// Direction of the pressure gradient.
     #[key(choice, default = Along::Both, example = "\"x\"")]
@@ -41,7 +42,7 @@ pub struct Leakage {
         range = AboveZero,
         absent = "with a gas: must be given",
         example = "\"1 bar\"",
-        exists = PRESSURE
+        exists = OUTLET
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub outlet: Option<Pascal>,
@@ -57,7 +58,7 @@ pub struct Leakage {
 
 /// Viscosities.
 const VISCOSITY: Exists =
-    Exists::Within { least: 1e-6, most: 30.0, of: "gases to cold gear oils", slips: &["mPa s", "uPa s"] };
+    Exists::Within { least: 3e-6, most: 30.0, of: "gases to cold gear oils", slips: &["mPa s", "uPa s"] };
 /// Pressures of fluids.
 const PRESSURE: Exists = Exists::Within {
     least: 1e-3,
@@ -65,6 +66,11 @@ const PRESSURE: Exists = Exists::Within {
     of: "vacuum pumps to elastohydrodynamic contacts",
     slips: &["bar", "MPa"],
 };
+
+/// Pressures of gases that are ideal.
+const OUTLET: Exists =
+    Exists::Within { least: 1e-3, most: 3e7, of: "vacuum pumps to gas cylinders", slips: &["bar", "mbar"] };
+const LIFTS: Beside = Beside::most(Scale::MeanPressure, 1.0, "the fluid lifts the bodies, which is left out");
 
 impl Leakage {
     /// Returns the fluid with the difference of its pressure.

@@ -2,7 +2,7 @@
 
 use super::{Along, FlowRecord, Leakage};
 use crate::surface::Axis;
-use crate::units::{Dimension, Metre, format, format_number};
+use crate::units::{Dimension, Metre, Multiple, format, format_number};
 use crate::with::Surroundings;
 use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Scale, Series, closing};
 use asperity_base::Choice;
@@ -94,22 +94,27 @@ pub(super) fn describe(leakage: &Leakage, surroundings: &Surroundings) -> String
 
 pub(super) fn answers(leakage: &Leakage, rows: &[FlowRecord]) -> Vec<Answer> {
     let last = rows.last().and_then(|row| row.pass);
+    // Both directions in one unit, that of the largest pressure at which fluid leaks.
+    let leaking = || rows.iter().filter(|row| row.pass == last && row.leakage > 0.0);
+    let pressed = leaking().map(|row| row.mean_pressure).fold(f64::NEG_INFINITY, f64::max);
+    let most = leaking().filter(|row| last.is_some() || row.mean_pressure == pressed).map(|row| row.leakage);
+    let unit = Dimension::VolumeFlow.multiple(most.fold(0.0, f64::max));
     let along = |axis: Axis| {
         if last.is_some() {
-            return of_pass(axis, rows.iter().filter(|row| row.pass == last && row.along == axis));
+            return of_pass(axis, &unit, rows.iter().filter(|row| row.pass == last && row.along == axis));
         }
         let mut rows: Vec<&FlowRecord> = rows.iter().filter(|row| row.along == axis).collect();
         rows.sort_by(|one, other| one.mean_pressure.total_cmp(&other.mean_pressure));
-        answer(leakage, axis, &rows)
+        answer(leakage, axis, &unit, &rows)
     };
     [Axis::X, Axis::Y].into_iter().filter_map(along).collect()
 }
 
 /// Returns what leaks along an axis, from rows with rising mean pressures.
-fn answer(leakage: &Leakage, axis: Axis, rows: &[&FlowRecord]) -> Option<Answer> {
+fn answer(leakage: &Leakage, axis: Axis, unit: &Multiple, rows: &[&FlowRecord]) -> Option<Answer> {
     let (least, most) = (rows.first()?, rows.last()?);
     let pressure = |row: &FlowRecord| format(row.mean_pressure, Dimension::Pressure);
-    let flow = |row: &FlowRecord| format(row.leakage, Dimension::VolumeFlow);
+    let flow = |row: &FlowRecord| unit.write(row.leakage);
     let in_trade = |row: &FlowRecord| match per_metre(leakage, row) {
         Some(per_metre) => format!(" ({per_metre})"),
         None => String::new(),
@@ -151,10 +156,10 @@ fn answer(leakage: &Leakage, axis: Axis, rows: &[&FlowRecord]) -> Option<Answer>
 }
 
 /// Returns the mean of what leaks along an axis over the positions of the last pass.
-fn of_pass<'a>(axis: Axis, rows: impl Iterator<Item = &'a FlowRecord>) -> Option<Answer> {
+fn of_pass<'a>(axis: Axis, unit: &Multiple, rows: impl Iterator<Item = &'a FlowRecord>) -> Option<Answer> {
     let leakages: Vec<f64> = rows.map(|row| row.leakage).collect();
     let mean = leakages.iter().sum::<f64>() / leakages.len() as f64;
-    let value = format(mean, Dimension::VolumeFlow);
+    let value = unit.write(mean);
     let axis = axis.word();
     (!leakages.is_empty()).then(|| Answer {
         name: format!("leakage along {axis}").into(),
@@ -297,6 +302,18 @@ mod tests {
         assert_eq!(told(&LIQUID, &open).0, "2000 µm³/s");
         let closed = [row(None, 5e6, 0.0)];
         assert_eq!(told(&LIQUID, &closed).1, "Along x no path leads through the gap.");
+    }
+
+    #[test]
+    fn both_directions_have_one_unit() {
+        let along_y = |row: FlowRecord| FlowRecord { along: Axis::Y, ..row };
+        let told = |pass| {
+            let rows = [row(None, 5e6, 1e-6), row(pass, 1e7, 9.178e-13), along_y(row(pass, 1e7, 5.932e-12))];
+            let rows = if pass.is_some() { &rows[1..] } else { &rows };
+            LIQUID.answers(rows).iter().map(|answer| answer.value.clone()).collect::<Vec<_>>()
+        };
+        assert_eq!(told(None), ["0.0009178 mm³/s", "0.005932 mm³/s"]);
+        assert_eq!(told(Some(1)), told(None));
     }
 
     #[test]

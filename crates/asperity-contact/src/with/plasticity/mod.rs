@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::error::Result;
 use crate::plasticity::{Hardening, J2, Layers, PlasticParams};
 use crate::units::{Dimension, Metre, Pascal};
+use asperity_base::beside::{Beside, Scale};
 use asperity_base::choice::choice;
 use asperity_base::exists;
 use asperity_base::table::{Bounds, Exists, Key, Kind, Source, Value, list};
@@ -29,7 +30,8 @@ pub struct Yielding {
         range = FromZero,
         written = "0",
         example = "\"20 GPa\"",
-        exists = HARDENING
+        exists = HARDENING,
+        beside = [HARDENS, Beside::most(Scale::Young, 1.0, "no solid hardens so much")]
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hardening: Option<Pascal>,
@@ -40,7 +42,8 @@ pub struct Yielding {
         default = 0.0,
         written = "0",
         example = "\"20 GPa\"",
-        exists = HARDENING
+        exists = HARDENING,
+        beside = [HARDENS]
     )]
     pub kinematic: Pascal,
     /// Recovery of the back stress by Armstrong and Frederick; with `kinematic`.
@@ -57,7 +60,7 @@ pub struct Yielding {
 #[serde(rename_all = "snake_case")]
 pub enum YieldKey {
     /// Yield stress in tension σ_Y of the virgin body.
-    #[key(quantity = Pressure, range = AboveZero, example = "\"1.5 GPa\"", exists = YIELD)]
+    #[key(quantity = Pressure, range = AboveZero, example = "\"1.5 GPa\"", exists = YIELD, beside = [SOFT])]
     YieldStress(Pascal),
     /// Increasing points of plastic strain and yield stress, from strain 0; constant beyond the last.
     ///
@@ -133,6 +136,13 @@ choice!(Keep: "last" => Last, "passes" => Passes);
 
 const YIELD: Exists =
     Exists::Within { least: 1e5, most: 2e10, of: "soft solder to whiskers", slips: &["MPa", "GPa"] };
+/// Ashby, Materials Selection in Mechanical Design: yield strain 10⁻⁴ of annealed metals to 0.05 of polymers.
+const SOFT: Beside = Beside::within(
+    Scale::Young,
+    [3e-5, 0.1],
+    ["no solid of this modulus is so soft", "no solid of this modulus is so hard"],
+);
+const HARDENS: Beside = Beside::least(Scale::Key("yield_stress"), 1e-2, "it changes nothing");
 const HARDENING: Exists =
     Exists::Within { least: 1e5, most: 1e12, of: "polymers to cold-worked steel", slips: &["MPa", "GPa"] };
 

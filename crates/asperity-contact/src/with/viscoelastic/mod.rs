@@ -14,6 +14,7 @@ use crate::error::{Error, Result};
 use crate::units::{Kelvin, MetrePerSecond, Pascal, Second, format};
 use crate::viscoelastic::{MasterFit, MasterPoint, Relaxation, RelaxationTerm, fit_master_curve};
 use crate::with::BodyProperty;
+use asperity_base::beside::{self, Beside, Scale};
 use asperity_base::exists;
 use asperity_base::table::{Bounds, Exists, Key, Kind, Source, Value, list, require};
 use asperity_base::units::Dimension;
@@ -32,7 +33,8 @@ pub struct Viscoelasticity {
         default = Vec::new(),
         absent = "those of `file`",
         example = "[\"9 MPa\", \"90 MPa\"]",
-        exists = exists::YOUNG
+        exists = exists::YOUNG,
+        beside = [RELAXES]
     )]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub moduli: Vec<Pascal>,
@@ -78,6 +80,12 @@ pub struct Viscoelasticity {
 
 /// Ferry, Viscoelastic Properties of Polymers: 20 K to 250 K.
 const WLF: Exists = Exists::Within { least: 10.0, most: 500.0, of: "polymers", slips: &[] };
+/// Ferry: rubbers of 0.1 MPa and more are glasses of about 1 GPa when they are fast.
+const RELAXES: Beside = Beside::within(
+    Scale::Young,
+    [1e-2, 5e3],
+    ["their relaxation changes nothing", "no glass is so much stiffer than its rubber"],
+);
 const ANY_TIME: Exists = Exists::Any("a body may relax in any time");
 
 fn is_two(value: &f64) -> bool {
@@ -209,7 +217,8 @@ pub struct Steady {
         range = AboveZero,
         absent = "exactly one of the two",
         example = "\"1 m/s\"",
-        exists = exists::SPEED
+        exists = exists::SPEED,
+        beside = [beside::SPEED]
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<MetrePerSecond>,
@@ -222,7 +231,8 @@ pub struct Steady {
         default = Vec::new(),
         absent = "exactly one of the two",
         example = "[\"1 mm/s\", \"1 m/s\"]",
-        exists = exists::SPEED
+        exists = exists::SPEED,
+        beside = [beside::SPEED]
     )]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub speeds: Vec<MetrePerSecond>,

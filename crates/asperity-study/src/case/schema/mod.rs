@@ -95,6 +95,7 @@ fn table(name: &'static str, absent: &'static str, text: &'static str) -> Key {
         example: "",
         text,
         exists: Exists::Undeclared,
+        beside: &[],
     }
 }
 

@@ -1,6 +1,6 @@
 //! Case files as the source of tables whose struct declares the keys.
 
-use super::super::cursor::{Entry, Table, did_you_mean};
+use super::super::cursor::{Entry, Table};
 use super::numbers::{count, real};
 use super::tables::{GIVEN, known_in, suits};
 use super::{Key, Kind, sweep};
@@ -52,8 +52,8 @@ impl table::Value for Entry<'_> {
         self.flag()
     }
 
-    fn word(&self, words: &[&'static str]) -> Result<usize> {
-        self.word(&words.iter().copied().zip(0..).collect::<Vec<(&str, usize)>>())
+    fn word(&self, words: &[&'static str], hint: &dyn Fn(&str) -> Option<String>) -> Result<usize> {
+        self.word(words, hint)
     }
 
     fn text(&self) -> Result<&str> {
@@ -106,10 +106,6 @@ impl table::Value for Entry<'_> {
 
     fn several(&self, key: &Key, kind: &Kind, spacing: Spacing, example: &str) -> Result<Vec<[f64; 2]>> {
         sweep::several(self, key, kind, spacing, example)
-    }
-
-    fn similar(&self, word: &str, words: &[&'static str]) -> Option<String> {
-        did_you_mean(word, words.iter().copied())
     }
 
     fn unexpected(&self, expected: &str, hint: Option<&str>) -> Error {

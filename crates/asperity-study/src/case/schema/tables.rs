@@ -30,18 +30,27 @@ fn sections(path: &str) -> impl Iterator<Item = &'static Section> {
     })
 }
 
+/// Returns the declarations of a dotted key of a case, or of the list of which it is an element: `subsurface.planes.0`.
+fn declarations(key: &str) -> impl Iterator<Item = &'static Key> {
+    let mut of_list = key;
+    while let Some((list, index)) = of_list.rsplit_once('.')
+        && index.parse::<usize>().is_ok()
+    {
+        of_list = list;
+    }
+    let (table, name) = of_list.rsplit_once('.').unwrap_or(("", of_list));
+    sections(table).flat_map(|section| section.keys).filter(move |key| key.name == name)
+}
+
 /// Returns the dimension of a dotted key of a case, for example force for `contact.load`; none for pure numbers and other values.
 pub fn dimension(key: &str) -> Option<Dimension> {
-    let (table, name) = key.rsplit_once('.')?;
-    let mut keys = sections(table).flat_map(|section| section.keys);
-    keys.find(|key| key.name == name).and_then(|key: &Key| key.kind.dimension())
+    declarations(key).next().and_then(|key| key.kind.dimension())
 }
 
 /// Returns the declaration of a dotted key of a case. Of several, for topographies of different forms, the one that says what exists.
 pub(crate) fn declaration(key: &str) -> Option<&'static Key> {
-    let (table, name) = key.rsplit_once('.')?;
-    let named = || sections(table).flat_map(|section| section.keys).filter(|key| key.name == name);
-    named().find(|key| matches!(key.exists, Exists::Within { .. })).or_else(|| named().next())
+    let is_bounded = |key: &&Key| matches!(key.exists, Exists::Within { .. });
+    declarations(key).find(is_bounded).or_else(|| declarations(key).next())
 }
 
 /// Whether a key stands above all tables of a case.
