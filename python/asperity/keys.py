@@ -81,7 +81,8 @@ class Friction(_RequiredFriction, total=False):
         its axis is z through the middle of the grid, and a positive spin turns from +x towards +y; number. By default
         `0`.
     increments : int
-        Equal steps in which load and tangential load grow from 0; whole number ≥ 1. By default `1`.
+        Equal steps in which load and tangential load grow together from 0: a loading path, not a resolution. To press
+        first and push then, push in a [[history]]; whole number ≥ 1. By default `1`.
     """
 
     coupling: Literal["full", "goodman", "none"]

@@ -547,8 +547,8 @@ fn frictional(
     if first.increments == 1 && pushes && friction.coefficient > 0.0 && friction.shear_limit(1.0).is_finite()
     {
         warnings.push(
-            "pressed and pushed in one step: `dissipation` is that of a push under the full load, and what sticks is \
-             found as if the load had come first; give `increments` in [friction], or push in a [[history]]"
+            "pressed and pushed in one step: stick, slip and `dissipation` are those of a push under the full load; push in a [[history]] \
+             to follow the push step by step; `increments` in [friction] let load and push grow together, which is another path"
                 .to_owned(),
         );
     }

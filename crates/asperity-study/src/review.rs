@@ -102,15 +102,12 @@ fn moves_on(contact: &LoadedContact, boundary: Boundary) -> Option<String> {
 
 /// Warns of an inaccurate frictional energy.
 fn inaccurate(error: Joule, shear: &ShearRecord) -> Option<String> {
-    /// Relative accuracy of the dissipation that needs no warning.
+    /// Relative uncertainty of the dissipation that needs no warning.
     const ACCURATE: f64 = 0.1;
-    let error = error / shear.dissipation;
-    (error > ACCURATE).then(|| {
-        format!(
-            "cells slip while their pressure changes: `dissipation` has an error of up to {:.0} %; give more `increments` \
-             where the load and the tangential load change together",
-            (100.0 * error).ceil()
-        )
+    (error > ACCURATE * shear.dissipation).then(|| {
+        "cells slip while their pressure changes, so that `dissipation` depends on the steps in which load and push grow together: press first \
+         and push in a [[history]], or give a stage in which both change more `increments`"
+            .to_owned()
     })
 }
 

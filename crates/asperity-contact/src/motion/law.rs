@@ -286,6 +286,15 @@ impl CyclicSlip {
             found.shear.push(0.5 * (limit_then + limit));
             found.distance.push(if slips { contact.slip[0][cell].hypot(contact.slip[1][cell]) } else { 0.0 });
         }
+        if let Some(before) = before {
+            let columns = before.normal.pressure.ncols();
+            for ([i, j], shear, distance) in contact.leaving(before) {
+                found.cells.push((i * columns + j) as u32);
+                found.pressure.push(0.5 * before.normal.pressure[[i, j]].max(0.0));
+                found.shear.push(0.5 * shear);
+                found.distance.push(distance);
+            }
+        }
         found
     }
 }

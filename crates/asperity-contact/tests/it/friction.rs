@@ -405,3 +405,55 @@ fn a_large_contact_takes_no_more_steps_than_a_small_one() {
     }
     assert!(cost.iter().all(|convolutions| *convolutions < 180.0), "{cost:?}");
 }
+
+/// A pushed ball is unloaded at a constant displacement: its outer cells slip, then leave. What forces and approach give, less what the bodies
+/// keep, is dissipated.
+#[test]
+fn cells_that_leave_the_contact_dissipate_what_the_bodies_do_not_keep() {
+    let grid = Grid::new([24, 24], [1.0; 2]).unwrap();
+    let gap = Field::from_shape_fn(grid.shape, |(i, j)| {
+        let [x, y] = [0, 1].map(|axis| grid.centre(axis, [i, j][axis]) - 12.0);
+        (x * x + y * y) / 200.0
+    });
+    let friction = Friction::coulomb(0.5).unwrap();
+    let params = Params::default().with_tolerance(1e-9);
+    let mut operator = Operators::new(grid, alike(), Boundary::FREE).coupled_on(grid.shape);
+    let mut solve = |load: f64, push: f64, before: Option<&FrictionalSolution>| {
+        let loading =
+            Loading { normal: Control::Load(load), tangential: Tangential::Displacement([push, 0.0]) };
+        solve_frictional(operator.as_mut(), &gap, &Bounds::ELASTIC, &friction, loading, before, &params)
+            .unwrap()
+    };
+    let pressed = solve(4.0, 0.0, None);
+    let push = 0.6 * pressed.normal.approach * 0.5;
+    let pushed = solve(4.0, push, Some(&pressed));
+    let mut unload = |steps: usize| {
+        let (mut last, mut lost, mut touching, mut error) = (pushed.clone(), 0.0, 0.0, 0.0);
+        for step in 1..=steps {
+            let now = solve(4.0 - 3.9 * step as f64 / steps as f64, push, Some(&last));
+            lost += now.dissipation(Some(&last));
+            error += now.dissipation_error(&last);
+            for (cell, limit) in now.shear_limit.indexed_iter().filter(|(_, limit)| **limit > 0.0) {
+                let slip = now.slip[0][cell].hypot(now.slip[1][cell]);
+                touching +=
+                    if now.stick[cell] == 0.0 { 0.5 * (limit + last.shear_limit[cell]) * slip } else { 0.0 };
+            }
+            last = now;
+        }
+        [lost, touching, error, pushed.elastic_energy() - last.elastic_energy()]
+    };
+    let [_, _, _, kept] = unload(2);
+    let fine = unload(64);
+    // The same energy by the forces: the work of unloading is that of the trapezoidal rule with the second order.
+    assert!((fine[0] - 0.076).abs() < 2e-4 && kept > fine[0], "{fine:?} {kept}");
+    let errors = [4, 8, 16].map(|steps| {
+        let [lost, touching, error, _] = unload(steps);
+        assert!((lost - fine[0]).abs() < error, "{steps}: {lost} {error}");
+        assert!(
+            touching < lost - 2.0 * (lost - fine[0]),
+            "{steps}: without the cells that leave {touching} of {lost}"
+        );
+        lost / fine[0] - 1.0
+    });
+    assert!(errors.windows(2).all(|pair| pair[0] / pair[1] > 3.0), "second order: {errors:?}");
+}

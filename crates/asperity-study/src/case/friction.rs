@@ -27,7 +27,8 @@ pub struct FrictionSpec {
     #[key(number = "a number, in 1/m", default = 0.0, written = "0", example = "25")]
     #[serde(skip_serializing_if = "is_zero")]
     pub spin: f64,
-    /// Equal steps in which load and tangential load grow from 0.
+    /// Equal steps in which load and tangential load grow together from 0: a loading path, not a resolution. To press first and push then, push in a
+    /// \[\[history\]\].
     ///
     /// 1 for a rolling contact and a motion.
     #[key(count = 1, default = 1, example = "20")]

@@ -271,9 +271,9 @@ fn what_only_the_answer_shows_is_said_with_it() {
             "{BODIES}{contact}[[history]]\nload = \"0.1 N\"\nforce = \"20 mN\"\nincrements = {increments}"
         )
     };
-    assert!(warnings("coarse", &both(1)).contains("`dissipation` has an error of"));
+    assert!(warnings("coarse", &both(1)).contains("`dissipation` depends on the steps"));
     let fine = both(60).replace("increments = 2", "increments = 30");
-    assert!(!warnings("fine", &fine).contains("`dissipation` has an error of"));
+    assert!(!warnings("fine", &fine).contains("`dissipation` depends on the steps"));
     // Reported once, whether it is predictable or not.
     let rolling = format!("{BODIES}{}creepage = 1e-3", contact.replace("increments = 2\n", ""));
     let rolling = rolling.replace("0.6 GPa", "0.2 GPa");

@@ -110,20 +110,38 @@ impl FrictionalSolution {
 
     /// Computes the energy dissipated by friction in this increment, ΔA Σ ½(g₀ + g)|Δs| over the cells that slip.
     /// g₀ and g are the largest shear of a cell `before` and after the increment. Without a state before, g
-    /// replaces g₀, as if the load came before the slip.
+    /// replaces g₀, as if the load came before the slip. Cells that [leave](Self::leaving) the contact lose ½|q₀||Δs|.
     ///
     /// A cell slips only at its limit. The energy is therefore exact for increments of any size if pressures are
     /// constant and the slip keeps its direction. If pressures change with the slip, the error is of second order
-    /// in the increment, and [`FrictionalSolution::dissipation_error`] bounds it.
+    /// in the increment, and [`FrictionalSolution::dissipation_error`] estimates it.
     pub fn dissipation(&self, before: Option<&Self>) -> Joule {
         self.over_slips(before, |then, now| 0.5 * (then + now))
     }
 
-    /// Computes the error bound of [`FrictionalSolution::dissipation`], ΔA Σ ½|g − g₀||Δs|, in which all slip
-    /// occurs at one of the two limits. It holds if the limit of each cell changes monotonically in the
-    /// increment, and its slip keeps its direction.
+    /// Estimates the error of [`FrictionalSolution::dissipation`], ΔA Σ ½|g − g₀||Δs|, by letting all slip
+    /// occur at one of the two limits. It is no bound: the slip itself depends on the increments.
     pub fn dissipation_error(&self, before: &Self) -> Joule {
         self.over_slips(Some(before), |then, now| 0.5 * (now - then).abs())
+    }
+
+    /// Returns the cells that were in contact `before` and are no more, each with the magnitude of its shear then, Pa, and the distance of its
+    /// slip in the increment, m. It is empty in gross sliding, in which the slip is arbitrary.
+    pub(crate) fn leaving<'a>(
+        &'a self,
+        before: &'a Self,
+    ) -> impl Iterator<Item = ([usize; 2], Pascal, Metre)> + 'a {
+        let touches = self.shear_limit.iter().any(|limit| *limit > 0.0);
+        let moves =
+            self.stick.iter().any(|stick| *stick > 0.0) || self.slip[0].iter().any(|slip| *slip != 0.0);
+        let cells = before.shear_limit.indexed_iter().filter(move |_| moves || !touches);
+        let left = cells.filter(|(cell, then)| **then > 0.0 && self.shear_limit[*cell] == 0.0);
+        left.map(|(cell, _)| {
+            let place =
+                |state: &Self, axis: usize| state.rigid_displacement[axis] - state.displacement[axis][cell];
+            let [x, y] = [0, 1].map(|axis| place(self, axis) - place(before, axis));
+            ([cell.0, cell.1], before.shear[0][cell].hypot(before.shear[1][cell]), x.hypot(y))
+        })
     }
 
     /// Computes ΔA Σ |Δs| · `shear`(g₀, g) over the cells that slip, with the limits before and after the increment.
@@ -135,6 +153,8 @@ impl FrictionalSolution {
                 sum += shear(then, now) * self.slip[0][cell].hypot(self.slip[1][cell]);
             }
         }
+        let left = before.into_iter().flat_map(|before| self.leaving(before));
+        sum += left.map(|(_, then, slip)| shear(then, 0.0) * slip).sum::<f64>();
         self.normal.grid.cell_area() * sum
     }
 }
