@@ -121,7 +121,7 @@ fn text(case: &Case, summary: &Summary, memory: &[f64]) -> String {
     let most = memory.iter().copied().fold(0.0, f64::max);
     format!(
         "{}ranks             {}, each of at most {:.1} MB\ntime              {:.2} s\n",
-        text_of_results(case, summary, &summary.found),
+        text_of_results(case, summary, &summary.found, &[]),
         memory.len(),
         most / 1e6,
         summary.wall_time_s

@@ -6,7 +6,7 @@ use asperity_base::Choice;
 use asperity_base::units::{self, Dimension, bytes};
 use asperity_contact::motion::{LoadControl, OffsetY, Path, PlasticUpdate, Point, Stage};
 use asperity_contact::solver::{Control, Creep, Friction, Rolling, Tangential};
-use asperity_contact::with::{BodyLaw, Capability, Listed};
+use asperity_contact::with::{BodyLaw, Capability, Listed, ordinal};
 use asperity_contact::{each_capability, each_law};
 use asperity_study::case::{Body, Boundary, CounterBody, Course, Mount, Side};
 use asperity_study::{Bodies, Case, Demand, Estimate, MountedSurface, Plan};
@@ -299,7 +299,8 @@ fn memory(demand: &Demand) -> String {
 fn time(demand: &Demand) -> String {
     let [solving, drawing] = demand.times();
     format!(
-        "about {}: {} to solve and write, {} for figures and page",
+        "{} {}: {} to solve and write, {} for figures and page",
+        if demand.is_least { "at least" } else { "about" },
         units::format_time(solving + drawing),
         units::format_time(solving),
         units::format_time(drawing)
@@ -331,17 +332,21 @@ fn laws(case: &Case, demand: &Demand) -> Vec<(&'static str, String)> {
             (0, _) => "no flash temperature".to_owned(),
             (_, false) => "flash temperature of the cells in contact".to_owned(),
             (1, true) => "flash temperature at each position".to_owned(),
-            (every, true) => format!("flash temperature at each position of every {every}th computed pass"),
+            (every, true) => {
+                format!("flash temperature at each position of every {} computed pass", ordinal(every))
+            }
         };
         format!("bulk {bulk}, {flash}")
     });
     let passes = case.acceleration.and_then(|acceleration| {
         let passes = case.motion?.passes;
         Some(format!(
-            "about {} of {passes} computed, each extrapolated over at most {} or a depth of {}",
+            "{} {} of {passes} computed, each extrapolated over at most {} or a depth of {}{}",
+            if demand.is_least { "at least" } else { "about" },
             units::format_number(demand.passes.round()),
             plural(acceleration.max_jump.min(passes), "pass", "passes"),
-            units::format(acceleration.max_depth(), Dimension::Length)
+            units::format(acceleration.max_depth(), Dimension::Length),
+            if demand.is_least { "; once points fail, each pit ends an extrapolation" } else { "" }
         ))
     });
     rows.extend([("heat", heat), ("passes", passes)]);

@@ -17,14 +17,16 @@ use crate::tables::{self, GrowingTable};
 use asperity_base::error::{Error, Result};
 use asperity_base::math::parallel;
 use asperity_contact::each_capability;
-use asperity_contact::motion::{ObservedContact, Output, Pair, PassReport, Position, Step, StepRow};
+use asperity_contact::motion::{
+    ObservedContact, Output, Pair, PassReport, Position, Step, StepCell, StepRow,
+};
 use asperity_contact::solver::Solution;
 use asperity_contact::with::{BodyField, Capability, Given, Listed, Observations, Observer, Place, Reported};
 
 /// An observer with what it has seen.
 struct Observed<C: Capability> {
+    asked: C,
     observer: C::Observer,
-    every: usize,
     /// The rows of the present step.
     rows: Vec<C::Row>,
     /// The rows of the steps before, if they are not in a file.
@@ -53,7 +55,7 @@ impl<C: Reported> Observed<C> {
     fn in_memory(asked: &C, given: &Given<'_>) -> Result<Self> {
         let observer = asked.begin(given)?;
         let (rows, records, fields) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(Self { observer, every: asked.every(), rows, records, fields, files: None })
+        Ok(Self { asked: asked.clone(), observer, rows, records, fields, files: None })
     }
 
     /// Creates an observer that writes its table and its fields to the results of a `writer`, after `done` steps.
@@ -72,7 +74,7 @@ impl<C: Reported> Observed<C> {
         let column = if is_motion { "pass" } else { "step" };
         let rows = match done {
             None => 0,
-            Some(_) if !fs::exists(&path) && self.every > 0 => {
+            Some(_) if !fs::exists(&path) && self.asked.every() > 0 => {
                 return Err(Error::NotResumable { path, reason: "is missing" });
             }
             Some(done) => tables::rows_up_to(&path, column, done)?,
@@ -131,11 +133,11 @@ trait Look {
     /// The errors of the observer.
     fn look_at_pass(&mut self, report: &PassReport<'_>) -> Result<()>;
 
-    /// Writes what it has found in a step.
+    /// Writes what it has found in a step, and adds what the terminal shows of it to the cells.
     ///
     /// # Errors
     /// [`Error::File`], [`Error::NotFinite`].
-    fn end_step(&mut self) -> Result<()>;
+    fn end_step(&mut self, cells: &mut Vec<StepCell>) -> Result<()>;
 
     /// Adds all rows to `found`, and returns the fields of the last contact of a static contact.
     ///
@@ -149,7 +151,8 @@ impl<C: Reported> Look for Observed<C> {
         if C::OF_PASSES {
             return false;
         }
-        is_nth(place.step, self.every) || is_main && (self.every == 0 || place.pass.is_none())
+        let every = self.asked.every();
+        is_nth(place.step, every) || is_main && (every == 0 || place.pass.is_none())
     }
 
     fn look(&mut self, step: Option<&Step<'_>>, contacts: &[Seen<'_>]) -> Result<()> {
@@ -183,8 +186,9 @@ impl<C: Reported> Look for Observed<C> {
         Ok(())
     }
 
-    fn end_step(&mut self) -> Result<()> {
+    fn end_step(&mut self, cells: &mut Vec<StepCell>) -> Result<()> {
         let rows = mem::take(&mut self.rows);
+        cells.extend(self.asked.cells(&rows));
         match &mut self.files {
             Some(files) => {
                 files.of_step.take().map_or(Ok(()), FieldFile::write)?;
@@ -214,6 +218,8 @@ pub(super) struct Observers {
     each: Vec<Box<dyn Look + Send + Sync>>,
     /// Index of the first position of a pass at which the left edges are flush.
     flush: Option<usize>,
+    /// What the terminal shows of the last step.
+    cells: Vec<StepCell>,
 }
 
 impl Observers {
@@ -240,7 +246,11 @@ impl Observers {
                 None => observed,
             }));
         });
-        Ok(Self { each, flush: positions.iter().position(|position| position.offset == 0.0) })
+        Ok(Self {
+            each,
+            cells: Vec::new(),
+            flush: positions.iter().position(|position| position.offset == 0.0),
+        })
     }
 
     /// Returns the indices of the positions of a pass that an observer looks at.
@@ -263,7 +273,8 @@ impl Observers {
         }
         let contact = ObservedContact::at_rest(solution);
         let seen = [Seen { contact, place: Place { pass: None, step: 1 }, is_main: true }];
-        self.each.iter_mut().try_for_each(|each| each.look(None, &seen).and_then(|()| each.end_step()))
+        let cells = &mut self.cells;
+        self.each.iter_mut().try_for_each(|each| each.look(None, &seen).and_then(|()| each.end_step(cells)))
     }
 
     /// Returns the rows that they have found, and the fields of the last contact of a static contact.
@@ -303,7 +314,13 @@ impl Output for Observers {
         if let Some(report) = step.pass() {
             self.each.iter_mut().try_for_each(|each| each.look_at_pass(report))?;
         }
-        self.each.iter_mut().try_for_each(|each| each.end_step())
+        let Self { each, cells, .. } = self;
+        cells.clear();
+        each.iter_mut().try_for_each(|each| each.end_step(cells))
+    }
+
+    fn cells(&self) -> Vec<StepCell> {
+        self.cells.clone()
     }
 }
 

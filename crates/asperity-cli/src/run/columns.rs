@@ -41,8 +41,8 @@ impl Cell {
     }
 
     /// Creates a fraction, printed in per cent.
-    pub(super) fn share(head: &'static str, value: f64) -> Self {
-        Self { head, kind: Kind::Share, value: Some(value) }
+    pub(super) fn share(head: &'static str, value: impl Into<Option<f64>>) -> Self {
+        Self { head, kind: Kind::Share, value: value.into() }
     }
 
     /// Creates a quantity that begins near zero, in a unit for at least this value.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use asperity::motion::{PassRecord, Progress, SweepRecord, Watch};
+use asperity::motion::{PassRecord, Progress, StepCell, SweepRecord, Watch};
 use asperity::study::case::Course;
 use asperity::study::{Case, Existing, Results};
 use asperity::units::{Dimension, format};
@@ -52,7 +52,11 @@ impl Display {
         let style = ProgressStyle::with_template("{bar:24.cyan/dim} {msg}").expect("a valid template");
         let bar = ProgressBar::with_draw_target(None, target).with_style(style);
         let step = case.course(1.0).step();
-        let table = Table { rows: Rows::new(case), printed: Ok(()), began: Instant::now(), finished: None };
+        let rows = match Results::open(directory) {
+            Ok(results) if existing == Existing::Resume => Rows::new(case).continued(case, &results),
+            _ => Rows::new(case),
+        };
+        let table = Table { rows, printed: Ok(()), began: Instant::now(), finished: None };
         let (directory, page) = (directory.to_owned(), Mutex::new(LivePage::begin()));
         let warned = Mutex::default();
         let continues =
@@ -171,6 +175,10 @@ impl Watch for Display {
         let load =
             if load != 0.0 { format!(", load {}", format(load, Dimension::Force)) } else { String::new() };
         self.bar.set_message(format!("{place}, {:.0} %{load}", 100.0 * way));
+    }
+
+    fn cells(&self, cells: &[StepCell]) {
+        self.table().rows.found(cells);
     }
 
     fn pass(&self, record: &PassRecord) {

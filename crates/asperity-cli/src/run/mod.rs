@@ -76,8 +76,8 @@ pub(crate) fn compute(
     }
     let tell = |text: &str| if is_quiet { Ok(()) } else { print(text) };
     let results = writer.results();
-    let found = results.found()?;
-    let printed = printed.and_then(|()| tell(&record::text(&case, &summary, &found)));
+    let (found, updates) = (results.found()?, results.updates()?);
+    let printed = printed.and_then(|()| tell(&record::text(&case, &summary, &found, &updates)));
     let (wanted, stopped) = (figures::FigureOptions::default(), || stop.asked());
     let (sheet, seen) = page::gathered(results, &wanted, &stopped);
     let write = || page::write_with(results, seen, &page::of(results));

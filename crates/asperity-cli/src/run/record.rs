@@ -1,9 +1,9 @@
 //! Summary of a contact at the end of a run: a line for each number.
 
-use asperity::motion::{PassRecord, PlasticRecord, StaticRecord};
+use asperity::motion::{PassRecord, PlasticRecord, StaticRecord, UpdateRecord};
 use asperity::solver::InterfaceRecord;
 use asperity::study::{Case, ClosedFormRecord, Outcome, SubsurfaceRecord, Summary, dimension_of_column};
-use asperity::units::{Dimension, format, format_number};
+use asperity::units::{CELSIUS, Dimension, format, format_number};
 use asperity::with;
 use asperity::with::views::{Answer, Line};
 use asperity::with::{BodyLaw, BodyLaws, Capability, Listed, Observations, Reported, answering};
@@ -16,8 +16,9 @@ use asperity_report::words::closed_form;
 /// Describes a static contact and the largest stress below the surface, with a line for each number. The rows of
 /// passes and points are printed during the run.
 ///
-/// The rows of the capabilities are those of all contacts that were `found`, or those of the summary.
-pub fn text(case: &Case, summary: &Summary, found: &Observations) -> String {
+/// The rows of the capabilities are those of all contacts that were `found`, or those of the summary. The `updates` are those of a contact that
+/// slides in place; none of others.
+pub fn text(case: &Case, summary: &Summary, found: &Observations, updates: &[UpdateRecord]) -> String {
     let contact = match &summary.outcome {
         Outcome::Static(record) => static_table(case, &summary.interface.as_shown(record)),
         Outcome::Passes(passes) => changes(passes),
@@ -29,6 +30,7 @@ pub fn text(case: &Case, summary: &Summary, found: &Observations) -> String {
         summary.interface.lines().iter().map(|Line { name, value, .. }| line(name, value)).collect();
     answers(case, found, matches!(summary.outcome, Outcome::Sweep(_)))
         + &of_interface
+        + &slid(updates)
         + &contact
         + &theory
         + &plastic
@@ -66,7 +68,25 @@ fn begun_small(sentence: &str) -> String {
 
 /// Describes what passes have done to the bodies.
 fn changes(passes: &[PassRecord]) -> String {
-    with::after_passes(passes).iter().map(told).collect()
+    let temperatures = passes.iter().filter_map(|pass| Some(pass.running?.max_flash_temperature));
+    with::after_passes(passes).iter().map(told).collect::<String>() + &warmest(temperatures)
+}
+
+/// Describes what sliding in place has done to the bodies.
+fn slid(updates: &[UpdateRecord]) -> String {
+    let Some(last) = updates.last() else { return String::new() };
+    let time = last.time.is_finite().then(|| format!(" in {}", format(last.time, Dimension::Time)));
+    line("slid", &format!("{}{}", format(last.distance, Dimension::Length), time.unwrap_or_default()))
+        + &with::after_sliding(updates).iter().map(told).collect::<String>()
+        + &warmest(updates.iter().map(|update| update.max_temperature))
+}
+
+/// Describes the largest of some temperatures that are known; nothing of none.
+fn warmest(temperatures: impl Iterator<Item = f64>) -> String {
+    let largest = temperatures.filter(|temperature| temperature.is_finite()).reduce(f64::max);
+    largest.map_or_else(String::new, |largest| {
+        line("temperature", &format!("up to {} °C", format_number(largest - CELSIUS)))
+    })
 }
 
 /// Describes the closed form of the contact, and the deviation of the computed contact from it.

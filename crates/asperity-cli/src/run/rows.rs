@@ -1,11 +1,14 @@
 //! Rows of passes and of points.
 
-use asperity::each_law;
-use asperity::motion::{PassRecord, SweepRecord};
+use std::collections::BTreeMap;
+
+use asperity::motion::{PassRecord, StepCell, SweepRecord};
 use asperity::solver::InterfacePassRecord;
+use asperity::study::Results;
 use asperity::study::case::{Case, Source};
 use asperity::with::views::{PassCell, RowCell};
-use asperity::with::{BodyLaw, Listed};
+use asperity::with::{BodyLaw, Capability, Listed, Row};
+use asperity::{each_capability, each_law};
 
 use super::columns::{Cell, Columns};
 
@@ -25,6 +28,10 @@ pub(super) struct Rows {
     done: usize,
     /// The columns of the laws that change a body, each with the sum of its values.
     laws: Vec<(PassCell, f64)>,
+    /// What capabilities show in the row of the next pass.
+    found: Vec<StepCell>,
+    /// What they show in the rows of the passes before an interruption, by pass.
+    earlier: BTreeMap<usize, Vec<StepCell>>,
 }
 
 impl Rows {
@@ -35,6 +42,8 @@ impl Rows {
         each_law!(L => if bodies.iter().any(|body| L::of(&body.laws).is_some()) {
             laws.push((L::CELL, 0.0));
         });
+        let mut found = Vec::new();
+        each_capability!(C => found.extend(C::of(&case.with).into_iter().flat_map(|asked| asked.cells(&[]))));
         let has_ends = case.contact.boundary != asperity::operator::Boundary::PERIODIC;
         Self {
             columns: motion.map_or_else(Columns::default, |motion| Columns::counting_to(motion.passes)),
@@ -46,6 +55,8 @@ impl Rows {
             flows: bodies.iter().any(|body| body.plasticity.is_some()),
             done: 0,
             laws,
+            found,
+            earlier: BTreeMap::new(),
         }
     }
 
@@ -84,6 +95,11 @@ impl Rows {
         ranked
             .push((Rank::UpperRoughness, Cell::of("Sq upper", "sq_upper_interior", pass.sq_upper_interior)));
         ranked.extend(self.of_laws(pass));
+        for StepCell { head, column, value } in self.earlier.get(&pass.pass).unwrap_or(&self.found).clone() {
+            let cell =
+                column.map_or_else(|| Cell::share(head, value), |column| Cell::of(head, column, value));
+            ranked.push((Rank::Always, cell));
+        }
         match &pass.running {
             Some(running) if running.max_flash_temperature.is_finite() => {
                 let temperature = Cell::of("T max", "max_flash_temperature", running.max_flash_temperature);
@@ -99,6 +115,23 @@ impl Rows {
         let (cells, left_out) = within_a_terminal(ranked);
         let above = if pass.pass == 1 { self.above(&left_out) } else { String::new() };
         above + &self.columns.row("pass", self.done, &cells)
+    }
+
+    /// Receives what capabilities show in the row of the next pass.
+    pub(super) fn found(&mut self, cells: &[StepCell]) {
+        self.found = cells.to_vec();
+    }
+
+    /// Continues the table after the passes of a `case` that are in its results.
+    pub(super) fn continued(mut self, case: &Case, results: &Results) -> Self {
+        each_capability!(C => if let Some(asked) = C::of(&case.with) {
+            let rows = results.rows::<C>().unwrap_or_default();
+            for rows in rows.chunk_by(|one, next| one.pass() == next.pass()) {
+                let cells = self.earlier.entry(rows[0].pass().unwrap_or_default()).or_default();
+                cells.extend(asked.cells(rows));
+            }
+        });
+        self
     }
 
     /// Returns the cells of the laws in the row of a pass.

@@ -19,3 +19,4 @@ mod study;
 mod support;
 #[cfg(unix)]
 mod survival;
+mod terminal;

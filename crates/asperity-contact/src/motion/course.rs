@@ -9,7 +9,7 @@ use crate::motion::record::{IncrementRecord, PassRecord, SweepRecord, UpdateReco
 use crate::motion::report::PassReport;
 use crate::motion::state::Flattening;
 use crate::motion::store::CourseState;
-use crate::motion::watch::{Progress, Watch};
+use crate::motion::watch::{Progress, StepCell, Watch};
 use crate::motion::worn_away;
 use crate::solver::Solution;
 use crate::units::{Metre, Newton};
@@ -81,6 +81,11 @@ pub trait Output {
     fn warnings(&self) -> Vec<String> {
         Vec::new()
     }
+
+    /// Returns numbers of the step received last, for the watch.
+    fn cells(&self) -> Vec<StepCell> {
+        Vec::new()
+    }
 }
 
 /// Runs the remaining steps.
@@ -113,6 +118,7 @@ pub(super) fn finish<C: Course>(
     step.check()
         .and_then(|()| outputs.iter_mut().try_for_each(|output| output.step(&step)))
         .map_err(|error| error.if_of_step(|source| step.at(source)))?;
+    watch.cells(&outputs.iter().flat_map(|output| output.cells()).collect::<Vec<_>>());
     step.notify(watch);
     outputs.iter().flat_map(|output| output.warnings()).for_each(|warning| watch.warning(&warning));
     course.take(solved);

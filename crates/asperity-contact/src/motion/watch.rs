@@ -27,6 +27,17 @@ pub struct Progress {
     pub together: Option<f64>,
 }
 
+/// A number of a capability in the row of a pass on the terminal; `None` if it is unknown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepCell {
+    /// The head of its column.
+    pub head: &'static str,
+    /// The column of the results that has its unit; a share has none, and is printed in per cent.
+    pub column: Option<&'static str>,
+    /// The value.
+    pub value: Option<f64>,
+}
+
 /// Observes a computation from the solving threads, and may stop it.
 pub trait Watch: Sync {
     /// Called after a position has been solved.
@@ -34,6 +45,9 @@ pub trait Watch: Sync {
 
     /// Called while a static contact is being solved; [`Progress::together`] is its progress.
     fn solving(&self, _: &Progress) {}
+
+    /// Called before [`Watch::pass`] with the numbers that capabilities show in its row, not for passes before an interruption.
+    fn cells(&self, _: &[StepCell]) {}
 
     /// Called after each pass in turn, including those before an interruption when a motion resumes.
     fn pass(&self, _: &PassRecord) {}

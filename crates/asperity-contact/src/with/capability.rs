@@ -10,7 +10,7 @@ use super::{BodyProperties, Capabilities, Listed, Observations};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::material::Material;
-use crate::motion::{Memory, ObservedContact, Pair, PassReport};
+use crate::motion::{Memory, ObservedContact, Pair, PassReport, StepCell};
 use crate::operator::Boundary;
 use crate::solver::Params;
 use crate::units::{MetrePerSecond, Pascal};
@@ -78,6 +78,12 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
 
     /// Returns the answers to the question of the user from the rows that [`answering`] selects.
     fn answers(&self, rows: &[Self::Row]) -> Vec<Answer>;
+
+    /// Returns what the row of a pass on the terminal shows of its rows; of no rows the heads alone.
+    fn cells(&self, rows: &[Self::Row]) -> Vec<StepCell> {
+        let _ = rows;
+        Vec::new()
+    }
 
     /// Returns the numbers of a row.
     fn numbers(&self, row: &Self::Row) -> Vec<Line>;
@@ -242,7 +248,7 @@ impl Surroundings {
 }
 
 /// Writes an ordinal number: `2nd`.
-fn ordinal(number: usize) -> String {
+pub fn ordinal(number: usize) -> String {
     let ending = match (number % 10, number % 100) {
         (1..=3, 11..=13) => "th",
         (1, _) => "st",

@@ -85,9 +85,9 @@ pub trait BodyLaw: Table + Serialize + Clone + PartialEq + Debug + Send + Sync +
         None
     }
 
-    /// Returns what sliding in place has done up to an update.
-    fn after_sliding(update: &UpdateRecord) -> Option<Answer> {
-        let _ = update;
+    /// Returns what sliding in place has done up to the last of the updates, which begin before it slides.
+    fn after_sliding(updates: &[UpdateRecord]) -> Option<Answer> {
+        let _ = updates;
         None
     }
 }

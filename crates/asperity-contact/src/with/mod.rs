@@ -48,7 +48,7 @@ pub mod wear;
 
 pub use capability::{
     BodyConstants, BodyField, Capability, Given, NamedField, Observer, Place, Reported, Row, Rule,
-    Surroundings, answering,
+    Surroundings, answering, ordinal,
 };
 pub use interface::InterfaceNumbers;
 pub use law::{BodyLaw, ChangedSurfaces, Circumstances, LawRule, Slip, Timeless};
@@ -275,10 +275,10 @@ pub fn after_cycles(cycles: &FrettingRecord) -> Vec<Answer> {
     answers
 }
 
-/// Returns what sliding in place has done to the bodies up to an update.
-pub fn after_sliding(update: &UpdateRecord) -> Vec<Answer> {
+/// Returns what sliding in place has done to the bodies up to the last of the updates, which begin before it slides.
+pub fn after_sliding(updates: &[UpdateRecord]) -> Vec<Answer> {
     let mut answers = Vec::new();
-    each_law!(L => answers.extend(L::after_sliding(update)));
+    each_law!(L => answers.extend(L::after_sliding(updates)));
     answers
 }
 

@@ -22,4 +22,9 @@ pub trait BodyProperty: Table + Serialize + Clone + PartialEq + Debug + Send + S
         let _ = folder;
         self
     }
+
+    /// Whether material may break out of the body, which ends each extrapolation over passes.
+    fn breaks_out(&self) -> bool {
+        false
+    }
 }

@@ -23,6 +23,6 @@ pub(super) fn all(found: &PageData) -> Vec<Answer> {
     answers.extend(with::after_points(&found.points));
     answers.extend(with::after_increments(&found.increments));
     answers.extend(with::after_passes(&found.passes));
-    answers.extend(found.updates.last().into_iter().flat_map(with::after_sliding));
+    answers.extend(with::after_sliding(&found.updates));
     answers
 }

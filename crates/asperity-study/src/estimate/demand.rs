@@ -9,12 +9,12 @@ use crate::subsurface::Plan;
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::Grid;
 use asperity_base::units::Second;
-use asperity_contact::each_capability;
 use asperity_contact::material::Compliances;
 use asperity_contact::motion::{LoadControl, PlasticUpdate, Stage, memory_together};
 use asperity_contact::operator::{FreeFft, Operator};
 use asperity_contact::solver::{self, Control, Coupling, InterfaceCost, Method};
-use asperity_contact::with::{Capability, Listed};
+use asperity_contact::with::{BodyProperty, Capability, Listed};
+use asperity_contact::{each_capability, each_property};
 
 /// Cost of a run. Memory in bytes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +32,8 @@ pub struct Demand {
     pub memory: f64,
     /// Number of computed passes, without extrapolated ones; 1 for a static contact.
     pub passes: f64,
+    /// Whether bodies may need more passes than estimated: those whose pits end an extrapolation.
+    pub is_least: bool,
     /// Convolutions of all contacts together, with those on coarser grids weighted by their number of cells; 0 for
     /// elasto-plastic bodies.
     pub convolutions: f64,
@@ -71,7 +73,23 @@ pub fn demand(case: &Case, given: &SurfaceInput, threads: usize) -> Result<Deman
     let drawing = sizes.drawing(threads);
     let surfaces = surfaces.making.max(surfaces.kept);
     let passes = case.motion.map_or(1.0, |motion| sizes.computed_passes(motion.passes));
-    Ok(Demand { surfaces, solver, together, results, memory, passes, convolutions, effort, drawing })
+    let mut breaks_out = false;
+    for body in [&case.lower, &case.upper] {
+        each_property!(P => breaks_out |= P::of(&body.properties).is_some_and(P::breaks_out));
+    }
+    let is_least = breaks_out && case.acceleration.is_some();
+    Ok(Demand {
+        surfaces,
+        solver,
+        together,
+        results,
+        memory,
+        passes,
+        is_least,
+        convolutions,
+        effort,
+        drawing,
+    })
 }
 
 /// Returns an upper bound of the memory, bytes, that the contacts of `case` take on a device at a time, on `threads` threads.

@@ -42,6 +42,12 @@ columns! {
         pub max_wear_lower: Metre,
         /// Deepest wear of a cell of the upper body in these passes.
         pub max_wear_upper: Metre,
+        /// Deepest wear of a cell of the lower body since the beginning.
+        #[serde(default)]
+        pub deepest_wear_lower: Metre,
+        /// Deepest wear of a cell of the upper body since the beginning; of a fresh one in its pass.
+        #[serde(default)]
+        pub deepest_wear_upper: Metre,
         /// Mean thickness of the film on the lower body after these passes; 0 without one.
         pub mean_film_lower: Metre,
         /// Mean thickness of the film on the upper body after these passes; 0 without one.

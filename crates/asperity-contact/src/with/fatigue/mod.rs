@@ -51,7 +51,7 @@ pub use record::{FatigueRecord, OnBody};
 pub use table::{Fatigue, FatigueLimits};
 
 use crate::error::Result;
-use crate::motion::Memory;
+use crate::motion::{Memory, StepCell};
 use crate::with::views::{Answer, Curve, Line, Map};
 use crate::with::{Capability, Given, Rule, Surroundings};
 
@@ -101,6 +101,10 @@ impl Capability for Fatigue {
 
     fn answers(&self, rows: &[FatigueRecord]) -> Vec<Answer> {
         views::answers(rows)
+    }
+
+    fn cells(&self, rows: &[FatigueRecord]) -> Vec<StepCell> {
+        views::cells(rows)
     }
 
     fn numbers(&self, row: &FatigueRecord) -> Vec<Line> {

@@ -108,6 +108,10 @@ impl BodyProperty for FatigueLimits {
     const NAME: &'static str = "fatigue";
     const MEANING: &'static str = "limits of the material under alternating loads, see [fatigue](#fatigue)";
     const WITHOUT: &'static str = "not looked at";
+
+    fn breaks_out(&self) -> bool {
+        self.pit_depth > 0.0
+    }
 }
 
 impl FatigueLimits {

@@ -2,6 +2,7 @@
 
 use super::maps::{logarithmic, map};
 use super::{Fatigue, FatigueRecord, OnBody, critical};
+use crate::motion::StepCell;
 use crate::units::{Dimension, format, format_number};
 use crate::with::Surroundings;
 use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Series, percent};
@@ -119,6 +120,16 @@ fn answer(row: &FatigueRecord) -> Answer {
     }
 }
 
+pub(super) fn cells(rows: &[FatigueRecord]) -> Vec<StepCell> {
+    let most = |value: fn(&FatigueRecord) -> Option<f64>| rows.iter().filter_map(value).reduce(f64::max);
+    let cell = |head, column, value| StepCell { head, column: Some(column), value };
+    vec![
+        cell("f/b", "over_limit", most(|row| Some(row.over_limit))),
+        cell("damage", "damage", most(|row| Some(row.damage))),
+        StepCell { head: "pitted", column: None, value: most(|row| row.pitted_share) },
+    ]
+}
+
 pub(super) fn numbers(row: &FatigueRecord) -> Vec<Line> {
     let body = row.body.word();
     let length = |value| format(value, Dimension::Length);
@@ -131,6 +142,16 @@ pub(super) fn numbers(row: &FatigueRecord) -> Vec<Line> {
                 "{} so far, {} of this pass",
                 format_number(row.damage),
                 format_number(row.damage_of_pass)
+            ),
+        ),
+        Line::new(
+            format!("life, {body}"),
+            row.life.map_or_else(
+                || "no point fails within the limit".to_owned(),
+                |life| {
+                    let pass = format_number(life.max(1.0).round());
+                    format!("a point fails in pass {pass}, if all go on like this one and nothing is removed")
+                },
             ),
         ),
         row.critical.line(body),

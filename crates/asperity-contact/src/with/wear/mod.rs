@@ -69,8 +69,8 @@ impl BodyLaw for WearCoefficient {
         views::after_cycles(cycles)
     }
 
-    fn after_sliding(update: &UpdateRecord) -> Option<Answer> {
-        views::after_sliding(update)
+    fn after_sliding(updates: &[UpdateRecord]) -> Option<Answer> {
+        views::after_sliding(updates)
     }
 
     fn describe(&self) -> String {
@@ -207,8 +207,9 @@ impl Law for Wear {
         of_bodies(pair, largest)
     }
 
-    fn record_pass(&self, _: &Pair, taken: &[Field; 2], columns: &mut LawsInPass) {
+    fn record_pass(&self, pair: &Pair, taken: &[Field; 2], columns: &mut LawsInPass) {
         [columns.max_wear_lower, columns.max_wear_upper] = [largest(&taken[0]), largest(&taken[1])];
+        [columns.deepest_wear_lower, columns.deepest_wear_upper] = self.deepest(pair);
     }
 
     fn record_update(&self, pair: &Pair, _: &Contact, columns: &mut LawsInUpdate) {

@@ -2,7 +2,7 @@
 
 use super::WEAR;
 use crate::motion::{FrettingRecord, PassRecord, UpdateRecord};
-use crate::units::{Dimension, format, format_number};
+use crate::units::{CubicMetre, Dimension, Joule, Metre, format, format_number};
 use crate::with::views::{Answer, Kept, KeptMap, OfBodies, PassCell};
 
 pub(super) const KEPT: &[Kept] = &[Kept {
@@ -58,38 +58,55 @@ pub(super) const OF_CYCLES: &[OfBodies<FrettingRecord>] = &[
 
 pub(super) fn after_passes(passes: &[PassRecord]) -> Option<Answer> {
     let worn: f64 = passes.iter().flat_map(|pass| pass.lost(WEAR)).sum();
-    let last = passes.last()?;
-    let distance = last.running.map_or(f64::NAN, |running| running.distance);
+    let running = passes.last()?.running;
+    let deepest =
+        running.map_or(0.0, |running| running.laws.deepest_wear_lower.max(running.laws.deepest_wear_upper));
+    // A pass that stands for several counts as often.
+    let represented = |pass: &PassRecord| pass.represents() as f64;
+    let load = passes.iter().map(|pass| represented(pass) * pass.mean_load).sum::<f64>()
+        / passes.iter().map(represented).sum::<f64>();
+    let distance = running.map_or(f64::NAN, |running| running.distance);
+    worn_off(worn, deepest, distance, load * distance)
+}
+
+pub(super) fn after_sliding(updates: &[UpdateRecord]) -> Option<Answer> {
+    let last = updates.last()?;
+    let worn: f64 = last.lost(WEAR).iter().sum();
+    // Each update ends under its load, as its removal is solved for.
+    let steps = updates.windows(2).map(|pair| pair[1].load * (pair[1].distance - pair[0].distance));
+    let deepest = last.laws.max_wear_lower.max(last.laws.max_wear_upper);
+    worn_off(worn, deepest, last.distance, steps.sum())
+}
+
+/// Returns what wear has taken off the bodies over a sliding `distance`, in which the load has done the `work` ∫ W ds.
+fn worn_off(worn: CubicMetre, deepest: Metre, distance: Metre, work: Joule) -> Option<Answer> {
     let value = format(worn, Dimension::Volume);
-    let over = format(distance, Dimension::Length);
-    let coefficient = coefficient(worn, passes, distance);
-    let known = distance > 0.0 && coefficient.is_finite();
+    let deep = if deepest > 0.0 {
+        format!(", up to {} deep", format(deepest, Dimension::Length))
+    } else {
+        String::new()
+    };
+    let known = distance > 0.0 && (worn / work).is_finite();
     (worn > 0.0).then(|| match known {
         true => {
-            let [k, rate] = [format_number(1e9 * coefficient), per_metre(worn / distance)];
+            let over = format(distance, Dimension::Length);
+            let [k, rate] = [format_number(1e9 * worn / work), per_metre(worn / distance)];
             Answer {
                 name: "wear".into(),
-                about: format!("Of both bodies over {over}: {rate}, a coefficient of {k} mm³/(N m)."),
+                about: format!("Of both bodies over {over}{deep}: {rate}, a coefficient of {k} mm³/(N m)."),
                 sentence: format!(
-                    "Wear has taken {value} from the bodies over {over} of sliding: {rate}, a coefficient of {k} mm³/(N m)."
+                    "Wear has taken {value} from the bodies over {over} of sliding{deep}: {rate}, a coefficient of {k} mm³/(N m)."
                 ),
                 value,
             }
         }
         false => Answer {
             name: "wear".into(),
-            about: "Volume that both bodies have lost so far.".to_owned(),
-            sentence: format!("Wear has taken {value} from the bodies."),
+            about: format!("Volume that both bodies have lost so far{deep}."),
+            sentence: format!("Wear has taken {value} from the bodies{deep}."),
             value,
         },
     })
-}
-
-/// Returns the volume worn per load and distance, m²/N. A pass that stands for several counts as often.
-fn coefficient(worn: f64, passes: &[PassRecord], distance: f64) -> f64 {
-    let represented: f64 = passes.iter().map(|pass| pass.represents() as f64).sum();
-    let load = passes.iter().map(|pass| pass.represents() as f64 * pass.mean_load).sum::<f64>() / represented;
-    worn / (load * distance)
 }
 
 /// Writes a volume per distance.
@@ -106,18 +123,6 @@ pub(super) fn after_cycles(cycles: &FrettingRecord) -> Option<Answer> {
         name: "worn volume".into(),
         about: format!("Of both bodies, after {count} cycles; up to {deepest} deep."),
         sentence: format!("{count} cycles have worn {value} off the bodies, up to {deepest} deep."),
-        value,
-    })
-}
-
-pub(super) fn after_sliding(update: &UpdateRecord) -> Option<Answer> {
-    let deepest = update.laws.max_wear_lower.max(update.laws.max_wear_upper);
-    let value = format(deepest, Dimension::Length);
-    let distance = format(update.distance, Dimension::Length);
-    (deepest > 0.0).then(|| Answer {
-        name: "deepest wear".into(),
-        about: format!("After {distance} of sliding."),
-        sentence: format!("After {distance} of sliding the wear is up to {value} deep."),
         value,
     })
 }
