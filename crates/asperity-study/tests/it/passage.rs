@@ -147,7 +147,7 @@ fn every_course_says_what_its_contacts_let_through() {
             assert!((row.spot_share + row.gas_share - 1.0).abs() < 1e-9, "{name}: {row:?}");
             assert!(near(row.power.unwrap(), 10.0 * thermal.conductance.unwrap(), 1e-12));
             for (flow, along) in flows.iter().zip([Axis::X, Axis::Y]) {
-                assert_eq!((flow.pass, Some(flow.step), flow.along), (row.pass, row.step, along), "{name}");
+                assert_eq!((flow.pass, flow.step, flow.along), (row.pass, row.step, along), "{name}");
                 assert!(flow.load == row.load && flow.contact_area == row.contact_area, "{name}");
                 assert!(
                     flow.leakage >= 0.0 && (flow.leakage > 0.0) == (flow.critical_gap > 0.0),
@@ -164,6 +164,13 @@ fn every_course_says_what_its_contacts_let_through() {
                 / of_last.len() as f64;
             assert!(
                 near(summary.found.conductance[1].quantities.conductance.unwrap(), mean, 1e-12),
+                "{name}"
+            );
+            let along_x: Vec<&FlowRecord> =
+                flows.iter().filter(|row| row.pass == Some(2) && row.along == Axis::X).collect();
+            let mean = along_x.iter().map(|row| row.leakage).sum::<f64>() / along_x.len() as f64;
+            assert!(
+                summary.found.flow.len() == 4 && near(summary.found.flow[2].leakage, mean, 1e-12),
                 "{name}"
             );
         } else {
