@@ -357,7 +357,7 @@ def rows_are_the_table(tab, table):
 
 
 def curves_are_means_of_the_table(tab, table):
-    """Whatever is chosen, a curve for each value of the other axis: means of the samples to the last digit, between the least and the largest."""
+    """Whatever is chosen, a curve for each value of the other axis: means of the samples to the last digit, with their standard deviation and number."""
     done = [row for row in table if row["state"] == "done"]
     keys = {"contact.load": "contact.load (N)", "lower.topography.sq": "lower.topography.sq (m)"}
     selects = tab.locator("#explorer select")
@@ -371,14 +371,14 @@ def curves_are_means_of_the_table(tab, table):
             selects.nth(0).select_option(str(quantity))
             rows = list(csv.reader(tab.evaluate("explorer.view.csv()").splitlines()))
             values = sorted({float(row[other]) for row in done})
-            assert sum("least" in head for head in rows[0]) == len(values), rows[0]
-            first = [n for n, head in enumerate(rows[0]) if "least" in head]
+            first = [n - 1 for n, head in enumerate(rows[0]) if "standard deviation" in head]
+            assert len(first) == len(values), rows[0]
             for n, value in zip(first, values):
                 of_curve = [row for row in done if float(row[other]) == value]
                 for k, at in enumerate(sorted({float(row[column]) for row in of_curve}), 1):
                     numbers = [float(row[name]) for row in of_curve if float(row[column]) == at]
-                    least, largest, mean = (float(rows[k][n + j]) for j in range(3))
-                    assert len(numbers) == 2 and (least, largest) == (min(numbers), max(numbers)), (key, name, rows[k], numbers)
+                    mean, deviation, count = (float(rows[k][n + j]) for j in range(3))
+                    assert count == len(numbers) == 2 and np.isclose(deviation, np.std(numbers, ddof=1), rtol=1e-9, atol=1e-300)
                     assert np.isclose(mean, np.mean(numbers), rtol=1e-15)
     selects.nth(2).select_option("")
     assert tab.evaluate("explorer.chart().series.filter((s) => s.mark === 'points').length") == 1
@@ -460,7 +460,10 @@ def heads_stay(tab):
 
 def look_at_study(browser, directory, folder, axe):
     path = directory / "study.html"
-    table = list(csv.DictReader(open(directory / "table.csv")))
+    table = list(csv.DictReader(open(directory / "table.csv", encoding="utf-8-sig")))
+    # Also under their names alone, without a unit.
+    for row in table:
+        row.update({head.split(" (")[0]: value for head, value in row.items()})
     context = browser.new_context(viewport={"width": 1280, "height": 900}, accept_downloads=True)
     tab = context.new_page()
     wrong = []

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use asperity_study::io::fs;
-use asperity_study::many::{Axis, Row, Table};
+use asperity_study::many::{Axis, Row, Table, TableColumn};
 use asperity_study::{column, dimension_of_column};
 use serde_json::{Value, json};
 
+use super::table::Measure;
 use super::words;
 use super::{curves, table};
 use crate::draw::Unit;
@@ -18,21 +19,47 @@ const MAX_CASES: usize = 4000;
 pub(super) struct Quantity {
     /// Name of its column; that of the contact fraction where it is worked out here.
     pub(super) name: String,
+    /// The quantity in words.
+    pub(super) label: String,
+    /// Its meaning.
+    pub(super) about: &'static str,
+    /// Whether it answers the question of the user.
+    pub(super) is_answer: bool,
     /// In the order of the rows; NaN of cases that failed.
     pub(super) values: Vec<f64>,
 }
 
-/// The quantities of a study in the order of `shown`: columns that say something, without those that repeat an axis, and the contact
-/// fraction.
-pub(super) fn quantities(table: &Table, shown: &[String]) -> Vec<Quantity> {
+impl Quantity {
+    /// How its numbers are shown.
+    pub(super) fn measure(&self) -> Measure {
+        Measure::of(&self.name, largest(&self.values))
+    }
+}
+
+/// The quantities of a study: the answers, then the columns that are `shown` in their order, which say something and do not repeat an axis,
+/// and the contact fraction.
+pub(super) fn quantities(table: &Table, shown: &[&str]) -> Vec<Quantity> {
     let of_column = |name: &str| -> Option<Vec<f64>> {
-        let at = table.columns().iter().position(|column| column == name)?;
-        let value = |row: &Row| if row.failure.is_none() { row.numbers[at] } else { f64::NAN };
+        let at = table.columns().iter().position(|column| column.name == name)?;
+        let value = |row: &Row| row.numbers.get(at).copied().unwrap_or(f64::NAN);
         Some(table.rows().iter().map(value).collect())
     };
-    let mut all: Vec<Quantity> = shown
-        .iter()
-        .filter_map(|name| Some(Quantity { name: name.clone(), values: of_column(name)? }))
+    let quantity = |column: &TableColumn| {
+        let words = column.answer.clone().unwrap_or_else(|| words::of_column(&column.name));
+        Some(Quantity {
+            name: column.name.clone(),
+            label: if column.of_last_pass { format!("{words}, last pass") } else { words },
+            about: self::column(&column.name).map_or("", |column| column.text),
+            is_answer: column.answer.is_some(),
+            values: of_column(&column.name)?,
+        })
+    };
+    let answers = table.answers().iter().map(|n| &table.columns()[*n]);
+    let others = || table.columns().iter().filter(|column| column.answer.is_none());
+    let others = shown.iter().filter_map(|name| others().find(|column| column.name == *name));
+    let mut all: Vec<Quantity> = answers
+        .chain(others)
+        .filter_map(quantity)
         .filter(|quantity| quantity.values.iter().any(|value| value.abs() > 0.0))
         .filter(|quantity| !table.axes().iter().any(|axis| repeats(axis, quantity, table)))
         .collect();
@@ -46,7 +73,10 @@ pub(super) fn quantities(table: &Table, shown: &[String]) -> Vec<Quantity> {
         });
     if let Some(values) = fraction.filter(|values| values.iter().any(|value| *value > 0.0)) {
         let after_the_area = all.iter().position(|quantity| quantity.name.ends_with("contact_area"));
-        let quantity = Quantity { name: "contact_fraction".to_owned(), values };
+        let (name, about) =
+            ("contact_fraction".to_owned(), "Area of contact over the area of the grid, or of the overlap.");
+        let label = words::of_column(&name);
+        let quantity = Quantity { name, label, about, is_answer: false, values };
         all.insert(after_the_area.map_or(0, |at| at + 1), quantity);
     }
     all
@@ -63,7 +93,7 @@ fn repeats(axis: &Axis, quantity: &Quantity, table: &Table) -> bool {
     let mut known = table.rows().iter().zip(&quantity.values).filter(|(_, value)| value.is_finite());
     is_same_dimension
         && known.all(|(row, value)| {
-            let prescribed = numbers[row.indices[n] as usize];
+            let prescribed = row.indices.get(n).map_or(f64::NAN, |index| numbers[*index as usize]);
             (value - prescribed).abs() <= REACHED * prescribed.abs()
         })
 }
@@ -75,13 +105,13 @@ pub(super) fn data(table: &Table, quantities: &[Quantity], directory: &Path) -> 
         table.axes().iter().enumerate().map(|(n, axis)| of_axis(table, n, axis, &shown)).collect();
     let quantities: Vec<Value> = quantities
         .iter()
-        .map(|Quantity { name, values }| {
+        .map(|Quantity { name, label, about, values, .. }| {
             let unit = if name == "contact_fraction" { Unit::Number } else { Unit::of_column(name) };
             let numbers: Vec<f64> = shown.iter().map(|n| values[*n]).collect();
             json!({
                 "name": name,
-                "label": words::of_column(name),
-                "about": column(name).map(|column| column.text),
+                "label": label,
+                "about": about,
                 "unit": curves::unit(unit, largest(&numbers)),
                 "values": numbers,
             })
@@ -91,9 +121,11 @@ pub(super) fn data(table: &Table, quantities: &[Quantity], directory: &Path) -> 
         .iter()
         .map(|n| {
             let row = &table.rows()[*n];
-            let page = format!("cases/{:04}/{}", row.case, super::FILE);
+            let folder = format!("cases/{:04}", row.case);
+            let page = format!("{folder}/{}", super::FILE);
             json!({
-                "case": format!("{:04}", row.case),
+                "case": name_of(row),
+                "folder": folder,
                 "failure": row.failure,
                 "page": Some(&page).filter(|page| fs::exists(directory.join(page))),
             })
@@ -108,6 +140,12 @@ pub(super) fn data(table: &Table, quantities: &[Quantity], directory: &Path) -> 
     })
 }
 
+/// The name of a row: the number of its case, and that of its point.
+pub(super) fn name_of(row: &Row) -> String {
+    let point = row.point.map_or(String::new(), |point| format!("/{point}"));
+    format!("{:04}{point}", row.case)
+}
+
 fn of_axis(table: &Table, n: usize, axis: &Axis, shown: &[usize]) -> Value {
     let unit = axis.dimension().map_or(Unit::Number, Unit::from);
     let numbers = axis.numbers().filter(|_| !axis.is_seed());
@@ -118,10 +156,10 @@ fn of_axis(table: &Table, n: usize, axis: &Axis, shown: &[usize]) -> Value {
         "numbers": numbers,
         "texts": (0..axis.len()).map(|index| axis.text(index)).collect::<Vec<_>>(),
         "seed": axis.is_seed(),
-        "indices": shown.iter().map(|row| table.rows()[*row].indices[n]).collect::<Vec<_>>(),
+        "indices": shown.iter().map(|row| table.rows()[*row].indices.get(n)).collect::<Vec<_>>(),
     })
 }
 
-fn largest(numbers: &[f64]) -> f64 {
+pub(super) fn largest(numbers: &[f64]) -> f64 {
     numbers.iter().map(|number| number.abs()).filter(|size| size.is_finite()).fold(0.0, f64::max)
 }
