@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use asperity_base::units::{Dimension, Multiple};
 use asperity_study::io::fs;
 use asperity_study::many::{Axis, Row, Table, TableColumn};
 use asperity_study::{column, dimension_of_column};
@@ -63,21 +64,31 @@ pub(super) fn quantities(table: &Table, shown: &[&str]) -> Vec<Quantity> {
         .filter(|quantity| quantity.values.iter().any(|value| value.abs() > 0.0))
         .filter(|quantity| !table.axes().iter().any(|axis| repeats(axis, quantity, table)))
         .collect();
-    let ratio =
-        |over: Vec<f64>, under: Vec<f64>| over.iter().zip(under).map(|(over, under)| over / under).collect();
-    let fraction: Option<Vec<f64>> = of_column("contact_fraction")
-        .or_else(|| Some(ratio(of_column("contact_area")?, of_column("apparent_area")?)))
-        .or_else(|| {
-            let overlap: Vec<f64> = ratio(of_column("mean_load")?, of_column("mean_pressure")?);
-            Some(ratio(of_column("mean_contact_area")?, overlap))
-        });
-    if let Some(values) = fraction.filter(|values| values.iter().any(|value| *value > 0.0)) {
-        let after_the_area = all.iter().position(|quantity| quantity.name.ends_with("contact_area"));
+    // The share of the grid, or of the overlap of a pass.
+    let parts = [
+        "contact_fraction",
+        "contact_area",
+        "apparent_area",
+        "mean_contact_area",
+        "mean_pressure",
+        "mean_load",
+    ];
+    let parts = parts.map(|name| of_column(name).unwrap_or_else(|| vec![f64::NAN; table.rows().len()]));
+    let fraction = |n: usize| {
+        let [fraction, area, apparent, mean_area, pressure, load] =
+            [0, 1, 2, 3, 4, 5].map(|part: usize| parts[part][n]);
+        let known = [fraction, area / apparent, mean_area * pressure / load]
+            .into_iter()
+            .find(|share| share.is_finite());
+        known.unwrap_or(f64::NAN)
+    };
+    let values: Vec<f64> = (0..table.rows().len()).map(fraction).collect();
+    let of_area = all.iter().position(|quantity| quantity.name.ends_with("contact_area"));
+    if let Some(at) = of_area.filter(|_| values.iter().any(|value| *value > 0.0)) {
         let (name, about) =
             ("contact_fraction".to_owned(), "Area of contact over the area of the grid, or of the overlap.");
-        let label = words::of_column(&name);
-        let quantity = Quantity { name, label, about, is_answer: false, values };
-        all.insert(after_the_area.map_or(0, |at| at + 1), quantity);
+        let label = all[at].label.replace(&words::of_column(&all[at].name), &words::of_column(&name));
+        all.insert(at + 1, Quantity { name, label, about, is_answer: false, values });
     }
     all
 }
@@ -106,13 +117,22 @@ pub(super) fn data(table: &Table, quantities: &[Quantity], directory: &Path) -> 
     let quantities: Vec<Value> = quantities
         .iter()
         .map(|Quantity { name, label, about, values, .. }| {
-            let unit = if name == "contact_fraction" { Unit::Number } else { Unit::of_column(name) };
             let numbers: Vec<f64> = shown.iter().map(|n| values[*n]).collect();
+            // The unit is that of the tables; a temperature has an offset there.
+            let dimension =
+                dimension_of_column(name).filter(|dimension| *dimension != Dimension::Temperature);
+            let unit =
+                match dimension.map(|dimension| (dimension.multiple(largest(&numbers)), dimension.si())) {
+                    Some((Multiple { factor, symbol }, si)) => {
+                        json!({ "factor": factor, "symbol": symbol, "si": si })
+                    }
+                    None => curves::unit(Unit::of_column(name), largest(&numbers)),
+                };
             json!({
                 "name": name,
                 "label": label,
                 "about": about,
-                "unit": curves::unit(unit, largest(&numbers)),
+                "unit": unit,
                 "values": numbers,
             })
         })

@@ -20,7 +20,7 @@ use crate::draw::{Colours, palette};
 const MAX_ROWS: usize = 20_000;
 
 /// Columns of a study's table that the page shows after the answers, the most telling ones first.
-const SHOWN: [&str; 27] = [
+const SHOWN: [&str; 28] = [
     "contact_area",
     "mean_contact_area",
     "approach",
@@ -29,6 +29,7 @@ const SHOWN: [&str; 27] = [
     "friction_coefficient",
     "force_ratio",
     "creepage_x",
+    "tangential_force_x",
     "stiffness",
     "sq_lower",
     "sq_upper",
