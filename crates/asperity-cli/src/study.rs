@@ -30,7 +30,8 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
     }
     if arguments.collect {
         let folder = Folder::open(&directory, &study)?;
-        return tell(&collect(&study, &folder)?, &study, &folder);
+        let table = collect(&study, &folder)?;
+        return if arguments.quiet { Ok(()) } else { tell(&table, &study, &folder) };
     }
     if study.len() > MANY && !arguments.yes {
         let message = format!("the study has {} cases", study.len());

@@ -356,6 +356,19 @@ def rows_are_the_table(tab, table):
         assert cells[-1][0] == row["warnings"]
 
 
+def answers_are_means_of_the_table(tab, table):
+    """The page opens with mean, deviation and number of the samples of each load and roughness."""
+    assert tab.locator("section[aria-labelledby] h2").first.inner_text() == "Answers" and tab.locator("#head .cards > div").count() == 3
+    done = [row for row in table if row["state"] == "done"]
+    rows = [[cell.inner_text() for cell in row.locator("td").all()] for row in tab.locator("#answers tbody tr").all()]
+    groups = sorted({(float(row["contact.load (N)"]), float(row["lower.topography.sq (m)"])) for row in done})
+    for (load, sq), cells in zip(groups, rows, strict=True):
+        areas = [1e12 * float(row["contact_area"]) for row in done if (float(row["contact.load (N)"]), float(row["lower.topography.sq (m)"])) == (load, sq)]
+        mean, deviation = map(float, cells[2].split(" ± "))
+        assert np.isclose(mean, np.mean(areas), rtol=6e-4) and np.isclose(deviation, np.std(areas, ddof=1), rtol=6e-2), (cells, areas)
+        assert cells[-1] == str(len(areas))
+
+
 def curves_are_means_of_the_table(tab, table):
     """Whatever is chosen, a curve for each value of the other axis: means of the samples to the last digit, with their standard deviation and number."""
     done = [row for row in table if row["state"] == "done"]
@@ -478,6 +491,7 @@ def look_at_study(browser, directory, folder, axe):
     assert told == [f"case {row['case']}: {row['message']}" for row in failed]
     keys_reach_the_cases(tab)
     rows_are_the_table(tab, table)
+    answers_are_means_of_the_table(tab, table)
     curves_are_means_of_the_table(tab, table)
     means_are_coloured_and_filtered(tab, table)
     clicks_sort_and_open(tab, table)
