@@ -219,7 +219,7 @@ class Study(Comparable):
             ``"approach (nm)"``. Use it to print a table: in SI, pandas prints small numbers as 0.0.
         """
         table = self.table
-        counters = [name for name in ("case", "point") if name in (table.dtype.names or ())]
+        counters = [name for name in (table.dtype.names or ()) if name in ("case", "point")]
         return frame(table, counters, self.table_units, units)
 
     def to_xarray(self) -> Dataset:

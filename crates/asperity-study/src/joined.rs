@@ -25,7 +25,7 @@ pub(super) struct Cell {
     pub(super) value: Value,
     /// How the value of a whole motion follows from those of its passes.
     pub(super) over_motion: OverMotion,
-    /// What it is, if it answers the question of the user.
+    /// Name of the quantity, if it answers the question of the user.
     pub(super) answer: Option<String>,
 }
 
@@ -276,7 +276,7 @@ mod tests {
             ("surface_shift_upper", 30.0),
             ("error_estimate", 30.0),
             ("convolutions", 30.0),
-            // Those of an attraction are those of a single pass.
+            // The losses of an attraction are those of a single pass.
             ("energy_lost", 3.0 * 10.0 + 5.0 * 20.0),
             ("jumps", 130.0),
             ("distance", 20.0),

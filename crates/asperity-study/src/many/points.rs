@@ -13,7 +13,7 @@ const SWEPT: [(&str, &str); 5] = [
     ("/steady/speeds", "steady.speed"),
 ];
 
-/// What the sweep of a resolved case changes: the key of a point, and the values of all points.
+/// Returns the key of a point of the sweep of a resolved case, and the values of all points; `None` without a list of points.
 pub(super) fn swept(case: &Value) -> Option<(&'static str, Vec<toml::Value>)> {
     let (key, values) = SWEPT.iter().find_map(|(list, key)| Some((*key, case.pointer(list)?.as_array()?)))?;
     let pairs: Vec<&[Value]> =

@@ -44,7 +44,7 @@ pub struct TableColumn {
     pub name: String,
     /// Whether it is a value of the last pass of a motion, and neither a state after it nor a total of all passes.
     pub of_last_pass: bool,
-    /// What it is, if it answers the question of the user: "worn volume, lower body".
+    /// Name of the quantity, if it answers the question of the user: "worn volume, lower body".
     pub answer: Option<String>,
 }
 
@@ -228,7 +228,7 @@ impl Table {
 struct CaseData {
     /// The numbers of its rows; one row without numbers of a case that failed.
     rows: Vec<Vec<Number>>,
-    /// What its sweep changes: the key of a point, and the values of all points.
+    /// Key of a point of its sweep, and the values of all points.
     sweep: Option<(&'static str, Vec<toml::Value>)>,
     warnings: usize,
     wall_time: f64,
@@ -312,7 +312,7 @@ fn answers(columns: &mut [TableColumn]) -> Vec<usize> {
     for (n, column) in columns.iter_mut().enumerate() {
         let name = column.name.strip_prefix(SLIDING).unwrap_or(&column.name);
         let place = known.iter().position(|(known, _)| known == name);
-        // What a single pass takes is no answer about all of them.
+        // The wear of a single pass is no answer about all of them.
         let adds_up =
             declared(PassRecord::COLUMNS, name).is_none_or(|c| c.over_motion != OverMotion::MeanOfPass);
         if let Some(place) = place.filter(|_| column.answer.is_none() && (adds_up || !column.of_last_pass)) {
