@@ -61,13 +61,15 @@ impl<'a> Overview<'a> {
         let spread = |((_, measure), spread): (&(_, Measure), &Option<Spread>)| match spread {
             None => "–".to_owned(),
             Some(spread) => {
+                let mean = measure.text(spread.mean);
+                let deviation = spread.deviation.map(|deviation| match measure.difference(deviation) {
+                    deviation if mean.contains('e') => format!(" ± {deviation:.1e}"),
+                    deviation => format!(" ± {}", format_number_digits(deviation, 2)),
+                });
                 // A case may not have the number.
                 let fewer =
                     if spread.count < *count { format!(" ({})", spread.count) } else { String::new() };
-                let deviation = spread.deviation.map(|deviation| {
-                    format!(" ± {}", format_number_digits(measure.difference(deviation), 2))
-                });
-                format!("{}{}{fewer}", measure.text(spread.mean), deviation.unwrap_or_default())
+                format!("{mean}{}{fewer}", deviation.unwrap_or_default())
             }
         };
         let spreads = self.quantities.iter().zip(spreads).map(spread);
