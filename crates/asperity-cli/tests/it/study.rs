@@ -368,6 +368,18 @@ fn a_sweep_in_a_study_has_a_row_for_each_point_with_the_answers_of_all_capabilit
     assert_eq!(Fields::open(&path("swept/table.h5")).unwrap().read("contact.load").unwrap().values.len(), 6);
     let page = fs::read_to_string(path("swept/study.html")).unwrap();
     assert!(page.contains(">0002/3</th>") && page.contains("leakage, along x"), "{page}");
+    // A damaged table of a capability is a row that says so.
+    let flow = path("swept/cases/0002/flow.csv");
+    let whole = fs::read(&flow).unwrap();
+    fs::write(&flow, "a,b\n1,2\n").unwrap();
+    ok(&asperity(&folder, "study load.toml --out swept --collect"));
+    let damaged = table(&path("swept/table.csv"));
+    assert_eq!(column(&damaged, "case"), [1.0, 1.0, 1.0, 2.0]);
+    assert!(
+        damaged[3]["message"].contains("its flow.csv is damaged")
+            && damaged[3]["contact.load (N)"].is_empty()
+    );
+    fs::write(&flow, whole).unwrap();
     // Without a list there is no axis of points.
     change(&path("case.toml"), "loads = [\"1 mN\", \"2 mN\", \"4 mN\"]", "load = \"2 mN\"");
     ok(&asperity(&folder, "study load.toml --out one --quiet"));

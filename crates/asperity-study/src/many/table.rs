@@ -276,9 +276,9 @@ fn found(folder: &Folder, case: usize) -> Result<Option<CaseData>> {
     }
 }
 
-/// Whether an error means that a file is damaged.
+/// Whether an error means that a file is damaged; a row of a table that cannot be read has no kind of its own.
 fn is_damage(error: &io::Error) -> bool {
-    matches!(error.kind(), ErrorKind::InvalidData | ErrorKind::UnexpectedEof)
+    matches!(error.kind(), ErrorKind::InvalidData | ErrorKind::UnexpectedEof | ErrorKind::Other)
 }
 
 /// Returns the numbers of the rows of a case: a row per point of a sweep, else one.
