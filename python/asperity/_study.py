@@ -218,9 +218,9 @@ class Study(Comparable):
             Units of the numbers. ``"display"`` gives each column a suitable prefix and writes the unit into its name, such as
             ``"approach (nm)"``. Use it to print a table: in SI, pandas prints small numbers as 0.0.
         """
-        table = self.table
-        counters = [name for name in (table.dtype.names or ()) if name in ("case", "point")]
-        return frame(table, counters, self.table_units, units)
+        collected = self._core.table()
+        counters = ["case", "point"] if collected and collected[1] else ["case"]
+        return frame(self._records(collected), counters, self.table_units, units)
 
     def to_xarray(self) -> Dataset:
         """Return the :attr:`table` as an xarray Dataset, with the units in the attribute `units` of each variable.
