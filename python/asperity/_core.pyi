@@ -137,7 +137,7 @@ class Study:
         """
         Key, unit and values of each axis: numbers in SI, or texts.
         """
-    def collect(self, /) -> tuple[list[int], list[tuple[str, str, Incomplete]], list[int], list[str | None]]:
+    def collect(self, /) -> tuple[list[int], tuple[str, str, list, list[int | None]] | None, list[tuple[str, str, Incomplete]], list[int], list[str | None]]:
         """
         Makes tables and page of what is there.
         """
@@ -153,7 +153,7 @@ class Study:
         """
         How each case stands: "done", "failed", "running" in some process, or "open"; and why it failed.
         """
-    def table(self, /) -> tuple[list[int], list[tuple[str, str, Incomplete]], list[int], list[str | None]] | None:
+    def table(self, /) -> tuple[list[int], tuple[str, str, list, list[int | None]] | None, list[tuple[str, str, Incomplete]], list[int], list[str | None]] | None:
         """
         What came of the cases that are over; none before the study is begun.
         """

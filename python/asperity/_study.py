@@ -121,11 +121,12 @@ class Study(Comparable):
 
     @property
     def table(self) -> NDArray[np.void]:
-        """A record for each finished case, with the columns of ``table.csv``.
+        """A record for each finished case, or for each point of its sweep, with the columns of ``table.csv``.
 
-        The columns are `case`, the axes, the numbers of the summary, `warnings`, `state` and `message`. Numbers are in SI, and NaN if
-        a case does not have them. `warnings` is the number of warnings, `state` is ``"done"`` or ``"failed"``, and `message` is the
-        reason of a failure.
+        The columns are `case`, the axes, the value of the point of a sweep such as ``"contact.load"``, the numbers of the results,
+        `warnings`, `state` and `message`. Numbers are in SI, and NaN if a case does not have them. Volumes, work and other amounts of a
+        motion are those of all its passes; a value such as the largest pressure is that of the last pass. `warnings` is the number of
+        warnings, `state` is ``"done"`` or ``"failed"``, and `message` is the reason of a failure.
         """
         return self._records(self._core.table())
 
@@ -194,13 +195,22 @@ class Study(Comparable):
     @property
     def table_units(self) -> dict[str, str]:
         """SI unit of each column of the :attr:`table`; ``"1"`` for a pure number, empty for a text."""
-        units = {name: unit_of(name) for name in self.table.dtype.names or ()}
-        for key, values in self.axes.items():
-            units[key] = self.units[key] or ("1" if values.dtype.kind in "iuf" else "")
+        collected = self._core.table()
+        units = {name: unit_of(name) for name in self._records(collected).dtype.names or ()}
+        for key, values in self._table_axes.items():
+            unit = self.units.get(key, collected[1][1] if collected and collected[1] else "")
+            units[key] = unit or ("1" if values.dtype.kind in "iuf" else "")
         return units
 
+    @property
+    def _table_axes(self) -> dict[str, NDArray[Any]]:
+        """The axes, and that of the points of sweeps."""
+        collected = self._core.table()
+        points = collected[1] if collected else None
+        return self.axes if points is None else {**self.axes, points[0]: np.array(points[2])}
+
     def to_pandas(self, units: Units = "si") -> DataFrame:
-        """Return the :attr:`table` as a pandas DataFrame over `case`, with its units in the attribute `units`.
+        """Return the :attr:`table` as a pandas DataFrame over `case`, and over `point` of sweeps, with its units in the attribute `units`.
 
         Parameters
         ----------
@@ -208,35 +218,52 @@ class Study(Comparable):
             Units of the numbers. ``"display"`` gives each column a suitable prefix and writes the unit into its name, such as
             ``"approach (nm)"``. Use it to print a table: in SI, pandas prints small numbers as 0.0.
         """
-        return frame(self.table, ["case"], self.table_units, units)
+        collected = self._core.table()
+        counters = ["case", "point"] if collected and collected[1] else ["case"]
+        return frame(self._records(collected), counters, self.table_units, units)
 
     def to_xarray(self) -> Dataset:
         """Return the :attr:`table` as an xarray Dataset, with the units in the attribute `units` of each variable.
 
         If the plan has one case for each combination of values, the axes are the dimensions. Otherwise the dimension is `case`, and
-        the axes are coordinates. Numbers of unfinished cases are NaN.
+        the axes are coordinates. The points of sweeps are one more dimension. Numbers of unfinished cases are NaN.
         """
         xarray = need("xarray", "to_xarray()")
-        table, plan, units = self.table, self.plan, self.table_units
+        collected = self._core.table()
+        table, plan, units = self._records(collected), self.plan, self.table_units
         indices = np.asarray(self._core.indices())
         shape = tuple(len(values) for values in self.axes.values())
         places = np.ravel_multi_index(tuple(indices.T), shape)
         is_grid = len(places) == np.prod(shape) == len(set(places.tolist()))
+        points = collected[1] if collected else None
+        # The points of sweeps; a case that failed has none.
+        over = {} if points is None else {points[0]: np.array(points[2])}
+        at = np.array([-1 if index is None else index for index in points[3]] if points else [], dtype=np.int64)
+        inner = tuple(len(values) for values in over.values())
 
         def spread(values: NDArray[Any]) -> tuple[Any, NDArray[Any]]:
-            return (tuple(self.axes), values[np.argsort(places)].reshape(shape)) if is_grid else ("case", values)
+            more = tuple(over)[: values.ndim - 1]
+            if is_grid:
+                return (*self.axes, *more), values[np.argsort(places)].reshape(shape + values.shape[1:])
+            return ("case", *more), values
 
         variables: dict[str, Any] = {"case": plan["case"], "state": self.states}
         for name in table.dtype.names or ():
-            if name not in self.axes and name not in variables:
+            if name not in self.axes and name not in over and name not in variables:
                 values = table[name]
-                whole = np.full(len(plan), np.nan) if values.dtype.kind == "f" else np.zeros(len(plan), values.dtype)
-                whole[table["case"] - 1] = values
+                size = (len(plan), *inner)
+                whole = np.full(size, np.nan) if values.dtype.kind == "f" else np.zeros(size, values.dtype)
+                if over:
+                    rows = at >= 0
+                    whole[table["case"][rows] - 1, at[rows]] = values[rows]
+                else:
+                    whole[table["case"] - 1] = values
                 variables[name] = whole
         coordinates = {
             key: (key if is_grid else "case", values if is_grid else plan[key], {"units": units[key]})
             for key, values in self.axes.items()
         }
+        coordinates.update({key: (key, values, {"units": units[key]}) for key, values in over.items()})
         dataset: Dataset = xarray.Dataset(
             {name: (*spread(values), {"units": units[name]}) for name, values in variables.items()},
             coordinates,
@@ -268,9 +295,13 @@ class Study(Comparable):
         return study(self, quantity, x, color, ax, **options)
 
     def _records(self, collected: Any) -> NDArray[np.void]:
-        cases, columns, warnings, messages = collected or ([], [], [], [])
+        cases, points, columns, warnings, messages = collected or ([], None, [], [], [])
         plan = self.plan[np.array(cases, dtype=np.int64) - 1]
         table: dict[str, NDArray[Any]] = {name: plan[name] for name in plan.dtype.names or ()}
+        if points is not None:
+            key, _, values, indices = points
+            missing = "" if values and isinstance(values[0], str) else np.nan
+            table[key] = np.array([missing if index is None else values[index] for index in indices])
         table.update({name: values for name, _, values in columns})
         table["warnings"] = np.array(warnings, dtype=np.int64)
         table["state"] = np.array(["done" if message is None else "failed" for message in messages], dtype=np.str_)

@@ -20,24 +20,24 @@ if TYPE_CHECKING:
 
 def study(study: Study, quantity: str, x: str | None, color: str | None, ax: Axes | None, **options: Any) -> Axes:
     """Draws a column of the table of a study: a point for each case, and a line through the means over an axis."""
-    table, units = study.table, study.table_units
+    table, units, known = study.table, study.table_units, study._table_axes
     over = column(table, _default(study) if x is None else x, "x", "study")
     column(table, quantity, "quantity", "study")
     if table[quantity].dtype.kind not in "if":
         raise bad_input("quantity", f"'quantity' is {quantity!r}, expected a column of numbers")
-    if color is not None and color not in study.axes:
-        raise bad_input("color", f"'color' is {color!r}, expected an axis of the study: {', '.join(study.axes)}")
+    if color is not None and color not in known:
+        raise bad_input("color", f"'color' is {color!r}, expected an axis of the study: {', '.join(known)}")
     ax = axes(ax)
     across, up = (_shown(table[name], units[name]) for name in (over, quantity))
-    groups = [None] if color is None else list(study.axes[color])
+    groups = [None] if color is None else list(known[color])
     colours = _colours(groups)
     for group, colour in zip(groups, colours, strict=True):
         rows = table if color is None else table[table[color] == group]
         rows = rows[np.isfinite(rows[quantity])]
         place, value = _scaled(rows[over], across), up.factor * rows[quantity]
-        label = None if color is None else _value(group, _shown(study.axes[color], units[color]))
+        label = None if color is None else _value(group, _shown(known[color], units[color]))
         style = {"color": colour, **options}
-        if over not in study.axes:
+        if over not in known:
             ax.plot(place, value, **{"marker": "o", "linestyle": "none", "label": label, **style})
             continue
         # A text stays where it is first seen, a number has its order.
@@ -47,7 +47,7 @@ def study(study: Study, quantity: str, x: str | None, color: str | None, ax: Axe
         ax.plot(place, value, **{"marker": "o", "linestyle": "none", **style})
     ax.set(xlabel=labelled(_words(over), across.unit), ylabel=labelled(quantity, up.unit))
     if color is not None:
-        ax.legend(title=labelled(_words(color), _shown(study.axes[color], units[color]).unit))
+        ax.legend(title=labelled(_words(color), _shown(known[color], units[color]).unit))
     return ax
 
 

@@ -86,12 +86,12 @@ def test_a_study_is_that_of_the_command_bit_for_bit(folder: pathlib.Path) -> Non
     for name in ("plan.csv", "table.csv", "table.h5"):
         assert (study.directory / name).read_bytes() == pathlib.Path("other", name).read_bytes(), name
     assert (study.directory / "study.html").exists()
-    with open("load/table.csv", newline="") as file:
+    with open("load/table.csv", newline="", encoding="utf-8-sig") as file:
         rows = list(csv.DictReader(file))
     assert len(study.table) == len(rows) == 5 and len(study.left) == 0
+    units = study.table_units
     for name in study.table.dtype.names:
-        unit = study.units.get(name)
-        column = [row[f"{name} ({unit})" if unit else name] for row in rows]
+        column = [row[name if units[name] in ("", "1") else f"{name} ({units[name]})"] for row in rows]
         values = study.table[name]
         expected = column if values.dtype.kind == "U" else [float(cell or "nan") for cell in column]
         assert values.tolist() == expected or np.array_equal(values, np.array(expected), equal_nan=True), name
@@ -259,6 +259,52 @@ def test_a_study_becomes_a_data_set_over_its_axes(folder: pathlib.Path) -> None:
     write(STUDY)
     data = asp.study("load.toml", out="other", progress=False).to_xarray()
     assert dict(data.sizes) == {"case": 5} and data["lower.topography.seed"].dims == ("case",)
+
+
+SWEEP = """
+base = "case.toml"
+[axes]
+"lower.topography.seed" = { seeds = 3 }
+"contact.tolerance" = [1e-6, 1e-8]
+"""
+
+
+def test_the_points_of_a_sweep_are_rows_and_a_dimension(folder: pathlib.Path) -> None:
+    pytest.importorskip("xarray")
+    pytest.importorskip("matplotlib").use("agg")
+    write(SWEEP)
+    case = pathlib.Path("case.toml")
+    case.write_text(case.read_text().replace('load = "2 mN"', 'loads = ["1 mN", "2 mN", "4 mN"]'))
+    study = asp.Study("load.toml")
+    study.run(task=(1, 2), progress=False)
+    table = study.table
+    assert table["case"].tolist() == [case for case in (1, 3, 5) for _ in range(3)]
+    assert table["contact.load"].tolist() == [1e-3, 2e-3, 4e-3] * 3 and table["point"].tolist() == [1, 2, 3] * 3
+    assert study.table_units["contact.load"] == "N" and "contact.load" not in study.axes
+    data = study.to_xarray()
+    assert dict(data.sizes) == {"lower.topography.seed": 3, "contact.tolerance": 2, "contact.load": 3}
+    assert data["contact.load"].attrs["units"] == "N" and data["case"].dims == ("lower.topography.seed", "contact.tolerance")
+    for row in table:
+        at = {"lower.topography.seed": row["lower.topography.seed"], "contact.tolerance": row["contact.tolerance"]}
+        assert float(data["contact_area"].sel({**at, "contact.load": row["contact.load"]})) == row["contact_area"]
+    assert int(data["contact_area"].isnull().sum()) == 9
+    line, points = study.plot("contact_area", x="contact.load").lines
+    assert line.get_xdata() == pytest.approx([1.0, 2.0, 4.0]) and len(points.get_xdata()) == 9
+    frame = study.to_pandas()
+    assert list(frame.index.names) == ["case", "point"] and frame.loc[(3, 2), "contact.load"] == 2e-3
+
+
+def test_a_motion_has_the_sums_of_its_passes(folder: pathlib.Path) -> None:
+    write('base = "case.toml"\n[axes]\n"motion.passes" = [1, 3]\n', MOTION)
+    study = asp.study("load.toml", progress=False)
+    passes = [study.open(case).passes for case in (1, 2)]
+    for name in ("plastic_volume_lower", "convolutions"):
+        assert study.table[name] == pytest.approx([of[name].sum() for of in passes])
+    for name in ("sq_lower", "max_pressure", "pass"):
+        assert study.table[name].tolist() == [of[name][-1] for of in passes]
+    results = pytest.importorskip("pandas").read_csv("load/cases/0002/results.csv")
+    assert results["plastic_volume_lower (m³)"].tolist() == pytest.approx(passes[1]["plastic_volume_lower"].tolist(), rel=1e-15)
+    assert results.columns[0] == "pass"
 
 
 def test_a_study_draws_its_cases_and_their_means(folder: pathlib.Path) -> None:

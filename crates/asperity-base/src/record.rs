@@ -3,7 +3,7 @@
 mod columns;
 mod number;
 
-pub use columns::{Column, Part, Presence};
+pub use columns::{Column, OverMotion, Part, Presence};
 pub use number::{OptionalNumber, known_or_none, number_or_none};
 
 pub use crate::columns;

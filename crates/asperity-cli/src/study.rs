@@ -31,8 +31,8 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
     }
     if arguments.collect {
         let folder = Folder::open(&directory, &study)?;
-        tell(&collect(&study, &folder)?, &study, &folder);
-        return Ok(());
+        let table = collect(&study, &folder)?;
+        return if arguments.quiet { Ok(()) } else { tell(&table, &study, &folder) };
     }
     if study.len() > MANY && !arguments.yes {
         let message = format!("the study has {} cases", study.len());
@@ -50,7 +50,7 @@ pub(crate) fn study(arguments: &args::Study) -> Outcome {
     } else if tally.left() == 0 {
         let table = collect(&study, &folder)?;
         if !arguments.quiet {
-            tell(&table, &study, &folder);
+            tell(&table, &study, &folder)?;
         }
     } else {
         // The results are incomplete, which `--quiet` does not hide.
@@ -141,14 +141,19 @@ pub fn collect(study: &Study, folder: &Folder) -> asperity::Result<Table> {
     Ok(table)
 }
 
-fn tell(table: &Table, study: &Study, folder: &Folder) {
-    let failed = table.rows().iter().filter(|row| row.failure.is_some()).count();
+/// Prints the answers of a study, and how many of its cases are done.
+fn tell(table: &Table, study: &Study, folder: &Folder) -> Outcome {
+    print(&page::answers_of_study(table))?;
+    // A case with a sweep has several rows.
+    let cases = || table.rows().chunk_by(|one, other| one.case == other.case);
+    let failed = cases().filter(|rows| rows[0].failure.is_some()).count();
     note(&format!(
         "{} of {} cases are done, {failed} have failed; table.csv, table.h5 and study.html in {}",
-        table.rows().len() - failed,
+        cases().count() - failed,
         study.len(),
         folder.path().display()
     ));
+    Ok(())
 }
 
 /// Prints the cases of a task without results, with the reasons.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use asperity::motion::Watch;
-use asperity::study::many::{self, Axis, Computed, Folder, Queue, State, Study, Table, Tally, Task};
+use asperity::study::many::{self, Axis, Computed, Folder, Queue, State, Study, Table, TableColumn, Tally, Task};
 use asperity::study::unit_of_column;
 use asperity_cli::{available_memory, collect_study};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
@@ -18,10 +18,17 @@ pub(crate) struct CoreStudy {
     directory: PathBuf,
 }
 
-/// Results of the finished and failed cases: numbers, columns with name, unit and values, numbers of warnings, and reasons
-/// of failures.
-type Collected<'py> =
-    (Vec<usize>, Vec<(String, String, Bound<'py, PyArray1<f64>>)>, Vec<usize>, Vec<Option<String>>);
+/// Key, unit and values of the axis of the points of sweeps, and the index of each row on it; none for a case that failed.
+type Points<'py> = (String, String, Bound<'py, PyList>, Vec<Option<u32>>);
+
+/// The rows of a study: cases, the points of their sweeps, columns with name, unit and values, numbers of warnings, and reasons of failures.
+type Collected<'py> = (
+    Vec<usize>,
+    Option<Points<'py>>,
+    Vec<(String, String, Bound<'py, PyArray1<f64>>)>,
+    Vec<usize>,
+    Vec<Option<String>>,
+);
 
 #[pymethods]
 impl CoreStudy {
@@ -96,7 +103,7 @@ impl CoreStudy {
         let table = work::run(py, 0, None, |_| {
             collect_study(&self.study, &Folder::open(&self.directory, &self.study)?)
         })?;
-        Ok(collected(py, &table))
+        self.collected(py, &table)
     }
 
     /// Returns the results of the finished and failed cases; `None` before the study is begun.
@@ -104,7 +111,7 @@ impl CoreStudy {
         let table = work::run(py, 0, None, |_| {
             self.folder()?.map(|folder| Table::collect(&self.study, &folder)).transpose()
         })?;
-        Ok(table.map(|table| collected(py, &table)))
+        table.map(|table| self.collected(py, &table)).transpose()
     }
 }
 
@@ -118,6 +125,28 @@ impl CoreStudy {
     fn stand(&self, folder: &Folder) -> asperity::Result<Vec<State>> {
         folder.states(&self.study)
     }
+
+    fn collected<'py>(&self, py: Python<'py>, table: &Table) -> PyResult<Collected<'py>> {
+        let rows = table.rows();
+        let of_study = self.study.axes().len();
+        let points = |axis: &Axis| {
+            let indices = rows.iter().map(|row| row.indices.get(of_study).copied()).collect();
+            Ok::<_, PyErr>((axis.key().to_owned(), axis.unit().to_owned(), values(py, axis)?, indices))
+        };
+        let column = |(n, column): (usize, &TableColumn)| {
+            let unit = unit_of_column(&column.name).unwrap_or_default().to_owned();
+            let values: Vec<f64> =
+                rows.iter().map(|row| row.numbers.get(n).copied().unwrap_or(f64::NAN)).collect();
+            (column.name.clone(), unit, values.into_pyarray(py))
+        };
+        Ok((
+            rows.iter().map(|row| row.case).collect(),
+            table.axes().get(of_study).map(points).transpose()?,
+            table.columns().iter().enumerate().map(column).collect(),
+            rows.iter().map(|row| row.warnings).collect(),
+            rows.iter().map(|row| row.failure.clone()).collect(),
+        ))
+    }
 }
 
 /// Converts the values of an axis: whole numbers, numbers in SI, or texts.
@@ -130,19 +159,4 @@ fn values<'py>(py: Python<'py>, axis: &Axis) -> PyResult<Bound<'py, PyList>> {
             None => PyList::new(py, numbers),
         },
     }
-}
-
-fn collected<'py>(py: Python<'py>, table: &Table) -> Collected<'py> {
-    let rows = table.rows();
-    let column = |(n, name): (usize, &String)| {
-        let unit = unit_of_column(name).unwrap_or_default().to_owned();
-        let values: Vec<f64> = rows.iter().map(|row| row.numbers[n]).collect();
-        (name.clone(), unit, values.into_pyarray(py))
-    };
-    (
-        rows.iter().map(|row| row.case).collect(),
-        table.columns().iter().enumerate().map(column).collect(),
-        rows.iter().map(|row| row.warnings).collect(),
-        rows.iter().map(|row| row.failure.clone()).collect(),
-    )
 }

@@ -77,9 +77,6 @@ fn prefixes() -> Vec<(&'static str, &'static [Column])> {
     prefixes
 }
 
-/// Suffixes that the table of a study adds to the names of vectors, for their components.
-const COMPONENTS: [&str; 3] = ["_x", "_y", "_z"];
-
 /// Returns the declaration of a column of a table, or of a number of `summary.json`; `None` if no such column is written.
 ///
 /// The volumes removed by any law, such as `NAME_volume_lower`, are declared as those of the law `plastic`. In the table of
@@ -88,8 +85,21 @@ pub fn column(name: &str) -> Option<Column> {
     find(records().iter().flat_map(|(_, columns)| *columns), name).or_else(|| {
         let of_record = |(prefix, columns): (&str, _)| Some((name.strip_prefix(prefix)?, columns));
         let (name, columns): (_, &[Column]) = prefixes().into_iter().find_map(of_record)?;
-        find(columns.iter(), name)
+        declared(columns, name)
     })
+}
+
+/// Returns the declaration of a name among the `columns` of a record.
+pub(super) fn declared(columns: &[Column], name: &str) -> Option<Column> {
+    find(columns.iter(), name)
+}
+
+/// Returns the head of a column in a table: its name, and its unit in brackets.
+pub(super) fn headed(name: &str) -> String {
+    match unit_of_column(name) {
+        None | Some("" | "1") => name.to_owned(),
+        Some(unit) => format!("{name} ({unit})"),
+    }
 }
 
 /// Returns the declaration of a name among some columns.
@@ -98,10 +108,10 @@ fn find<'a>(columns: impl Iterator<Item = &'a Column> + Clone, name: &str) -> Op
     named(name)
         .or_else(|| named(&format!("plastic{}", ENDINGS.iter().find(|ending| name.ends_with(**ending))?)))
         .or_else(|| {
-            let vector = COMPONENTS.iter().find_map(|component| name.strip_suffix(component))?;
+            let (vector, component) = name.rsplit_once('_')?;
             // Volumes removed from the lower and the upper body by each law.
             let vector = if vector.starts_with("lost_") { "lost" } else { vector };
-            named(vector).filter(|vector| vector.components > 1)
+            named(vector).filter(|vector| vector.components.contains(&component))
         })
 }
 
@@ -183,8 +193,8 @@ mod tests {
         let value = |column: &Column| match (column.name, column.components) {
             ("regime", _) => json!("elastic"),
             ("lost", _) => json!({"own": [0.0, 0.0]}),
-            (_, 1) => json!(0),
-            (_, components) => json!(vec![0.0; components]),
+            (_, []) => json!(0),
+            (_, components) => json!(vec![0.0; components.len()]),
         };
         let values: Map<String, Value> = columns.iter().map(|c| (c.name.to_owned(), value(c))).collect();
         let record: T = serde_json::from_value(values.into()).unwrap();
@@ -245,7 +255,7 @@ mod tests {
             ("max_plastic_strain_position_y", "m"),
             ("max_plastic_strain", "1"),
             ("own_volume_lower_interior", "m³"),
-            ("lost_own_x", "m³"),
+            ("lost_own_lower", "m³"),
             ("moment", "N m"),
             ("spin", "1/m"),
             ("surface_shift_lower", "m"),
@@ -253,7 +263,7 @@ mod tests {
         ] {
             assert_eq!(unit_of_column(column), Some(unit), "{column}");
         }
-        assert_eq!(["nothing", "load_x", "_x", "sliding_"].map(unit_of_column), [None; 4]);
+        assert_eq!(["nothing", "load_x", "lost_own_x", "_x", "sliding_"].map(unit_of_column), [None; 5]);
         assert_eq!(dimension_of_column("max_shear_position"), Some(Dimension::Length));
         assert_eq!(dimension_of_column("iterations"), None);
         assert_eq!(

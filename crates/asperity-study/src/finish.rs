@@ -4,6 +4,7 @@ use web_time::Instant;
 
 use crate::case::Case;
 use crate::closed_form::{ClosedForm, ClosedFormRecord, ElasticContact};
+use crate::joined;
 use crate::prepare::Bodies;
 use crate::results::Writer;
 use crate::subsurface::SubsurfaceRecord;
@@ -82,6 +83,7 @@ pub fn conclude(
         warnings,
         wall_time_s: began.elapsed().as_secs_f64(),
     };
+    joined::write(writer.results(), &summary)?;
     writer.finish(&summary)?;
     Ok(summary)
 }

@@ -75,6 +75,7 @@
 //! and a full stdout are errors with exit code 1. A closed pipe is not an error.
 
 pub mod case; // the case file, checked key by key
+mod cell; // cells of tables as CSV
 mod closed_form; // closed forms beside computed contacts
 mod estimate; // cost and warnings of a case in advance
 mod fields; // the fields of a static contact
@@ -84,6 +85,7 @@ mod given; // surfaces in memory that a case names
 mod identity; // identity of a run, to resume it
 pub mod io; // fields in HDF5 and for ParaView, digests, locks
 mod json; // records as JSON
+mod joined; // the steps of a run with everything found in them
 mod limit; // a limit of the model that a result exceeds
 mod master_curve; // master curves from files of instruments
 mod viscoelastic; // viscoelastic bodies of a case

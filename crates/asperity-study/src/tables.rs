@@ -428,9 +428,9 @@ mod tests {
             distance: 0.1 + 0.2,
             laws: LawsInPass {
                 max_wear_lower: 1e-12,
-                max_wear_upper: 0.0,
-                mean_film_lower: 0.0,
+                deepest_wear_lower: 3e-12,
                 mean_film_upper: 1.0 / 3.0,
+                ..LawsInPass::default()
             },
             friction_work: 0.0,
             max_flash_temperature: f64::NAN,

@@ -9,10 +9,27 @@ pub struct Column {
     pub unit: &'static str,
     /// Meaning, in a sentence.
     pub text: &'static str,
-    /// Number of components: 1 for a number, 2 or 3 for a vector.
-    pub components: usize,
+    /// Names of the components: none for a number, `x` and `y` for a vector, `lower` and `upper` for both bodies.
+    pub components: &'static [&'static str],
     /// Whether each record has the column.
     pub presence: Presence,
+    /// How a value of the whole motion follows from the rows of its passes.
+    pub over_motion: OverMotion,
+}
+
+/// How a value of a whole motion follows from the rows of its passes, each of which represents one pass or several.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OverMotion {
+    /// It does not: the value is that of the last pass.
+    LastPass,
+    /// The value is a state after the pass, or a total since the start: that of the last row.
+    State,
+    /// The values add up.
+    Sum,
+    /// The values add up, each as often as the passes that its row represents.
+    SumOfPasses,
+    /// The value grows with the passes that its row represents, but does not add up: the value of a single pass at the end.
+    MeanOfPass,
 }
 
 /// Whether a record has a value in a column.
@@ -29,7 +46,16 @@ pub enum Presence {
 impl Column {
     /// A column that holds a number in each record.
     pub const fn new(name: &'static str, unit: &'static str, text: &'static str) -> Self {
-        Self { name, unit, text, components: 1, presence: Presence::Always }
+        let (presence, over_motion) = (Presence::Always, OverMotion::LastPass);
+        Self { name, unit, text, components: &[], presence, over_motion }
+    }
+
+    /// Names the components of a vector.
+    pub const fn axes(components: usize) -> &'static [&'static str] {
+        match components {
+            2 => &["x", "y"],
+            _ => &["x", "y", "z"],
+        }
     }
 }
 
@@ -79,6 +105,8 @@ impl Part {
 /// - `deserialize_with = "number_or_none"` or `"known_or_none"`, or an `Option` without attributes: the value may be unknown,
 /// - any other attribute of an `Option`: the column may be left out,
 /// - `flatten`, with or without `skip_serializing_if`: a group of columns that may be missing.
+///
+/// Before them, `#[over_motion(Sum)]` says how a value of a whole motion follows from the passes, see [`OverMotion`].
 #[macro_export]
 macro_rules! columns {
     (
@@ -86,6 +114,7 @@ macro_rules! columns {
         pub struct $record:ident {
             $(
                 $(#[doc = $text:literal])+
+                $(#[over_motion($over:ident)])?
                 $(#[serde($($serde:tt)*)])?
                 pub $name:ident: $type:tt $(<$($of:tt),+>)?,
             )*
@@ -108,23 +137,23 @@ macro_rules! columns {
             pub const COLUMNS: &'static [$crate::record::Column] =
                 &$crate::record::Part::join::<{ $crate::record::Part::count(Self::PARTS, true) }>(Self::PARTS, true);
             const PARTS: &'static [$crate::record::Part] = &[$(
-                $crate::columns!(@part [$($($serde)*)?] $name [$type $($($of)+)?] $($text)+)
+                $crate::columns!(@part [$($($serde)*)?] $name [$type $($($of)+)?] [$($over)?] $($text)+)
             ),*];
         }
     };
-    (@part [flatten, skip_serializing_if = "Option::is_none"] $name:ident [Option $group:tt] $($text:tt)+) => {
+    (@part [flatten, skip_serializing_if = "Option::is_none"] $name:ident [Option $group:tt] $over:tt $($text:tt)+) => {
         $crate::record::Part { columns: $group::COLUMNS, is_group: true }
     };
-    (@part [flatten] $name:ident [$group:tt] $($text:tt)+) => {
+    (@part [flatten] $name:ident [$group:tt] $over:tt $($text:tt)+) => {
         $crate::record::Part { columns: $group::COLUMNS, is_group: true }
     };
-    (@part [flatten, with = "lost_volumes"] $name:ident $type:tt $($text:tt)+) => {
+    (@part [flatten, with = "lost_volumes"] $name:ident $type:tt $over:tt $($text:tt)+) => {
         $crate::record::Part { columns: LostVolume::IN_A_PASS, is_group: false }
     };
-    (@part [flatten, with = "lost_volumes::whole"] $name:ident $type:tt $($text:tt)+) => {
+    (@part [flatten, with = "lost_volumes::whole"] $name:ident $type:tt $over:tt $($text:tt)+) => {
         $crate::record::Part { columns: LostVolume::SO_FAR, is_group: false }
     };
-    (@part $serde:tt $name:ident $type:tt $($text:tt)+) => {
+    (@part $serde:tt $name:ident $type:tt $over:tt $($text:tt)+) => {
         $crate::record::Part {
             columns: &[$crate::record::Column {
                 name: stringify!($name),
@@ -132,6 +161,7 @@ macro_rules! columns {
                 text: concat!($($text),+).trim_ascii(),
                 components: $crate::columns!(@components $type),
                 presence: $crate::columns!(@presence $serde $type),
+                over_motion: $crate::columns!(@over $over),
             }],
             is_group: false,
         }
@@ -141,10 +171,12 @@ macro_rules! columns {
     (@presence [] [Option $of:tt]) => { $crate::record::Presence::Unknown };
     (@presence $serde:tt [Option $of:tt]) => { $crate::record::Presence::Optional };
     (@presence $serde:tt $type:tt) => { $crate::record::Presence::Always };
+    (@over []) => { $crate::record::OverMotion::LastPass };
+    (@over [$over:ident]) => { $crate::record::OverMotion::$over };
     (@components [Option $of:tt]) => { $crate::columns!(@components [$of]) };
-    (@components [BTreeMap String $of:tt]) => { $crate::columns!(@components [$of]) };
-    (@components [[$of:tt; $components:tt]]) => { $components };
-    (@components $type:tt) => { 1 };
+    (@components [BTreeMap String [$of:tt; 2]]) => { &["lower", "upper"] };
+    (@components [[$of:tt; $components:tt]]) => { $crate::record::Column::axes($components) };
+    (@components $type:tt) => { &[] };
     (@unit [Option $of:tt]) => { $crate::columns!(@unit [$of]) };
     (@unit [BTreeMap String $of:tt]) => { $crate::columns!(@unit [$of]) };
     (@unit [[$of:tt; $components:tt]]) => { $crate::columns!(@unit [$of]) };

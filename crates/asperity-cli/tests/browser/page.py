@@ -356,8 +356,21 @@ def rows_are_the_table(tab, table):
         assert cells[-1][0] == row["warnings"]
 
 
+def answers_are_means_of_the_table(tab, table):
+    """The page opens with mean, deviation and number of the samples of each load and roughness."""
+    assert tab.locator("section[aria-labelledby] h2").first.inner_text() == "Answers" and tab.locator("#head .cards > div").count() == 3
+    done = [row for row in table if row["state"] == "done"]
+    rows = [[cell.inner_text() for cell in row.locator("td").all()] for row in tab.locator("#answers tbody tr").all()]
+    groups = sorted({(float(row["contact.load (N)"]), float(row["lower.topography.sq (m)"])) for row in done})
+    for (load, sq), cells in zip(groups, rows, strict=True):
+        areas = [1e12 * float(row["contact_area"]) for row in done if (float(row["contact.load (N)"]), float(row["lower.topography.sq (m)"])) == (load, sq)]
+        mean, deviation = map(float, cells[2].split(" ± "))
+        assert np.isclose(mean, np.mean(areas), rtol=6e-4) and np.isclose(deviation, np.std(areas, ddof=1), rtol=6e-2), (cells, areas)
+        assert cells[-1] == str(len(areas))
+
+
 def curves_are_means_of_the_table(tab, table):
-    """Whatever is chosen, a curve for each value of the other axis: means of the samples to the last digit, between the least and the largest."""
+    """Whatever is chosen, a curve for each value of the other axis: means of the samples to the last digit, with their standard deviation and number."""
     done = [row for row in table if row["state"] == "done"]
     keys = {"contact.load": "contact.load (N)", "lower.topography.sq": "lower.topography.sq (m)"}
     selects = tab.locator("#explorer select")
@@ -371,14 +384,14 @@ def curves_are_means_of_the_table(tab, table):
             selects.nth(0).select_option(str(quantity))
             rows = list(csv.reader(tab.evaluate("explorer.view.csv()").splitlines()))
             values = sorted({float(row[other]) for row in done})
-            assert sum("least" in head for head in rows[0]) == len(values), rows[0]
-            first = [n for n, head in enumerate(rows[0]) if "least" in head]
+            first = [n - 1 for n, head in enumerate(rows[0]) if "standard deviation" in head]
+            assert len(first) == len(values), rows[0]
             for n, value in zip(first, values):
                 of_curve = [row for row in done if float(row[other]) == value]
                 for k, at in enumerate(sorted({float(row[column]) for row in of_curve}), 1):
                     numbers = [float(row[name]) for row in of_curve if float(row[column]) == at]
-                    least, largest, mean = (float(rows[k][n + j]) for j in range(3))
-                    assert len(numbers) == 2 and (least, largest) == (min(numbers), max(numbers)), (key, name, rows[k], numbers)
+                    mean, deviation, count = (float(rows[k][n + j]) for j in range(3))
+                    assert count == len(numbers) == 2 and np.isclose(deviation, np.std(numbers, ddof=1), rtol=1e-9, atol=1e-300)
                     assert np.isclose(mean, np.mean(numbers), rtol=1e-15)
     selects.nth(2).select_option("")
     assert tab.evaluate("explorer.chart().series.filter((s) => s.mark === 'points').length") == 1
@@ -460,7 +473,10 @@ def heads_stay(tab):
 
 def look_at_study(browser, directory, folder, axe):
     path = directory / "study.html"
-    table = list(csv.DictReader(open(directory / "table.csv")))
+    table = list(csv.DictReader(open(directory / "table.csv", encoding="utf-8-sig")))
+    # Also under their names alone, without a unit.
+    for row in table:
+        row.update({head.split(" (")[0]: value for head, value in row.items()})
     context = browser.new_context(viewport={"width": 1280, "height": 900}, accept_downloads=True)
     tab = context.new_page()
     wrong = []
@@ -475,6 +491,7 @@ def look_at_study(browser, directory, folder, axe):
     assert told == [f"case {row['case']}: {row['message']}" for row in failed]
     keys_reach_the_cases(tab)
     rows_are_the_table(tab, table)
+    answers_are_means_of_the_table(tab, table)
     curves_are_means_of_the_table(tab, table)
     means_are_coloured_and_filtered(tab, table)
     clicks_sort_and_open(tab, table)

@@ -33,9 +33,13 @@ fn kinds() -> Vec<(&'static str, String)> {
     ]
 }
 
-/// Files that the page does without: what a run goes on from, pressures of single points, stresses of passes before the last.
+/// Files that the page does without: what a run goes on from, pressures of single points, stresses of passes before the last, the table that
+/// repeats the others.
 fn is_spare(name: &str) -> bool {
-    name.contains("state") || name.contains("point-") || name.contains("subsurface-0001")
+    name.contains("state")
+        || name.contains("point-")
+        || name.contains("subsurface-0001")
+        || name == "results.csv"
 }
 
 /// The page and the figures of damaged results are made of the rest, with a word about the file, or refused with its name.

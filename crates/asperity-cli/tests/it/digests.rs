@@ -385,7 +385,8 @@ fn numbers(folder: &Path) -> SeriesByName {
     for name in files(folder) {
         let path = folder.join(&name);
         match path.extension().and_then(|extension| extension.to_str()) {
-            Some("csv") if name != "limits.csv" => {
+            // `results.csv` repeats the other tables.
+            Some("csv") if !["limits.csv", "results.csv"].contains(&name.as_str()) => {
                 add_table(&name, &fs::read_to_string(&path).unwrap(), &mut series)
             }
             Some("h5") if !name.contains("state") => add_fields(&name, &path, &mut series),

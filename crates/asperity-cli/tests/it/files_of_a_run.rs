@@ -66,7 +66,8 @@ fn a_motion_leaves_every_file_promised_and_nothing_else() {
         ["initial.h5", "pass-0001.h5", "pass-0002.h5", "state-0002.h5"].map(|name| format!("fields/{name}")),
     );
     expected.extend(
-        [".lock", "case.json", "passes.csv", "report.html", "steps.csv", "summary.json"].map(str::to_owned),
+        [".lock", "case.json", "passes.csv", "report.html", "results.csv", "steps.csv", "summary.json"]
+            .map(str::to_owned),
     );
     assert_eq!(files(&folder.path().join("case-results")), expected);
 }
@@ -90,7 +91,9 @@ fn a_static_contact_leaves_every_file_promised_and_nothing_else() {
         "topographies",
     ];
     let mut expected: BTreeSet<String> = figures.map(|name| format!("figures/{name}.png")).into();
-    expected.extend([".lock", "case.json", "fields.h5", "report.html", "summary.json"].map(str::to_owned));
+    expected.extend(
+        [".lock", "case.json", "fields.h5", "report.html", "results.csv", "summary.json"].map(str::to_owned),
+    );
     assert_eq!(files(&folder.path().join("results/of/ball")), expected);
 }
 

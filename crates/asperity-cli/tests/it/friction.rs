@@ -43,7 +43,7 @@ fn a_contact_with_friction_leaves_its_fields_its_increments_and_its_figures() {
     ];
     let mut expected: BTreeSet<String> = names.map(|name| format!("figures/{name}.png")).into();
     expected.extend(
-        [".lock", "case.json", "fields.h5", "increments.csv", "report.html", "summary.json"]
+        [".lock", "case.json", "fields.h5", "increments.csv", "report.html", "results.csv", "summary.json"]
             .map(str::to_owned),
     );
     assert_eq!(files(&out), expected);
@@ -135,7 +135,9 @@ fn a_sweep_leaves_a_row_and_figures_of_its_points_and_prints_them() {
         "topographies",
     ];
     let mut expected: BTreeSet<String> = figures.map(|name| format!("figures/{name}.png")).into();
-    expected.extend([".lock", "case.json", "report.html", "summary.json", "sweep.csv"].map(str::to_owned));
+    expected.extend(
+        [".lock", "case.json", "report.html", "results.csv", "summary.json", "sweep.csv"].map(str::to_owned),
+    );
     for name in ["fields", "fields/point-0001", "fields/point-0004"] {
         expected.extend([format!("{name}.h5"), format!("{name}.vti")]);
     }

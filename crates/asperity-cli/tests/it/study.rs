@@ -44,7 +44,17 @@ contact.load = ["1 mN", 0.002]
 fn each_case_has_the_numbers_that_it_has_when_it_is_run_alone() {
     let folder = folder_with(STUDY);
     let output = asperity(&folder, "study load.toml");
-    assert_eq!(ok(&output), "");
+    // A mean over two seeds for each combination of load and roughness.
+    let told = ok(&output);
+    assert!(
+        told.contains("real area of") && told.ends_with("mean ± standard deviation over the seeds\n"),
+        "{told}"
+    );
+    assert_eq!(
+        told.lines().filter(|line| line.contains(" ± ") && line.ends_with("  2")).count(),
+        5,
+        "{told}"
+    );
     assert!(
         stderr(&output).contains("10 of 10 cases are done, 0 have failed; table.csv"),
         "{}",
@@ -271,6 +281,109 @@ fn a_text_of_a_table_is_no_formula() {
     fs::write(path("again.toml"), "base = \"case.toml\"\ntable = \"load/plan.csv\"\n").unwrap();
     ok(&asperity(&folder, "study again.toml --quiet"));
     assert_eq!(contents(&folder, "again/table.csv"), contents(&folder, "load/table.csv"));
+}
+
+/// The numbers of a column of a table.
+fn column(rows: &[BTreeMap<String, String>], head: &str) -> Vec<f64> {
+    let number = |row: &BTreeMap<String, String>| {
+        let cell = row.get(head).unwrap_or_else(|| panic!("no {head} in {:?}", row.keys()));
+        cell.parse().unwrap_or(f64::NAN)
+    };
+    rows.iter().map(number).collect()
+}
+
+#[test]
+fn a_motion_has_sums_of_what_adds_up_and_says_what_is_of_its_last_pass() {
+    let folder = folder_with("base = \"case.toml\"\n[axes]\n\"lower.topography.seed\" = { seeds = 3 }\n");
+    let path = |name: &str| folder.path().join(name);
+    let wear = "wear = { coefficient = \"1e-7 mm3/(N m)\" }\n[";
+    let moves = "load = \"2 mN\"\nboundary = \"periodic\"\n[friction]\ncoefficient = 0.1\n[motion]\nstrategy = \"shift\"\n\
+                 speed_upper = \"1 m/s\"\nstride = 4\npasses = 500\n[acceleration]\n[output]\npressure_every = 0\n";
+    let case = CASE.replacen("\n[upper]", &format!("\n{wear}upper]"), 1).replace("load = \"2 mN\"\n", moves);
+    fs::write(path("case.toml"), case).unwrap();
+    let told = ok(&asperity(&folder, "study load.toml"));
+    assert!(told.contains("worn volume") && told.contains("µm³") && told.contains(" ± "), "{told}");
+    let rows = table(&path("load/table.csv"));
+    let [volume, work, distance] =
+        ["wear_volume_lower (m³)", "friction_work (J)", "distance (m)"].map(|head| column(&rows, head));
+    // Extrapolations end at other passes for other seeds, of which the sums know nothing: k W s, and μ W s.
+    assert_ne!(column(&rows, "pass")[0], 500.0);
+    assert_eq!(column(&rows, "represents"), [500.0; 3]);
+    for n in 0..3 {
+        let slid = 2e-3 * distance[n];
+        assert!((volume[n] / (1e-16 * slid) - 1.0).abs() < 1e-3, "{}", volume[n] / (1e-16 * slid));
+        assert!((work[n] / (0.1 * slid) - 1.0).abs() < 1e-3, "{}", work[n] / (0.1 * slid));
+    }
+    assert_eq!(column(&rows, "lost_wear_lower (m³)"), volume);
+    let last = |head: &str| {
+        let summary = |row: &BTreeMap<String, String>| summary(&path("load/cases").join(&row["case"]));
+        let passes = |row| summary(row)["passes"].as_array().unwrap().clone();
+        rows.iter().map(|row| passes(row).last().unwrap()[head].as_f64().unwrap()).collect::<Vec<_>>()
+    };
+    assert_eq!(column(&rows, "max_pressure (Pa) of the last pass"), last("max_pressure"));
+    assert_eq!(column(&rows, "sq_lower (m)"), last("sq_lower"));
+    let page = fs::read_to_string(path("load/study.html")).unwrap();
+    assert!(
+        page.contains("worn volume, lower body") && page.contains("largest pressure, last pass"),
+        "{page}"
+    );
+}
+
+#[test]
+fn a_sweep_in_a_study_has_a_row_for_each_point_with_the_answers_of_all_capabilities() {
+    let folder = folder_with("base = \"case.toml\"\n[axes]\n\"lower.topography.seed\" = { seeds = 2 }\n");
+    let path = |name: &str| folder.path().join(name);
+    let sweeps = "loads = [\"1 mN\", \"2 mN\", \"4 N\"]\nboundary = \"periodic\"\n[flow]\nviscosity = \"1 mPa s\"\npressure = \"1 bar\"\n";
+    // With a hardness no pressure carries the last load.
+    fs::write(path("case.toml"), CASE.replace("load = \"2 mN\"\n", sweeps)).unwrap();
+    assert_eq!(asperity(&folder, "study load.toml").status.code(), Some(1));
+    let rows = table(&path("load/table.csv"));
+    assert_eq!(rows.iter().map(|row| row["state"].as_str()).collect::<Vec<_>>(), ["failed", "failed"]);
+    change(&path("case.toml"), "\"4 N\"", "\"4 mN\"");
+    let output = asperity(&folder, "study load.toml --out swept");
+    let told = ok(&output);
+    let lines: Vec<&str> = told.lines().map(str::trim).collect();
+    assert!(told.contains("leakage,") && told.contains("along x      along y"), "{told}");
+    for load in ["1 mN", "2 mN", "4 mN"] {
+        assert_eq!(
+            lines.iter().filter(|line| line.starts_with(load) && line.ends_with("  2")).count(),
+            1,
+            "{told}"
+        );
+    }
+    assert!(stderr(&output).contains("2 of 2 cases are done, 0 have failed"));
+    let rows = table(&path("swept/table.csv"));
+    assert_eq!(column(&rows, "case"), [1.0, 1.0, 1.0, 2.0, 2.0, 2.0]);
+    assert_eq!(column(&rows, "contact.load (N)"), [1e-3, 2e-3, 4e-3, 1e-3, 2e-3, 4e-3]);
+    for case in ["0001", "0002"] {
+        let of_case: Vec<_> = rows.iter().filter(|row| row["case"] == case).cloned().collect();
+        let found = path("swept/cases").join(case);
+        let alone = table(&found.join("results.csv"));
+        for head in
+            ["point", "load (N)", "contact_area (m²)", "flow_x_leakage (m³/s)", "flow_y_critical_gap (m)"]
+        {
+            assert_eq!(column(&of_case, head), column(&alone, head), "{head}");
+        }
+    }
+    assert_eq!(Fields::open(&path("swept/table.h5")).unwrap().read("contact.load").unwrap().values.len(), 6);
+    let page = fs::read_to_string(path("swept/study.html")).unwrap();
+    assert!(page.contains(">0002/3</th>") && page.contains("leakage, along x"), "{page}");
+    // A damaged table of a capability is a row that says so.
+    let flow = path("swept/cases/0002/flow.csv");
+    let whole = fs::read(&flow).unwrap();
+    fs::write(&flow, "a,b\n1,2\n").unwrap();
+    ok(&asperity(&folder, "study load.toml --out swept --collect"));
+    let damaged = table(&path("swept/table.csv"));
+    assert_eq!(column(&damaged, "case"), [1.0, 1.0, 1.0, 2.0]);
+    assert!(
+        damaged[3]["message"].contains("its flow.csv is damaged")
+            && damaged[3]["contact.load (N)"].is_empty()
+    );
+    fs::write(&flow, whole).unwrap();
+    // Without a list there is no axis of points.
+    change(&path("case.toml"), "loads = [\"1 mN\", \"2 mN\", \"4 mN\"]", "load = \"2 mN\"");
+    ok(&asperity(&folder, "study load.toml --out one --quiet"));
+    assert!(!table(&path("one/table.csv"))[0].contains_key("contact.load (N)"));
 }
 
 // ---- what goes wrong -------------------------------------------------------------------------------------
@@ -618,15 +731,27 @@ fn contents(folder: &TempDir, name: &str) -> Vec<u8> {
     fs::read(folder.path().join(name)).unwrap()
 }
 
-/// The rows of a table, by column.
+/// The rows of a table, by column: its head, and its name alone.
 fn table(path: &Path) -> Vec<BTreeMap<String, String>> {
     let text = fs::read_to_string(path).unwrap();
-    let mut lines = text.lines();
+    // Excel knows the encoding by this mark.
+    let mut lines = text.strip_prefix('\u{feff}').unwrap().lines();
     let columns: Vec<&str> = lines.next().unwrap().split(',').collect();
     let row = |line: &str| {
         // The message comes last, and may hold commas.
         let cells: Vec<String> = line.splitn(columns.len(), ',').map(str::to_owned).collect();
-        columns.iter().map(|column| (*column).to_owned()).zip(cells).collect()
+        let names = |head: &&str| {
+            [
+                (*head).to_owned(),
+                head.trim_end_matches(" of the last pass").split(" (").next().unwrap_or_default().to_owned(),
+            ]
+        };
+        columns
+            .iter()
+            .map(names)
+            .zip(cells)
+            .flat_map(|(names, cell)| names.map(|name| (name, cell.clone())))
+            .collect()
     };
     lines.map(row).collect()
 }

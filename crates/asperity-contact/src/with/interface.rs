@@ -78,6 +78,9 @@ impl InterfaceNumbers {
         ("AdhesionSummary", adhesion::AdhesionSummary::OWN_COLUMNS),
     ];
 
+    /// The columns that answer the question of the user, each with its name.
+    pub const ANSWERS: &'static [(&'static str, &'static str)] = &adhesion::ANSWERS;
+
     /// Adds what the increments of a loading show.
     #[must_use]
     pub fn after(self, increments: &[IncrementRecord]) -> Self {

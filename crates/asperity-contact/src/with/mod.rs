@@ -289,7 +289,28 @@ pub fn jumps(increments: &[IncrementRecord]) -> Vec<Line> {
 
 /// Returns the curves over the points of a sweep besides those of the contact.
 pub fn of_points() -> Vec<OfPoints> {
-    vec![adhesion::OF_POINTS]
+    vec![viscoelastic::OF_POINTS, adhesion::OF_POINTS]
+}
+
+/// Returns the columns of a run that answer the question of the user, each with its name: those of the interface, and those of the curves
+/// over points, passes, updates and cycles. Those of a capability are the columns of its curves ([`Curve`](views::Curve)).
+pub fn answering_columns() -> Vec<(String, String)> {
+    let mut columns: Vec<(String, String)> = InterfaceNumbers::ANSWERS
+        .iter()
+        .copied()
+        .chain(of_points().iter().map(|curve| (curve.column, curve.label)))
+        .map(|(column, name)| (column.to_owned(), name.to_owned()))
+        .collect();
+    each_law!(L => {
+        let passes = L::OF_PASSES.iter().map(|curve| (curve.column, curve.name));
+        let updates = L::OF_UPDATES.iter().map(|curve| (curve.column, curve.name));
+        let cycles = L::OF_CYCLES.iter().map(|curve| (curve.column, curve.name));
+        for (column, name) in passes.chain(cycles).chain(updates) {
+            let both = ["lower", "upper"].map(|body| (column.replace("lower", body), format!("{name}, {body} body")));
+            columns.extend(both);
+        }
+    });
+    columns
 }
 
 /// Returns reasons in the `pressure` of a contact at rest not to trust it. `curved` says whether the bodies are curved.

@@ -171,8 +171,8 @@ class ChartView {
       if (!over || !same(over, s.x)) columns.push([head(x.label, x.si || "1"), s.x]);
       over = s.x;
       const named = (what) => head([axis.label, s.name, what].filter(Boolean).join(", "), axis.si || "1");
-      if (s.low) columns.push([named("least"), s.low], [named("largest"), s.high]);
       columns.push([head(s.name ? `${axis.label}, ${s.name}` : axis.label, axis.si || "1"), s.y]);
+      if (s.low) columns.push([named("standard deviation"), s.deviation], [head(s.name ? `cases, ${s.name}` : "cases", "1"), s.count]);
     }
     const rows = Math.max(0, ...columns.map(([, values]) => values.length));
     const lines = [columns.map(([name]) => name).join(",")];

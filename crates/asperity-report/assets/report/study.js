@@ -6,6 +6,13 @@ function distinct(all) {
   return [...new Set(all)].sort((a, b) => a - b);
 }
 
+/** Mean and standard deviation of a sample; no deviation for one value. */
+function spread(all) {
+  const mean = all.reduce((a, b) => a + b) / all.length;
+  const squares = all.reduce((sum, v) => sum + (v - mean) ** 2, 0);
+  return [mean, all.length > 1 ? Math.sqrt(squares / (all.length - 1)) : 0];
+}
+
 /** Whether numbers are better spread out on a logarithmic axis: over a decade, or in steps of one ratio. */
 function suitsLog(all) {
   const numbers = distinct(all.filter(Number.isFinite));
@@ -106,8 +113,7 @@ class Explorer {
       if (!cells.has(key)) cells.set(key, []);
       cells.get(key).push(value);
     });
-    const mean = (all) => all.reduce((a, b) => a + b) / all.length;
-    const means = [...cells.values()].map(mean);
+    const means = [...cells.values()].map((all) => spread(all)[0]);
     const log = suitsLog(means);
     const shade = (v) => (log ? Math.log(v) : v);
     const [low, high] = [Math.min(...means.map(shade)), Math.max(...means.map(shade))];
@@ -116,20 +122,20 @@ class Explorer {
     const row = (group) => places(x).map((at) => {
       const all = cells.get(`${group} ${at}`);
       if (!all) return element("td", {}, "–");
-      const [value, n] = [mean(all), all.length];
+      const [value, deviation] = spread(all);
       const colour = palette[high > low ? Math.round((255 * (shade(value) - low)) / (high - low)) : 128];
-      const title = n > 1 ? `mean of ${n} cases, ${written(Math.min(...all), y.unit)} to ${written(Math.max(...all), y.unit)}` : "one case";
+      const title = all.length > 1 ? `mean of ${all.length} cases, standard deviation ${digits(deviation / y.unit.factor)}` : "one case";
       return element("td", { style: `background:${colour};color:${isLight(colour) ? "#000000" : "#ffffff"}`, title }, digits(value / y.unit.factor));
     });
     const head = element("thead", {}, element("tr", {}, element("th", { scope: "col" }, by ? `${by.label} ↓, ${x.label} →` : x.label),
       ...places(x).map((at) => element("th", { scope: "col" }, x.texts[at]))));
     const rows = (by ? places(by) : [0]).map((group) => element("tr", {}, element("th", { scope: "row" }, by ? by.texts[group] : "all"), ...row(group)));
     const unit = y.unit.symbol ? ` (${y.unit.symbol})` : "";
-    this.heat.replaceChildren(element("h3", {}, sentence(`${y.label}${unit} over ${x.label}${by ? ` and ${by.label}` : ""}`)), element("table", {}, head, element("tbody", {}, ...rows)));
-    this.note.textContent = `Means of the cases at a place${log ? ", colours by the logarithm" : ""}; point at a number for its range.`;
+    this.heat.replaceChildren(element("h3", {}, sentence(`${y.label}${unit} versus ${x.label}${by ? ` and ${by.label}` : ""}`)), element("table", {}, head, element("tbody", {}, ...rows)));
+    this.note.textContent = `Means of the cases at a place${log ? ", colours by the logarithm" : ""}; point at a number for its deviation.`;
   }
 
-  /** A curve of means for each colour, with the range of its cases as a band, and each case as a point. */
+  /** A curve of means for each colour, with the standard deviation as a band, and each case as a point. */
   chart() {
     const { study } = this;
     const [y, x] = [this.quantities[this.chosen.y], this.over[this.chosen.x]];
@@ -145,24 +151,28 @@ class Explorer {
     });
     const MOST = 12;
     const shown = [...groups].sort(([a], [b]) => a - b).slice(0, MOST);
-    let spread = 0;
+    let most = 0;
     const series = shown.flatMap(([group, points], n) => {
       const xs = distinct(points.map(([at]) => at));
       const of = (at) => points.filter(([other]) => other === at).map(([, value]) => value);
       const samples = xs.map(of);
-      spread = Math.max(spread, ...samples.map((all) => all.length));
-      const lines = { name: by ? by.texts[group] : "mean", mark: "lineandpoints", right: false, colour: n, x: xs, y: samples.map((all) => all.reduce((a, b) => a + b) / all.length) };
+      most = Math.max(most, ...samples.map((all) => all.length));
+      const spreads = samples.map(spread);
+      const lines = { name: by ? by.texts[group] : "mean", mark: "lineandpoints", right: false, colour: n, x: xs, y: spreads.map(([mean]) => mean) };
       if (samples.every((all) => all.length === 1)) return [lines];
-      return [{ ...lines, mark: "line", low: samples.map((all) => Math.min(...all)), high: samples.map((all) => Math.max(...all)) },
+      // A logarithmic axis has no place for what is not above 0.
+      const low = spreads.map(([mean, deviation], k) => (mean > deviation ? mean - deviation : Math.min(...samples[k])));
+      return [{ ...lines, mark: "line", low, high: spreads.map(([mean, deviation]) => mean + deviation), deviation: spreads.map(([, deviation]) => deviation),
+        count: samples.map((all) => all.length) },
         { name: "", mark: "points", right: false, colour: n, x: points.map(([at]) => at), y: points.map(([, value]) => value) }];
     });
     const all = shown.flatMap(([, points]) => points);
     const axis = (of, values) => ({ ...of.unit, label: of.label, log: suitsLog(values), range: null });
-    this.note.textContent = [spread > 1 ? `Lines are means, bands reach from the least to the largest of up to ${spread} cases at a point, and each case is a point.` : "", series.length > 1 ? "A click on a name in the legend hides its curve." : "",
+    this.note.textContent = [most > 1 ? `Lines are means of up to ${most} cases at a point, bands one standard deviation to either side, and each case is a point.` : "", series.length > 1 ? "A click on a name in the legend hides its curve." : "",
       groups.size > MOST ? `Only the first ${MOST} of ${groups.size} values have a curve.` : "",
       study.cases.length < study.all ? `${study.cases.length} of ${study.all} cases, evenly chosen.` : ""].filter(Boolean).join(" ");
     return {
-      name: "study", title: sentence(`${y.label} over ${x.label}${by ? `, by ${by.label}` : ""}`), words: [], right: null, series, colours: by ? by.label : "",
+      name: "study", title: sentence(`${y.label} versus ${x.label}${by ? `, by ${by.label}` : ""}`), words: [], right: null, series, colours: by ? by.label : "",
       x: axis(x, all.map(([at]) => at)), y: axis(y, all.map(([, value]) => value)),
     };
   }
@@ -181,13 +191,13 @@ function showRows(explorer) {
 
 /** What is known of a case, beside the table. */
 function openCase(study, n) {
-  const { case: name, failure, page } = study.cases[n];
-  const rows = [...study.axes.map((axis) => [axis.label, axis.texts[axis.indices[n]]]),
+  const { case: name, folder, failure, page } = study.cases[n];
+  const rows = [...study.axes.map((axis) => [axis.label, axis.texts[axis.indices[n]] ?? "–"]),
     ...(failure ? [] : study.quantities.map((q) => [q.label, q.values[n] === null ? "–" : written(q.values[n], q.unit)]))];
   const table = element("table", { class: "facts" }, element("tbody", {}, ...rows.map(([label, text]) =>
     element("tr", {}, element("th", { scope: "row" }, label), element("td", {}, text)))));
   const more = page ? element("a", { href: page }, "page of this case")
-    : element("span", {}, "Its page is made by ", element("code", {}, `asperity report ${study.folder}/cases/${name}`));
+    : element("span", {}, "Its page is made by ", element("code", {}, `asperity report ${study.folder}/${folder}`));
   const close = element("button", { type: "button", onclick: () => panel.replaceChildren() }, "close");
   const panel = document.getElementById("panel");
   panel.replaceChildren(element("h3", {}, `Case ${name}`), close, ...(failure ? [element("p", {}, failure)] : []), table, element("p", {}, more));

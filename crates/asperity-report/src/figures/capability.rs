@@ -119,7 +119,9 @@ fn over_passes<R: Row>(curve: &Curve<R>, rows: &[R], done: &[usize]) -> Option<C
         rows.chunk_by(|one, other| one.pass() == other.pass()).filter_map(mean).collect()
     };
     let drawn = curve.series.iter().filter(|series| !series.is_beside);
-    let drawn = drawn.map(|series| (series, points(series))).filter(|(_, points)| !points.is_empty());
+    let drawn = drawn
+        .map(|series| (series, points(series)))
+        .filter(|(_, points)| points.iter().any(|[_, y]| y.is_finite()));
     let drawn: Vec<_> = drawn.collect();
     if drawn.iter().all(|(_, points)| points.len() < 2) {
         return None;

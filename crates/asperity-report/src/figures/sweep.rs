@@ -15,8 +15,7 @@ use crate::error::Result;
 type Number = fn(&SweepRecord) -> f64;
 
 /// The curves of the contact. The mean gap falls with the logarithm of the load.
-const DRAWN: [OfPoints; 5] = [
-    drawn("drag_coefficient", "drag over load", false, |p| p.steady.map(|steady| steady.drag_coefficient)),
+const DRAWN: [OfPoints; 4] = [
     drawn("contact_area", "real contact area", true, |p| Some(p.contact_area)),
     drawn("mean_gap", "mean gap", false, |p| Some(p.mean_gap)),
     drawn("stiffness", "normal stiffness", true, |p| p.stiffness),
@@ -62,8 +61,8 @@ pub(crate) fn curves(points: &[SweepRecord], case: &Case) -> Vec<Curves> {
     ordered.sort_by(|a, b| x(a).total_cmp(&x(b)));
     let [least, most] = [f64::min, f64::max].map(|pick| points.iter().map(x).fold(f64::NAN, pick));
     let log = least > 0.0 && most >= DECADE * least;
-    // Only hard walls have a stiffness, only other interfaces have curves of their own.
-    let all = DRAWN.into_iter().chain(with::of_points());
+    // Only hard walls have a stiffness.
+    let all = with::of_points().into_iter().chain(DRAWN);
     let known =
         all.filter(|drawn| points.iter().any(|point| (drawn.value)(point).is_some_and(f64::is_finite)));
     let drawn = known.map(|OfPoints { column: name, label, may_be_log, value }| {

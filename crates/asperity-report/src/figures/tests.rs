@@ -156,7 +156,7 @@ fn bodies_that_run_in_are_drawn_over_the_passes_done_and_the_distance() {
         std::fs::read_to_string(path).unwrap()
     };
     let figure = read("running-in");
-    for (words, shown) in [("wear volume", true), ("sliding distance", true), ("film", false), ("°C", false)]
+    for (words, shown) in [("worn volume", true), ("sliding distance", true), ("film", false), ("°C", false)]
     {
         assert_eq!(figure.contains(words), shown, "{words}");
     }

@@ -20,6 +20,7 @@ mod interface;
 mod layers;
 mod live;
 mod numbers;
+mod overview;
 mod packed;
 mod capability;
 mod plane;
@@ -49,7 +50,7 @@ use crate::figures::{self, FigureOptions};
 use found::PageData;
 pub use live::LivePage;
 use packed::QuantisedField;
-pub use study::write_study;
+pub use study::{answers_of_study, write_study};
 use witness::{DPI, PICTURES};
 pub use witness::{Seen, gathered};
 

@@ -1,18 +1,17 @@
-//! The page of a study: a chart whose quantity, axis and colours are chosen on the page, and a row per case.
+//! The page of a study: its answers, a chart whose quantity, axis and colours are chosen on the page, and a row per case.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
 
 use asperity_base::units::format_time;
-use asperity_contact::each_law;
-use asperity_contact::with::BodyLaw;
-use asperity_study::column;
 use asperity_study::io::{self, fs};
 use asperity_study::many::{Axis, Row, Study, Table};
 use serde_json::json;
 
-use super::explorer::{self, Quantity};
+use super::explorer::{self, Quantity, largest};
 use super::html::{escaped, facts, minus, with_code};
+use super::overview::Overview;
 use super::table::Measure;
 use super::{Section, framed, words};
 use crate::draw::{Colours, palette};
@@ -20,8 +19,8 @@ use crate::draw::{Colours, palette};
 /// Cases that have a row on the page, at most.
 const MAX_ROWS: usize = 20_000;
 
-/// Columns of a study's table that the page shows before the volumes that laws remove, the most telling ones first.
-const BEFORE: [&str; 14] = [
+/// Columns of a study's table that the page shows after the answers, the most telling ones first.
+const SHOWN: [&str; 28] = [
     "contact_area",
     "mean_contact_area",
     "approach",
@@ -30,16 +29,13 @@ const BEFORE: [&str; 14] = [
     "friction_coefficient",
     "force_ratio",
     "creepage_x",
+    "tangential_force_x",
     "stiffness",
     "sq_lower",
     "sq_upper",
     "plastic_volume",
     "plastic_volume_lower",
     "plastic_volume_upper",
-];
-
-/// Columns that it shows after them.
-const AFTER: [&str; 13] = [
     "max_flash_temperature",
     "max_plastic_strain",
     "plastic_work",
@@ -55,15 +51,10 @@ const AFTER: [&str; 13] = [
     "residual",
 ];
 
-/// Returns the columns of a study's table that the page shows.
-fn shown() -> Vec<String> {
-    let mut shown: Vec<String> = BEFORE.map(str::to_owned).to_vec();
-    each_law!(L => for volume in L::OF_PASSES.iter().filter(|of_bodies| of_bodies.adds_up) {
-        let name = volume.column.trim_end_matches("_lower");
-        shown.extend(["lower", "upper"].map(|body| format!("{name}_{body}")));
-    });
-    shown.extend(AFTER.map(str::to_owned));
-    shown
+/// What a study answers, as a table for a terminal: mean and deviation over the seeds for each combination of values; empty without numbers.
+pub fn answers_of_study(table: &Table) -> String {
+    let quantities = explorer::quantities(table, &SHOWN);
+    Overview::of(table, &quantities).map_or(String::new(), |overview| overview.text())
 }
 
 /// Writes the page of a study whose cases are in `table` to `path`; where that fails the one that is there stays.
@@ -73,9 +64,11 @@ pub fn write_study(study: &Study, table: &Table, path: &Path) -> asperity_base::
 }
 
 fn page(study: &Study, table: &Table, directory: &Path) -> String {
-    let quantities = explorer::quantities(table, &shown());
+    let quantities = explorer::quantities(table, &SHOWN);
     let has_chart = !quantities.is_empty() && table.axes().iter().any(|axis| measure(axis).is_some());
-    let sections: [Section; 3] = [
+    let overview = Overview::of(table, &quantities);
+    let sections: [Section; 4] = [
+        ("answers", "Answers", overview.as_ref().map(Overview::html)),
         ("curves", "Chart", has_chart.then(|| "<div id=\"explorer\"></div>".to_owned())),
         ("plan", "Plan", Some(about(study, table))),
         ("cases", "Cases", Some(rows(table, &quantities, directory))),
@@ -83,12 +76,14 @@ fn page(study: &Study, table: &Table, directory: &Path) -> String {
     let colours = json!({ "pressure": palette(Colours::Pressure) });
     let data =
         json!({ "colours": colours, "charts": [], "study": explorer::data(table, &quantities, directory) });
-    framed(study.title(), &head(study, table), &sections, &data)
+    let head = head(study, table, overview.map_or(String::new(), |overview| overview.cards()));
+    framed(study.title(), &head, &sections, &data)
 }
 
-fn head(study: &Study, table: &Table) -> String {
+fn head(study: &Study, table: &Table, cards: String) -> String {
     let failures: Vec<&Row> = table.rows().iter().filter(|row| row.failure.is_some()).collect();
-    let done = table.rows().len() - failures.len();
+    let cases: BTreeSet<usize> = table.rows().iter().map(|row| row.case).collect();
+    let done = cases.len() - failures.len();
     let mut html = format!(
         "<h1>{}</h1><p class=\"verdict\">{done} of {} cases are done, {} have failed.</p>",
         escaped(study.title()),
@@ -107,7 +102,7 @@ fn head(study: &Study, table: &Table) -> String {
         }
         html += "</ul></div>";
     }
-    html
+    html + &cards
 }
 
 /// The axes of the study, and its numbers as a whole.
@@ -121,8 +116,10 @@ fn about(study: &Study, table: &Table) -> String {
         };
         (words::of_key(axis.key()), escaped(&values))
     });
-    let time: f64 = table.rows().iter().map(|row| row.wall_time).sum();
-    let warned = table.rows().iter().filter(|row| row.warnings > 0).count();
+    // A case with a sweep has several rows.
+    let cases = || table.rows().chunk_by(|one, other| one.case == other.case).map(|rows| &rows[0]);
+    let time: f64 = cases().map(|row| row.wall_time).sum();
+    let warned = cases().filter(|row| row.warnings > 0).count();
     let rest = [
         ("time of all cases".to_owned(), format_time(time)),
         ("cases with warnings".to_owned(), warned.to_string()),
@@ -136,8 +133,7 @@ fn about(study: &Study, table: &Table) -> String {
 
 /// A row per case: its values, its main numbers, each column in one unit. The number of a case leads to its page where that was made.
 fn rows(table: &Table, quantities: &[Quantity], directory: &Path) -> String {
-    let columns: Vec<Measure> =
-        quantities.iter().map(|quantity| Measure::of(&quantity.name, largest(&quantity.values))).collect();
+    let columns: Vec<Measure> = quantities.iter().map(Quantity::measure).collect();
     let axes: Vec<Option<Measure>> = table.axes().iter().map(measure).collect();
     let mut html = String::from(
         "<p class=\"remark\">A click on the head of a column sorts by it, a click on a row opens the case.</p>\
@@ -151,8 +147,7 @@ fn rows(table: &Table, quantities: &[Quantity], directory: &Path) -> String {
         };
     }
     for (quantity, measure) in quantities.iter().zip(&columns) {
-        let about = column(&quantity.name).map(|column| column.text);
-        html += &measure.headed(&escaped(&words::of_column(&quantity.name)), about);
+        html += &measure.headed(&escaped(&quantity.label), Some(quantity.about));
     }
     html += "<th scope=\"col\">warnings</th></tr></thead><tbody>";
     let listed = super::table::evenly(table.rows().len(), MAX_ROWS);
@@ -160,15 +155,15 @@ fn rows(table: &Table, quantities: &[Quantity], directory: &Path) -> String {
         let row = &table.rows()[*n];
         let page = format!("cases/{:04}/{}", row.case, super::FILE);
         let name = match fs::exists(directory.join(&page)) {
-            true => format!("<a href=\"{page}\">{:04}</a>", row.case),
-            false => format!("{:04}", row.case),
+            true => format!("<a href=\"{page}\">{}</a>", explorer::name_of(row)),
+            false => explorer::name_of(row),
         };
         let _ = write!(html, "<tr><th scope=\"row\">{name}</th>");
-        for ((axis, measure), index) in table.axes().iter().zip(&axes).zip(&row.indices) {
-            let index = *index as usize;
-            let text = match (measure, axis.numbers()) {
-                (Some(measure), Some(numbers)) => measure.plain(numbers[index]),
-                _ => minus(axis.text(index)),
+        for (n, (axis, measure)) in table.axes().iter().zip(&axes).enumerate() {
+            let text = match (row.indices.get(n).map(|index| *index as usize), measure, axis.numbers()) {
+                (None, ..) => "–".to_owned(),
+                (Some(index), Some(measure), Some(numbers)) => measure.plain(numbers[index]),
+                (Some(index), ..) => minus(axis.text(index)),
             };
             let _ = write!(html, "<td>{}</td>", escaped(&text));
         }
@@ -204,18 +199,14 @@ fn measure(axis: &Axis) -> Option<Measure> {
     Some(Measure::of_dimension(axis.dimension(), largest(numbers)))
 }
 
-fn largest(numbers: &[f64]) -> f64 {
-    numbers.iter().map(|number| number.abs()).filter(|size| size.is_finite()).fold(0.0, f64::max)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn columns_that_are_shown_are_columns_of_records() {
-        for name in shown() {
-            assert!(asperity_study::column(&name).is_some(), "{name}");
+        for name in SHOWN {
+            assert!(asperity_study::column(name).is_some(), "{name}");
         }
     }
 }

@@ -160,6 +160,16 @@ impl Measure {
         }
     }
 
+    /// The unit.
+    pub(super) fn unit(&self) -> &str {
+        &self.unit.symbol
+    }
+
+    /// A difference of numbers of the column, SI, in its unit.
+    pub(super) fn difference(&self, value: f64) -> f64 {
+        value / self.unit.factor
+    }
+
     /// The head of the column of a table of results: its name, its unit.
     fn head(&self, name: &str, is_hidden: bool) -> String {
         let head = self.headed(&escaped(&name.replace('_', " ")), column(name).map(|column| column.text));

@@ -1,7 +1,8 @@
 //! Words for keys of a case and for columns of the results, as they stand at axes and above tables.
 
 /// Keys and columns whose words are not their letters.
-const WORDS: [(&str, &str); 12] = [
+const WORDS: [(&str, &str); 13] = [
+    ("bulk", "bulk temperature"),
     ("sq", "Sq"),
     ("sdq", "Sdq"),
     ("cutoff", "cut-off"),

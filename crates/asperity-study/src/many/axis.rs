@@ -97,6 +97,11 @@ impl Axis {
         &self.texts[index]
     }
 
+    /// Returns the index of a value.
+    pub(super) fn index(&self, value: &Value) -> Option<u32> {
+        self.values.iter().position(|known| known.value == *value).map(|index| index as u32)
+    }
+
     pub(super) fn value(&self, index: usize) -> &Value {
         &self.values[index].value
     }

@@ -6,12 +6,12 @@ use toml::Value;
 
 use super::axis::{Axis, ValueInFile, axes};
 use super::base::Base;
-use super::cell::unguarded;
 use super::filter::Exclusion;
 use crate::case::MAX_CASE_BYTES;
 use crate::case::cursor::{Entry, Table};
 use crate::case::document::Document;
 use crate::case::schema::tables::{self as keys, is_of_root};
+use crate::cell::unguarded;
 use crate::io::text_of;
 use asperity_base::error::{Error, Result};
 

@@ -6,14 +6,13 @@
 //!       files.json          digests of the files named in the study, when the plan was made
 //!       cases/0001/         case.toml and the results of a run, created when a process takes the case
 //!       cases/0002/failed.json    in place of results: the reason of the failure
-//!       table.csv table.h5  a row per case: the values of its axes, the numbers of its summary
+//!       table.csv table.h5  a row per case, or per point of its sweep: the values of its axes, the numbers of its results
 //! ```
 //!
 //! A case is done when its `summary.json` exists. Processes share only these files and their locks.
 
 mod axis; // a key of the case and its values
 mod base; // the base case
-mod cell; // cells of tables
 mod compute; // computation of the remaining cases in parallel
 mod file; // the study file
 mod files; // digests of the files that it names
@@ -21,6 +20,8 @@ mod filter; // excluded cases
 mod folder; // the directory of a study
 mod named; // a file that it names
 mod plan; // the values of each case
+mod points; // the points of sweeps within it
+mod spread; // the spread over samples
 mod table; // the table of results
 mod work; // the remaining cases of a process
 
@@ -28,5 +29,6 @@ pub use axis::Axis;
 pub use compute::compute;
 pub use folder::{Folder, State, Tally};
 pub use plan::{MAX_CASES, Study};
-pub use table::{Row, Table};
+pub use spread::Spread;
+pub use table::{Row, Table, TableColumn};
 pub use work::{Computed, OwnedCase, Queue, Task};

@@ -7,10 +7,10 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::axis::Axis;
-use super::cell::quoted;
 use super::file::{self, StudyFile};
 use super::named::NamedFile;
 use crate::case::{Case, Device};
+use crate::cell::quoted;
 use crate::estimate::check_plastic_limit;
 use crate::given::SurfaceInput;
 use crate::io::sha256;

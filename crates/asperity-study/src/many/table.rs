@@ -1,26 +1,28 @@
 //! Results of a study: a row per case, with the values of its axes and the numbers of its summary.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
 use rayon::prelude::*;
-use serde_json::Value;
 
 use super::axis::Axis;
-use super::cell::quoted;
 use super::folder::Folder;
 use super::plan::Study;
-use crate::columns::{CASE, DONE, MESSAGE, STATE, WARNINGS, unit_of_column};
+use super::points;
+use crate::cell::quoted;
+use crate::columns::{CASE, DONE, MESSAGE, STATE, WARNINGS, declared, headed, unit_of_column};
 use crate::io::atomic;
 use crate::io::fields::FieldFile;
+use crate::joined::{self, Cell, MARK};
 use crate::results::{NO_LOCKS, Results};
-use crate::summary::{Outcome, Summary};
-use crate::tables;
+use crate::summary::{Outcome, RunningIn, Summary};
 use asperity_base::error::{Error, Result};
+use asperity_base::record::OverMotion;
 use asperity_contact::each_capability;
-use asperity_contact::with::{Capability, Reported, Row as _};
+use asperity_contact::motion::{PassRecord, PlasticRecord, StaticRecord, UpdateRecord};
+use asperity_contact::with::{self, Reported, Row as _};
 
 /// The finished and failed cases of a study.
 ///
@@ -28,19 +30,42 @@ use asperity_contact::with::{Capability, Reported, Row as _};
 #[derive(Debug)]
 pub struct Table {
     axes: Vec<Axis>,
-    /// Names of the numbers of the summaries, in the order of the cases that have them.
-    columns: Vec<String>,
+    /// The numbers of the cases, in the order of the cases that have them.
+    columns: Vec<TableColumn>,
+    /// The columns that answer the question of the user, the main ones first.
+    answers: Vec<usize>,
     rows: Vec<Row>,
 }
 
-/// A finished or failed case.
+/// A number of each case.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TableColumn {
+    /// Name of the number in the results of a case.
+    pub name: String,
+    /// Whether it is a value of the last pass of a motion, and neither a state after it nor a total of all passes.
+    pub of_last_pass: bool,
+    /// Name of the quantity, if it answers the question of the user: "worn volume, lower body".
+    pub answer: Option<String>,
+}
+
+impl TableColumn {
+    /// The head of the column: name, unit, and whether the value is that of the last pass.
+    fn head(&self) -> String {
+        let pass = if self.of_last_pass { " of the last pass" } else { "" };
+        format!("{}{pass}", headed(&self.name))
+    }
+}
+
+/// A finished or failed case, or a point of the sweep of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// Its number, from 1.
+    /// Number of the case, from 1.
     pub case: usize,
-    /// The index of the value of each axis.
+    /// Number of the point of a sweep, from 1.
+    pub point: Option<usize>,
+    /// The index of the value of each axis; a failed case has none on the axis of the points.
     pub indices: Vec<u32>,
-    /// Numbers of its summary, SI, by column of the table; NaN if missing. Empty for a failed case.
+    /// Numbers, SI, by column of the table; NaN if missing. Empty for a failed case.
     pub numbers: Vec<f64>,
     /// Number of warnings in its summary, without the one about a file system without locks.
     pub warnings: usize,
@@ -51,54 +76,70 @@ pub struct Row {
 }
 
 impl Table {
-    /// Collects the finished and failed cases of a study.
+    /// Collects the finished and failed cases of a study: a row per case, or per point of the sweep of a case.
     ///
     /// # Errors
-    /// [`asperity_base::Error::File`] if a summary or a failure cannot be read.
+    /// [`asperity_base::Error::File`] if the results or the failure of a case cannot be read.
     pub fn collect(study: &Study, folder: &Folder) -> Result<Self> {
         let found: Result<Vec<Option<CaseData>>> =
             (1..=study.len()).into_par_iter().map(|case| found(folder, case)).collect();
         let found = found?;
-        let mut columns: Vec<String> = Vec::new();
-        let mut known = BTreeSet::new();
-        for (column, _) in found.iter().flatten().flat_map(|found| &found.numbers) {
-            if known.insert(column.clone()) {
-                columns.push(column.clone());
-            }
+        let mut columns: Vec<TableColumn> = Vec::new();
+        let mut places = BTreeMap::new();
+        for number in found.iter().flatten().flat_map(|found| &found.rows).flatten() {
+            places.entry(number.column.name.clone()).or_insert_with(|| {
+                columns.push(number.column.clone());
+                columns.len() - 1
+            });
         }
-        let rows = found.into_iter().enumerate().filter_map(|(n, found)| {
-            let CaseData { numbers, warnings, wall_time, failure } = found?;
-            let numbers: BTreeMap<String, f64> = numbers.into_iter().collect();
-            let numbers =
-                columns.iter().map(|column| numbers.get(column).copied().unwrap_or(f64::NAN)).collect();
-            Some(Row {
-                case: n + 1,
-                indices: study.indices(n + 1).to_vec(),
-                numbers,
-                warnings,
-                wall_time,
-                failure,
-            })
+        let answers = answers(&mut columns);
+        let done = found.iter().flatten().filter(|found| found.failure.is_none());
+        let points = done
+            .map(|found| found.sweep.as_ref())
+            .collect::<Option<Vec<_>>>()
+            .and_then(|sweeps| points::axis(sweeps.into_iter()));
+        let rows = found.into_iter().enumerate().flat_map(|(n, found)| {
+            let case = n + 1;
+            let Some(CaseData { rows, sweep, warnings, wall_time, failure }) = found else {
+                return Vec::new();
+            };
+            let row = |(at, numbers): (usize, &Vec<Number>)| {
+                let mut indices = study.indices(case).to_vec();
+                let value = sweep.as_ref().and_then(|(_, values)| values.get(at));
+                indices.extend(points.as_ref().zip(value).and_then(|(axis, value)| axis.index(value)));
+                let mut of_columns = vec![f64::NAN; if failure.is_some() { 0 } else { columns.len() }];
+                numbers.iter().for_each(|number| of_columns[places[&number.column.name]] = number.value);
+                let point = sweep.as_ref().map(|_| at + 1);
+                let (numbers, failure) = (of_columns, failure.clone());
+                Row { case, point, indices, numbers, warnings, wall_time, failure }
+            };
+            rows.iter().enumerate().map(row).collect::<Vec<_>>()
         });
-        Ok(Self { axes: study.axes().to_vec(), rows: rows.collect(), columns })
+        let rows = rows.collect();
+        Ok(Self { axes: study.axes().iter().cloned().chain(points).collect(), rows, columns, answers })
     }
 
-    /// The axes of the study.
+    /// The axes of the study, and that of the points if its cases have sweeps.
     pub fn axes(&self) -> &[Axis] {
         &self.axes
     }
 
-    /// The names of the numbers.
-    pub fn columns(&self) -> &[String] {
+    /// The numbers.
+    pub fn columns(&self) -> &[TableColumn] {
         &self.columns
     }
 
-    /// The cases, in order.
+    /// The indices of the columns that answer the question of the user, the main ones first.
+    pub fn answers(&self) -> &[usize] {
+        &self.answers
+    }
+
+    /// The rows, in the order of the cases and of their points.
     pub fn rows(&self) -> &[Row] {
         &self.rows
     }
 
-    /// Writes the table as CSV, atomically: one line per case. Missing values are empty cells.
+    /// Writes the table as CSV, atomically: one line per row. Missing values are empty cells.
     ///
     /// # Errors
     /// [`asperity_base::Error::File`].
@@ -107,22 +148,23 @@ impl Table {
     }
 
     fn csv(&self) -> String {
-        let labels = self.axes.iter().map(|axis| quoted(&axis.label()));
-        let head: Vec<String> = [CASE.name.to_owned()].into_iter().chain(labels).collect();
-        let mut csv = head.join(",");
-        for column in self.columns.iter().map(String::as_str).chain([WARNINGS.name, STATE.name, MESSAGE.name])
-        {
-            let _ = write!(csv, ",{column}");
-        }
+        let labels = self.axes.iter().map(|axis| axis.label());
+        let numbers = self.columns.iter().map(TableColumn::head);
+        let words = [WARNINGS.name, STATE.name, MESSAGE.name].map(str::to_owned);
+        let head = [CASE.name.to_owned()].into_iter().chain(labels).chain(numbers).chain(words);
+        let mut csv = String::from(MARK);
+        csv += &head.map(|head| quoted(&head)).collect::<Vec<_>>().join(",");
         csv.push('\n');
         for row in &self.rows {
             let _ = write!(csv, "{:04}", row.case);
-            for (axis, index) in self.axes.iter().zip(&row.indices) {
-                let _ = write!(csv, ",{}", quoted(&axis.cell(*index as usize)));
+            for (n, axis) in self.axes.iter().enumerate() {
+                let cell =
+                    row.indices.get(n).map_or(String::new(), |index| quoted(&axis.cell(*index as usize)));
+                let _ = write!(csv, ",{cell}");
             }
-            for number in &row.numbers {
+            for n in 0..self.columns.len() {
                 csv.push(',');
-                if !number.is_nan() {
+                if let Some(number) = row.numbers.get(n).filter(|number| !number.is_nan()) {
                     let _ = write!(csv, "{number:?}");
                 }
             }
@@ -158,12 +200,13 @@ impl Table {
                 axis.unit().to_owned()
             };
             add(axis.key(), &unit, &|row| {
-                let index = row.indices[n] as usize;
-                axis.numbers().map_or(index as f64, |numbers| numbers[index])
+                let value = |index: usize| axis.numbers().map_or(index as f64, |numbers| numbers[index]);
+                row.indices.get(n).map_or(f64::NAN, |index| value(*index as usize))
             });
         }
         for (n, column) in self.columns.iter().enumerate() {
-            add(column, unit_of_column(column).unwrap_or_default(), &|row| row.numbers[n]);
+            let unit = unit_of_column(&column.name).unwrap_or_default();
+            add(&column.name, unit, &|row| row.numbers.get(n).copied().unwrap_or(f64::NAN));
         }
         for axis in self.axes.iter().filter(|axis| axis.numbers().is_none()) {
             let words: Vec<String> = (0..axis.len()).map(|index| axis.cell(index)).collect();
@@ -183,125 +226,159 @@ impl Table {
 
 /// Data of a finished or failed case.
 struct CaseData {
-    numbers: Vec<(String, f64)>,
+    /// The numbers of its rows; one row without numbers of a case that failed.
+    rows: Vec<Vec<Number>>,
+    /// Key of a point of its sweep, and the values of all points.
+    sweep: Option<(&'static str, Vec<toml::Value>)>,
     warnings: usize,
     wall_time: f64,
     failure: Option<String>,
 }
 
+/// A number in its column.
+struct Number {
+    column: TableColumn,
+    value: f64,
+}
+
 impl CaseData {
     fn failed(message: String) -> Self {
-        Self { numbers: Vec::new(), warnings: 0, wall_time: 0.0, failure: Some(message) }
+        Self { rows: vec![Vec::new()], sweep: None, warnings: 0, wall_time: 0.0, failure: Some(message) }
+    }
+
+    fn of(results: &Results) -> Result<Self> {
+        let summary = results.summary()?;
+        let sweep = match &summary.outcome {
+            Outcome::Sweep(_) => points::swept(&summary.case),
+            Outcome::Static(_) | Outcome::Passes(_) => None,
+        };
+        // A table must not depend on where it was computed.
+        let warnings = summary.warnings.iter().filter(|warning| *warning != NO_LOCKS).count();
+        let wall_time = summary.wall_time_s;
+        Ok(Self { rows: rows(results, &summary)?, sweep, warnings, wall_time, failure: None })
     }
 }
 
-/// Reads the data of a case. A case with a damaged summary counts as failed, so that the others have their rows.
+/// Reads the data of a case. A case with a damaged file counts as failed, so that the others have their rows.
 fn found(folder: &Folder, case: usize) -> Result<Option<CaseData>> {
     if !folder.is_done(case) {
         return Ok(folder.failure(case)?.map(CaseData::failed));
     }
-    match Results::open(&folder.case(case)).and_then(|results| results.summary()) {
-        Ok(summary) => {
-            let wall_time = summary.wall_time_s;
-            // A table must not depend on where it was computed.
-            let warnings = summary.warnings.iter().filter(|warning| *warning != NO_LOCKS).count();
-            Ok(Some(CaseData { numbers: numbers(&summary), warnings, wall_time, failure: None }))
-        }
-        Err(Error::File { source, .. }) if is_damage(&source) => {
-            let message =
-                format!("its summary.json is damaged; without it the case is computed again: {source}");
+    match Results::open(&folder.case(case)).and_then(|results| CaseData::of(&results)) {
+        Err(Error::File { path, source }) if is_damage(&source) => {
+            let file = path.file_name().unwrap_or_default().display();
+            let message = format!(
+                "its {file} is damaged; without its summary.json the case is computed again: {source}"
+            );
             Ok(Some(CaseData::failed(message)))
         }
-        Err(error) => Err(error),
+        data => data.map(Some),
     }
 }
 
-/// Whether an error means that a file is damaged.
+/// Whether an error means that a file is damaged; a row of a table that cannot be read has no kind of its own.
 fn is_damage(error: &io::Error) -> bool {
-    matches!(error.kind(), ErrorKind::InvalidData | ErrorKind::UnexpectedEof)
+    matches!(error.kind(), ErrorKind::InvalidData | ErrorKind::UnexpectedEof | ErrorKind::Other)
 }
 
-/// Returns the numbers of a summary: the record of a static contact, or the last point of a sweep, or the last pass of a
-/// motion. Then those of sliding in place, of running-in, of the residual plastic flow, of the interface, of the last most stressed point, and
-/// of the capabilities.
-fn numbers(summary: &Summary) -> Vec<(String, f64)> {
-    let mut numbers = Vec::new();
-    match &summary.outcome {
-        Outcome::Static(record) => add(&mut numbers, "", &**record),
-        Outcome::Sweep(points) => points.last().into_iter().for_each(|point| add(&mut numbers, "", point)),
-        Outcome::Passes(passes) => passes.last().into_iter().for_each(|pass| add(&mut numbers, "", pass)),
+/// Returns the numbers of the rows of a case: a row per point of a sweep, else one.
+fn rows(results: &Results, summary: &Summary) -> Result<Vec<Vec<Number>>> {
+    let rows = match &summary.outcome {
+        Outcome::Sweep(_) => joined::of_run(results, summary)?,
+        Outcome::Static(_) | Outcome::Passes(_) => vec![whole(summary)],
+    };
+    Ok(rows.into_iter().map(|row| numbers(summary, row)).collect())
+}
+
+/// Returns the numbers of a row, with those of the interface.
+fn numbers(summary: &Summary, row: Vec<Cell>) -> Vec<Number> {
+    let moves = matches!(summary.outcome, Outcome::Passes(_));
+    let interface = summary.interface.record().into_iter().flat_map(|record| joined::cells("", record, &[]));
+    let number = |cell: Cell| {
+        let value = cell.number();
+        let is_of_pass = matches!(cell.over_motion, OverMotion::LastPass | OverMotion::MeanOfPass);
+        let of_last_pass = moves && is_of_pass;
+        let column = TableColumn { name: cell.name, of_last_pass, answer: cell.answer };
+        Some(Number { column, value }).filter(|number| !number.value.is_nan())
+    };
+    row.into_iter().chain(interface).filter_map(number).collect()
+}
+
+/// Returns the columns that answer the question of the user: those of capabilities first, which say so, then those of the interface and of
+/// the laws of the bodies, which get their names.
+fn answers(columns: &mut [TableColumn]) -> Vec<usize> {
+    let known = with::answering_columns();
+    let mut ranked = Vec::new();
+    for (n, column) in columns.iter_mut().enumerate() {
+        let name = column.name.strip_prefix(SLIDING).unwrap_or(&column.name);
+        let place = known.iter().position(|(known, _)| known == name);
+        // The wear of a single pass is no answer about all of them.
+        let adds_up =
+            declared(PassRecord::COLUMNS, name).is_none_or(|c| c.over_motion != OverMotion::MeanOfPass);
+        if let Some(place) = place.filter(|_| column.answer.is_none() && (adds_up || !column.of_last_pass)) {
+            column.answer = Some(known[place].1.clone());
+        }
+        if column.answer.is_some() {
+            ranked.push((place.map_or(0, |place| place + 1), n));
+        }
     }
+    ranked.sort();
+    ranked.into_iter().map(|(_, n)| n).collect()
+}
+
+/// Prefix of the columns of the last update of a contact that slides in place.
+const SLIDING: &str = "sliding_";
+
+/// Returns the row of a case as a whole: the record of a static contact, or the totals and the last states of a motion. Then the values of
+/// sliding in place, of running-in, of the residual plastic flow, of the last most stressed point, and of the capabilities.
+fn whole(summary: &Summary) -> Vec<Cell> {
+    let of_record = |mut cells: Vec<Cell>| {
+        cells.iter_mut().for_each(|cell| cell.over_motion = OverMotion::State);
+        cells
+    };
+    let mut row = match &summary.outcome {
+        Outcome::Static(record) => joined::cells("", &**record, StaticRecord::COLUMNS),
+        Outcome::Passes(passes) => joined::of_motion(passes),
+        Outcome::Sweep(_) => Vec::new(),
+    };
     if let Some(update) = &summary.sliding {
-        add(&mut numbers, "sliding_", update);
+        row.extend(joined::cells(SLIDING, update, UpdateRecord::COLUMNS));
     }
     if let Some(running_in) = &summary.running_in {
-        add(&mut numbers, "", running_in);
+        row.extend(of_record(joined::cells("", running_in, RunningIn::COLUMNS)));
     }
     if let Some(flow) = &summary.plasticity {
-        add(&mut numbers, "", flow);
+        row.extend(of_record(joined::cells("", flow, PlasticRecord::COLUMNS)));
     }
-    if let Some(interface) = summary.interface.record() {
-        add(&mut numbers, "", interface);
-    }
-    if let Some(stress) = summary.subsurface.last() {
-        add(&mut numbers, "subsurface_", stress);
-    }
+    joined::add_stress(&mut row, summary.subsurface.last());
+    // A motion has the mean of each pass, of which the last one counts.
+    let mut last = summary.found.clone();
     each_capability!(C => {
-        let rows = C::rows(&summary.found);
-        // A motion has the mean of each pass, of which the last one counts.
+        let rows = C::rows(&last);
         let of_last = rows.iter().filter(|row| row.pass() == rows.last().and_then(|last| last.pass()));
-        of_last.for_each(|row| add_beside::<C>(&mut numbers, row));
+        let of_last = of_last.cloned().collect();
+        C::add(&mut last, of_last);
     });
-    numbers
-}
-
-/// Adds the numbers of a record, in order. Several numbers under one key have one column each.
-fn add(numbers: &mut Vec<(String, f64)>, prefix: &str, record: &impl serde::Serialize) {
-    for (key, value) in of_record(record) {
-        flatten(numbers, format!("{prefix}{key}"), &value);
-    }
-}
-
-/// Adds the numbers of a row of a capability. Its contact has some of them too, which have one column.
-fn add_beside<C: Capability>(numbers: &mut Vec<(String, f64)>, row: &C::Row) {
-    const PLACE: [&str; 2] = ["pass", "step"];
-    const OF_CONTACT: [&str; 3] = ["load", "mean_pressure", "contact_area"];
-    for (key, value) in of_record(row) {
-        let is_there = |key: &str| numbers.iter().any(|(known, _)| known == key);
-        if PLACE.contains(&key.as_str()) || OF_CONTACT.contains(&key.as_str()) && is_there(&key) {
-            continue;
-        }
-        flatten(numbers, format!("{}{key}", C::prefix(row, &key)), &value);
-    }
-}
-
-/// Keys and values of a record that are results.
-fn of_record(record: &impl serde::Serialize) -> Vec<(String, Value)> {
-    let row = tables::Row::of(record);
-    let results = row.cells().iter().filter(|(key, _)| key != "wall_time_s");
-    let value = |text: &str| serde_json::from_str(text).unwrap_or(Value::Null);
-    results.map(|(key, text)| (key.clone(), value(text))).collect()
-}
-
-fn flatten(numbers: &mut Vec<(String, f64)>, key: String, value: &Value) {
-    const AXES: [&str; 3] = ["x", "y", "z"];
-    match value {
-        Value::Number(number) => numbers.push((key, number.as_f64().unwrap_or(f64::NAN))),
-        Value::Array(items) if items.len() <= AXES.len() => {
-            items.iter().zip(AXES).for_each(|(item, axis)| flatten(numbers, format!("{key}_{axis}"), item));
-        }
-        Value::Object(items) => {
-            items.iter().for_each(|(inner, item)| flatten(numbers, format!("{key}_{inner}"), item));
-        }
-        _ => {}
-    }
+    joined::add_found(&mut row, &last, |_, _| true);
+    row
 }
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
+    use serde_json::{Value, json};
 
     use super::*;
+
+    /// Numbers of a summary by name; each has a unit.
+    fn numbers_of(summary: &Summary) -> BTreeMap<String, f64> {
+        let numbers = numbers(summary, whole(summary));
+        let count = numbers.len();
+        let numbers: BTreeMap<_, _> = numbers.into_iter().map(|n| (n.column.name, n.value)).collect();
+        assert_eq!(numbers.len(), count, "each name once");
+        let without: Vec<_> = numbers.keys().filter(|name| unit_of_column(name).is_none()).collect();
+        assert!(without.is_empty(), "no unit of {without:?}");
+        numbers
+    }
 
     #[test]
     fn a_contact_of_bodies_that_stick_has_the_numbers_of_its_adhesion() {
@@ -322,12 +399,10 @@ mod tests {
         let summary =
             json!({ "version": "", "case": {}, "warnings": [], "wall_time_s": 1.0, "adhesion": adhesion });
         let summary: Summary = serde_json::from_value(record("static", summary)).unwrap();
-        let numbers = numbers(&summary);
-        let of = |name: &str| numbers.iter().find(|(column, _)| column == name).map(|(_, number)| *number);
+        let numbers = numbers_of(&summary);
+        let of = |name: &str| numbers.get(name).copied();
         assert_eq!([of("adhesive_load"), of("pull_off"), of("tabor")], [Some(2e-9), Some(-3e-9), Some(0.7)]);
         assert_eq!(of("pastewka_robbins"), None);
-        let without: Vec<_> = numbers.iter().filter(|(name, _)| unit_of_column(name).is_none()).collect();
-        assert!(without.is_empty(), "no unit of {without:?}");
     }
 
     #[test]
@@ -342,12 +417,10 @@ mod tests {
             },
         }))
         .unwrap();
-        let numbers = numbers(&summary);
-        let of = |name: &str| numbers.iter().find(|(column, _)| column == name).map(|(_, number)| *number);
+        let numbers = numbers_of(&summary);
+        let of = |name: &str| numbers.get(name).copied();
         assert_eq!(of("max_plastic_strain_position_z"), Some(3e-6));
         assert_eq!([of("shift_per_pass"), of("max_residual_tension")], [Some(-2e-9), Some(3e8)]);
-        let without: Vec<_> = numbers.iter().filter(|(name, _)| unit_of_column(name).is_none()).collect();
-        assert!(without.is_empty(), "no unit of {without:?}");
     }
 
     #[test]
@@ -373,18 +446,11 @@ mod tests {
             "conductance": [conductance], "flow": [flow("x", 1e-15), flow("y", 2e-15)],
         }))
         .unwrap();
-        let numbers = numbers(&summary);
-        let of = |name: &str| numbers.iter().find(|(column, _)| column == name).map(|(_, number)| *number);
+        let numbers = numbers_of(&summary);
+        let of = |name: &str| numbers.get(name).copied();
         assert_eq!([of("flow_x_leakage"), of("flow_y_leakage")], [Some(1e-15), Some(2e-15)]);
         assert_eq!([of("thermal_joint_conductance"), of("conductance_spots")], [Some(2e4), Some(7.0)]);
         // The same residual is another number, and the same load is not.
         assert_eq!([of("conductance_residual"), of("flow_x_residual")], [Some(1e-7), Some(1e-14)]);
-        let mut beside = vec![("contact_area".to_owned(), 1e-12)];
-        add_beside::<asperity_contact::flow::Leakage>(&mut beside, &summary.found.flow[0]);
-        assert_eq!(beside.iter().filter(|(name, _)| name.ends_with("contact_area")).count(), 1);
-        let names: std::collections::BTreeSet<_> = numbers.iter().map(|(name, _)| name).collect();
-        assert_eq!(names.len(), numbers.len(), "{numbers:?}");
-        let without: Vec<_> = numbers.iter().filter(|(name, _)| unit_of_column(name).is_none()).collect();
-        assert!(without.is_empty(), "no unit of {without:?}");
     }
 }

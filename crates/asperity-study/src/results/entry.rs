@@ -34,6 +34,9 @@ pub enum Existing {
 /// Name of a case file that may lie beside its own results.
 pub(crate) const CASE_FILE: &str = "case.toml";
 
+/// Name of the table of all steps with everything found in them.
+pub(crate) const RESULTS_TABLE: &str = "results.csv";
+
 /// Lock file of a run. It stays when the run is over; only its lock shows that a run is active.
 const LOCK: &str = ".lock";
 
@@ -302,8 +305,9 @@ fn unlike_summary<T: serde::Serialize>(results: &Results, rows: &[T], table: &Pa
 /// `keep`. Nothing else is removed.
 pub(super) fn clear(results: &Results, kept: ExistingResults, keep: Keep) -> Result<()> {
     let at = |name: &str| results.directory.join(name);
-    // It describes the complete results, or is absent.
+    // They describe the complete results, or are absent.
     results.remove(&at("summary.json"))?;
+    results.remove(&at(RESULTS_TABLE))?;
     match kept {
         ExistingResults::Nothing => {
             // Files that mark something as done go first. The file that marks the directory as results is never removed.

@@ -20,6 +20,7 @@
 //!     subsurface.h5        the stress under its surface, if requested
 //!     plasticity.h5        plastic state of elasto-plastic bodies
 //!     *.vti                beside the fields, for ParaView, if requested
+//!     results.csv          a row for each step with everything found in it, once the computation is complete
 //!     summary.json         once the computation is complete
 //!     report.html          a page of all of it
 //!     figures/             pictures
@@ -39,7 +40,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 pub use entry::Existing;
-pub(super) use entry::{CASE_FILE, NO_LOCKS, is_in_use, try_acquire};
+pub(super) use entry::{CASE_FILE, NO_LOCKS, RESULTS_TABLE, is_in_use, try_acquire};
 pub use step::StepWriter;
 pub use write::Writer;
 

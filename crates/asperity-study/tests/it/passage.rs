@@ -162,7 +162,7 @@ fn every_course_says_what_its_contacts_let_through() {
             }
             assert!(thermal.joint_conductance.is_some() || row.spots < 2.0, "{name}: {row:?}");
             for (flow, along) in flows.iter().zip([Axis::X, Axis::Y]) {
-                assert_eq!((flow.pass, Some(flow.step), flow.along), (row.pass, row.step, along), "{name}");
+                assert_eq!((flow.pass, flow.step, flow.along), (row.pass, row.step, along), "{name}");
                 assert!(flow.load == row.load && flow.contact_area == row.contact_area, "{name}");
                 assert!(
                     flow.leakage >= 0.0 && (flow.leakage > 0.0) == (flow.critical_gap > 0.0),
@@ -179,6 +179,13 @@ fn every_course_says_what_its_contacts_let_through() {
                 / of_last.len() as f64;
             assert!(
                 near(summary.found.conductance[1].quantities.conductance.unwrap(), mean, 1e-12),
+                "{name}"
+            );
+            let along_x: Vec<&FlowRecord> =
+                flows.iter().filter(|row| row.pass == Some(2) && row.along == Axis::X).collect();
+            let mean = along_x.iter().map(|row| row.leakage).sum::<f64>() / along_x.len() as f64;
+            assert!(
+                summary.found.flow.len() == 4 && near(summary.found.flow[2].leakage, mean, 1e-12),
                 "{name}"
             );
         } else {
@@ -208,6 +215,57 @@ fn every_course_says_what_its_contacts_let_through() {
             assert_eq!(summary.found.flow, FlowRecord::last(&flows), "{name}");
             let in_memory = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
             assert_eq!((&in_memory.found.conductance, &in_memory.found.flow), (&rows, &flows), "{name}");
+        }
+    }
+}
+
+#[test]
+fn one_table_has_the_answers_of_all_capabilities_at_each_step_with_their_units() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, case, _) in courses() {
+        let results = run(&case, &folder.path().join(name), Existing::Keep, &()).unwrap();
+        let text = std::fs::read(results.directory().join("results.csv")).unwrap();
+        assert!(text.starts_with("\u{feff}".as_bytes()), "{name}: Excel knows the encoding by this mark");
+        let mut table = csv::Reader::from_reader(&text[..]);
+        let heads: Vec<String> = table.headers().unwrap().iter().map(str::to_owned).collect();
+        let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
+        let column = |head: &str| -> Vec<f64> {
+            let at = heads.iter().position(|known| known == head);
+            let at = at.unwrap_or_else(|| panic!("{name}: no {head} in {heads:?}"));
+            rows.iter().filter_map(|row| row[at].parse().ok()).collect()
+        };
+        let (step, numbers) = match name {
+            "pressed" | "periodic" => ("", 1..=1),
+            "swept" => ("point", 1..=3),
+            "worn" => ("update", 0..=4),
+            "loaded" | "plastic" => ("increment", 1..=4),
+            "rubbed" => ("increment", 1..=2),
+            _ => ("pass", 1..=2),
+        };
+        assert_eq!(rows.len(), numbers.clone().count(), "{name}");
+        if !step.is_empty() {
+            assert_eq!(column(step), numbers.map(f64::from).collect::<Vec<_>>(), "{name}");
+        }
+        let found = match case.motion {
+            Some(_) => results.summary().unwrap().found,
+            None => results.found().unwrap(),
+        };
+        let along =
+            |axis: Axis| found.flow.iter().filter(move |row| row.along == axis).map(|row| row.leakage);
+        assert_eq!(column("flow_x_leakage (m³/s)"), along(Axis::X).collect::<Vec<_>>(), "{name}");
+        assert_eq!(column("flow_y_leakage (m³/s)"), along(Axis::Y).collect::<Vec<_>>(), "{name}");
+        let joints = found.conductance.iter().map(|row| row.quantities.joint_conductance.unwrap());
+        assert_eq!(column("thermal_joint_conductance (W/(m² K))"), joints.collect::<Vec<_>>(), "{name}");
+        let load = if case.motion.is_some() { "mean_load (N)" } else { "load (N)" };
+        assert_eq!(column(load).len(), rows.len(), "{name}");
+        // Each number has its unit, and stands there once.
+        let distinct: std::collections::BTreeSet<&String> = heads.iter().collect();
+        assert_eq!(distinct.len(), heads.len(), "{name}: {heads:?}");
+        for head in &heads {
+            let (column, unit) =
+                head.strip_suffix(')').and_then(|head| head.split_once(" (")).unwrap_or((head, ""));
+            let expected = asperity_study::unit_of_column(column).unwrap_or_else(|| panic!("{name}: {head}"));
+            assert_eq!(if expected == "1" { "" } else { expected }, unit, "{name}: {head}");
         }
     }
 }

@@ -14,22 +14,27 @@ columns! {
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     pub struct RunningRecord {
         /// Number of passes covered by this computed pass and its extrapolation, ≥ 1; plastic volumes refer to one pass.
+        #[over_motion(Sum)]
         pub represents: usize,
         /// Time from the start to the end of these passes; unknown without a speed.
+        #[over_motion(State)]
         #[serde(deserialize_with = "number_or_none")]
         pub time: Second,
         /// Sliding distance since the start.
+        #[over_motion(State)]
         pub distance: Metre,
         /// Columns of the laws.
         #[serde(flatten)]
         pub laws: LawsInPass,
         /// Energy dissipated by friction in these passes.
+        #[over_motion(Sum)]
         pub friction_work: Joule,
         /// Largest absolute temperature of the surfaces in the computed pass. Without a flash temperature it is the temperature of the
         /// warmer body, or unknown.
         #[serde(deserialize_with = "number_or_none")]
         pub max_flash_temperature: Kelvin,
         /// Estimated error of the heights due to the extrapolation; the sum over the rows bounds the total error.
+        #[over_motion(Sum)]
         pub error_estimate: Metre,
     }
 }
@@ -39,18 +44,24 @@ columns! {
     #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
     pub struct LawsInPass {
         /// Deepest wear of a cell of the lower body in these passes.
+        #[over_motion(MeanOfPass)]
         pub max_wear_lower: Metre,
         /// Deepest wear of a cell of the upper body in these passes.
+        #[over_motion(MeanOfPass)]
         pub max_wear_upper: Metre,
         /// Deepest wear of a cell of the lower body since the beginning.
+        #[over_motion(State)]
         #[serde(default)]
         pub deepest_wear_lower: Metre,
         /// Deepest wear of a cell of the upper body since the beginning; of a fresh one in its pass.
+        #[over_motion(State)]
         #[serde(default)]
         pub deepest_wear_upper: Metre,
         /// Mean thickness of the film on the lower body after these passes; 0 without one.
+        #[over_motion(State)]
         pub mean_film_lower: Metre,
         /// Mean thickness of the film on the upper body after these passes; 0 without one.
+        #[over_motion(State)]
         pub mean_film_upper: Metre,
     }
 }

@@ -6,8 +6,7 @@ use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use serde::ser::Serializer;
 
 use crate::units::CubicMetre;
-use asperity_base::record::Column;
-use asperity_base::record::OptionalNumber;
+use asperity_base::record::{Column, OptionalNumber, OverMotion};
 
 /// Endings of the columns of a law, after its name.
 pub const ENDINGS: [&str; 4] =
@@ -32,14 +31,13 @@ pub struct LostVolume {
 impl LostVolume {
     /// The columns of the law `plastic` in a pass. Other laws have columns with their own names.
     pub const IN_A_PASS: &'static [Column] = &[
-        Column::new(
+        Self::of_passes(
             "plastic_volume_lower",
-            "m³",
             "Volume that the law took from the lower body; below 0 while a film grows.",
         ),
-        Column::new("plastic_volume_upper", "m³", "Volume that the law took from the upper body."),
-        Column::new("plastic_volume_lower_interior", "m³", "Part of it from the interior of the lower body."),
-        Column::new("plastic_volume_upper_interior", "m³", "Part of it from the interior of the upper body."),
+        Self::of_passes("plastic_volume_upper", "Volume that the law took from the upper body."),
+        Self::of_passes("plastic_volume_lower_interior", "Part of it from the interior of the lower body."),
+        Self::of_passes("plastic_volume_upper_interior", "Part of it from the interior of the upper body."),
     ];
     /// The columns of the law `plastic` in an update.
     pub const SO_FAR: &'static [Column] = &[
@@ -54,6 +52,10 @@ impl LostVolume {
             "Volume that the law has taken from the upper body so far.",
         ),
     ];
+
+    const fn of_passes(name: &'static str, text: &'static str) -> Column {
+        Column { over_motion: OverMotion::Sum, ..Column::new(name, "m³", text) }
+    }
 
     /// Creates volumes of zero for the law of that name.
     pub fn nothing(law: &str) -> Self {

@@ -16,6 +16,7 @@ columns! {
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     pub struct PassRecord {
         /// Pass, from 1.
+        #[over_motion(State)]
         pub pass: usize,
         /// Rigid-body approach δ of the pass; its mean over the positions if the load of each position is prescribed.
         pub approach: Metre,
@@ -57,16 +58,22 @@ columns! {
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub drag: Option<PassDragRecord>,
         /// Rms height of the lower surface about its mean after the pass.
+        #[over_motion(State)]
         pub sq_lower: Metre,
         /// Rms height of the upper surface about its mean after the pass.
+        #[over_motion(State)]
         pub sq_upper: Metre,
         /// Rms height of the interior of the lower surface about the mean of the interior after the pass.
+        #[over_motion(State)]
         pub sq_lower_interior: Metre,
         /// Rms height of the interior of the upper surface about the mean of the interior after the pass.
+        #[over_motion(State)]
         pub sq_upper_interior: Metre,
         /// Number of approaches tried.
+        #[over_motion(Sum)]
         pub outer_iterations: usize,
         /// Convolutions of the pass.
+        #[over_motion(Sum)]
         pub convolutions: f64,
         /// Wall time of the pass.
         pub wall_time_s: Second,

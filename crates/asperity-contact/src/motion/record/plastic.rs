@@ -86,22 +86,31 @@ columns! {
     #[non_exhaustive]
     pub struct PassPlasticRecord {
         /// Largest accumulated plastic strain of the lower body after the pass.
+        #[over_motion(State)]
         pub max_plastic_strain_lower: f64,
         /// Largest accumulated plastic strain of the upper body after the pass.
+        #[over_motion(State)]
         pub max_plastic_strain_upper: f64,
         /// Plastic work in the lower body in the pass.
+        #[over_motion(Sum)]
         pub plastic_work_lower: Joule,
         /// Plastic work in the upper body in the pass.
+        #[over_motion(Sum)]
         pub plastic_work_upper: Joule,
         /// Plastic work below the two columns at either end of the overlap, a part of the plastic work; 0 if the boundary is periodic along x.
+        #[over_motion(Sum)]
         pub plastic_work_rim: Joule,
         /// Displacement of the surface of the lower body along +x relative to its depths in the pass, averaged over the surface.
+        #[over_motion(Sum)]
         pub surface_shift_lower: Metre,
         /// Displacement of the surface of the upper body along +x relative to its depths in the pass, averaged over the surface.
+        #[over_motion(Sum)]
         pub surface_shift_upper: Metre,
         /// Range of the inward displacement r of the lower surface by the plastic strain after the pass.
+        #[over_motion(State)]
         pub residual_displacement_lower: Metre,
         /// Range of the inward displacement r of the upper surface by the plastic strain after the pass.
+        #[over_motion(State)]
         pub residual_displacement_upper: Metre,
         /// Net strain of the lower body in the pass over the accumulated strain, ∫ √(⅔ Δε:Δε) over ∫ Δp̄: 1 if each cell flows in one
         /// direction, 0 if the flow reverses completely.

@@ -30,8 +30,10 @@ columns! {
         /// Mean over the positions of the force of the tension on the open cells.
         pub mean_adhesive_load: Newton,
         /// Energy lost in the jumps of the pass; 0 if the bodies come from afar at each position.
+        #[over_motion(SumOfPasses)]
         pub energy_lost: Joule,
         /// Number of positions that jump.
+        #[over_motion(SumOfPasses)]
         pub jumps: usize,
         /// Drag by adhesion: the energy lost over the distance slid.
         pub adhesive_drag: Newton,

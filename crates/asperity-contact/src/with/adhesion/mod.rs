@@ -13,7 +13,7 @@ mod views;
 pub(super) use doubts::{cut_off, depends_on_history, jumped};
 pub use record::AdhesionSummary;
 pub use table::{AdhesionRange, Attraction};
-pub(super) use views::{OF_POINTS, answers, jumps};
+pub(super) use views::{ANSWERS, OF_POINTS, answers, jumps};
 
 use crate::error::Result;
 use crate::grid::{Field, Grid};

@@ -7,10 +7,14 @@ use crate::units::{Dimension, format, format_number};
 use crate::with::views::{Answer, Line, OfPoints, RowCell};
 use asperity_base::choice::Choice;
 
+/// The numbers that answer the question of the user.
+pub(in crate::with) const ANSWERS: [(&str, &str); 2] =
+    [("pull_off", "pull-off"), ("work_of_separation", "work of separation")];
+
 /// The numbers in the order of the page, with their names there.
 pub(super) const LABELS: [(&str, &str); 9] = [
-    ("pull_off", "pull-off"),
-    ("work_of_separation", "work of separation"),
+    ANSWERS[0],
+    ANSWERS[1],
     ("tabor", "Tabor's parameter"),
     ("pastewka_robbins", "Pastewka and Robbins"),
     ("range", "range"),

@@ -47,13 +47,16 @@ columns! {
         /// Largest damage that this pass does, which adds up to 1 at failure; 0 below the limit with an endurance limit.
         pub damage_of_pass: f64,
         /// Largest damage after the pass and its extrapolation, less what has worn away or broken out.
+        #[over_motion(State)]
         pub damage: f64,
         /// Pass of the motion in which a point first fails if all go on like this one and nothing is removed; unknown without damage.
+        #[over_motion(State)]
         pub life: Option<f64>,
         /// The removal that is faster.
         #[serde(flatten)]
         pub critical: Critical,
         /// Share of the columns that have broken out so far; unknown without `pit_depth`.
+        #[over_motion(State)]
         pub pitted_share: Option<f64>,
         /// Life over that of the bodies without their roughness, by the risk of Ioannides and Harris; unknown without `risk`, and for flat bodies.
         pub life_ratio: Option<f64>,

@@ -8,7 +8,7 @@ use crate::with::Surroundings;
 use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Series, percent};
 use asperity_base::Choice;
 
-/// f over its limit, and the damage so far, of both bodies.
+/// f over its limit, damage, life and pits of both bodies.
 pub(super) const CURVES: &[Curve<FatigueRecord>] = &[
     Curve {
         names: ["over_limit", "over_limit_bodies"],
@@ -28,6 +28,26 @@ pub(super) const CURVES: &[Curve<FatigueRecord>] = &[
         series: &[
             of_body("lower body", OnBody::Lower, |row| Some(row.damage)),
             of_body("upper body", OnBody::Upper, |row| Some(row.damage)),
+        ],
+    },
+    Curve {
+        names: ["life", "life_bodies"],
+        title: "life in passes",
+        caption: "Pass in which a point first fails if all go on like this one and nothing is removed.",
+        column: |_| "life",
+        series: &[
+            of_body("lower body", OnBody::Lower, |row| row.life),
+            of_body("upper body", OnBody::Upper, |row| row.life),
+        ],
+    },
+    Curve {
+        names: ["pitted_share", "pitted_share_bodies"],
+        title: "share of the surface that has pitted",
+        caption: "Share of the columns of cells that have broken out so far.",
+        column: |_| "pitted_share",
+        series: &[
+            of_body("lower body", OnBody::Lower, |row| row.pitted_share),
+            of_body("upper body", OnBody::Upper, |row| row.pitted_share),
         ],
     },
 ];

@@ -90,7 +90,10 @@ impl Capability for Leakage {
     }
 
     fn summary(rows: &[FlowRecord]) -> Vec<FlowRecord> {
-        FlowRecord::last(rows).to_vec()
+        match rows.last() {
+            Some(last) if last.pass.is_some() => FlowRecord::means(rows),
+            _ => FlowRecord::last(rows).to_vec(),
+        }
     }
 
     fn describe(&self, surroundings: &Surroundings) -> String {

@@ -60,7 +60,7 @@ impl Observer for FlowObserver {
                 [0, 1].map(|axis| critical.map(|cell| contact.corner[axis] + grid.centre(axis, cell[axis])));
             rows.push(FlowRecord {
                 pass: place.pass,
-                step: place.step,
+                step: Some(place.step),
                 along: if axis == 0 { Axis::X } else { Axis::Y },
                 length: grid.extent()[axis],
                 load: contact.load,

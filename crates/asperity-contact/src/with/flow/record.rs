@@ -10,15 +10,15 @@ use asperity_base::record::{Column, Record, columns};
 
 columns! {
     /// The flow through the gap of a contact under a gradient of pressure along one axis, a row of `flow.csv`; in `summary.json` of the
-    /// last contact.
+    /// last contact, or of a motion the means over the positions of each pass.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct FlowRecord {
         /// Pass of a motion, from 1; left out of a static contact.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         pub pass: Option<usize>,
-        /// Position in the pass, increment, point (each from 1) or update (from 0).
-        pub step: usize,
+        /// Position in the pass, increment, point (each from 1) or update (from 0); unknown in the mean over a pass.
+        pub step: Option<usize>,
         /// Direction of the gradient of pressure: `x` or `y`.
         pub along: Axis,
         /// Length of the contact along this axis.
@@ -89,6 +89,51 @@ impl FlowRecord {
     /// Returns the place of the critical constriction; `None` without a path.
     pub fn constriction(&self) -> Option<[Metre; 2]> {
         self.critical_x.zip(self.critical_y).map(|(x, y)| [x, y])
+    }
+
+    /// Returns the means over the positions of each pass, for each direction. The fluxes are those of a common difference of pressure; the
+    /// constriction has no mean place, and the estimate and the residual are the largest ones.
+    pub fn means(rows: &[Self]) -> Vec<Self> {
+        let of_passes = rows.chunk_by(|one, other| one.pass == other.pass);
+        let along = |rows: &[Self], axis| -> Vec<Self> {
+            rows.iter().filter(|row| row.along == axis).cloned().collect()
+        };
+        of_passes
+            .flat_map(|rows| [Axis::X, Axis::Y].map(|axis| along(rows, axis)))
+            .filter(|rows| !rows.is_empty())
+            .map(|rows| Self::mean(&rows))
+            .collect()
+    }
+
+    fn mean(rows: &[Self]) -> Self {
+        let mean = |value: fn(&Self) -> f64| rows.iter().map(value).sum::<f64>() / rows.len() as f64;
+        let most = |value: fn(&Self) -> f64| rows.iter().map(value).fold(0.0, f64::max);
+        let across = rows.iter().map(|row| row.permeability_across).sum::<Option<f64>>();
+        let critical_cells = rows.iter().map(|row| row.critical_cells).min().unwrap_or_default();
+        Self {
+            pass: rows[0].pass,
+            step: None,
+            along: rows[0].along,
+            length: mean(|row| row.length),
+            load: mean(|row| row.load),
+            mean_pressure: mean(|row| row.mean_pressure),
+            contact_area: mean(|row| row.contact_area),
+            mean_gap: mean(|row| row.mean_gap),
+            permeability: mean(|row| row.permeability),
+            permeability_across: across.map(|sum| sum / rows.len() as f64),
+            hydraulic_gap: mean(|row| row.hydraulic_gap),
+            flow_factor: mean(|row| row.flow_factor),
+            leakage: mean(|row| row.leakage),
+            critical_gap: mean(|row| row.critical_gap),
+            critical_x: None,
+            critical_y: None,
+            critical_cells,
+            flowing_share: mean(|row| row.flowing_share),
+            trapped_volume: mean(|row| row.trapped_volume),
+            effective_medium: mean(|row| row.effective_medium),
+            estimate: most(|row| row.estimate),
+            residual: most(|row| row.residual),
+        }
     }
 
     /// Returns the rows of the last contact, one for each direction.

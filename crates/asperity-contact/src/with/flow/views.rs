@@ -255,7 +255,7 @@ mod tests {
     fn row(pass: Option<usize>, mean_pressure: f64, leakage: f64) -> FlowRecord {
         FlowRecord {
             pass,
-            step: (1e-6 * mean_pressure) as usize,
+            step: Some((1e-6 * mean_pressure) as usize),
             along: Axis::X,
             length: 2e-3,
             load: mean_pressure * 2e-6,

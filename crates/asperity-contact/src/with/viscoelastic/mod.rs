@@ -4,6 +4,7 @@
 
 mod views;
 
+pub(super) use views::OF_POINTS;
 pub use views::{answers, doubts, in_passes, in_time};
 
 use std::path::{Path, PathBuf};

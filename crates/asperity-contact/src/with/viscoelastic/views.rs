@@ -4,8 +4,16 @@ use crate::motion::{IncrementRecord, PassRecord, SweepRecord};
 use crate::operator::Boundary;
 use crate::units::{Dimension, Kelvin, Metre, format, format_number};
 use crate::viscoelastic::Creep;
-use crate::with::views::Answer;
+use crate::with::views::{Answer, OfPoints};
 use crate::with::viscoelastic::Viscoelasticity;
+
+/// The curve over the points of a sweep.
+pub(in crate::with) const OF_POINTS: OfPoints = OfPoints {
+    column: "drag_coefficient",
+    label: "drag over load",
+    may_be_log: false,
+    value: |point| point.steady.map(|steady| steady.drag_coefficient),
+};
 
 /// Returns what the points of a sweep show of steady sliding: the largest drag, and its speed.
 pub fn answers(points: &[SweepRecord]) -> Vec<Answer> {

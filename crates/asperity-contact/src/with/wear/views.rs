@@ -28,18 +28,26 @@ pub(super) const CELL: PassCell = PassCell {
 };
 
 pub(super) const OF_PASSES: &[OfBodies<PassRecord>] = &[OfBodies {
-    name: "wear volume",
+    name: "worn volume",
     column: "wear_volume_lower",
     values: |pass| pass.lost(WEAR),
     adds_up: true,
 }];
 
-pub(super) const OF_UPDATES: &[OfBodies<UpdateRecord>] = &[OfBodies {
-    name: "deepest wear",
-    column: "max_wear_lower",
-    values: |update| [update.laws.max_wear_lower, update.laws.max_wear_upper],
-    adds_up: false,
-}];
+pub(super) const OF_UPDATES: &[OfBodies<UpdateRecord>] = &[
+    OfBodies {
+        name: "worn volume",
+        column: "wear_volume_lower",
+        values: |update| update.lost(WEAR),
+        adds_up: false,
+    },
+    OfBodies {
+        name: "deepest wear",
+        column: "max_wear_lower",
+        values: |update| [update.laws.max_wear_lower, update.laws.max_wear_upper],
+        adds_up: false,
+    },
+];
 
 pub(super) const OF_CYCLES: &[OfBodies<FrettingRecord>] = &[
     OfBodies {

@@ -5,7 +5,7 @@ const FORMULAS: [char; 6] = ['=', '+', '-', '@', '\t', '\r'];
 
 /// Writes a cell of a CSV table. A text that a spreadsheet would compute as a formula gets an apostrophe in front; a number
 /// gets none.
-pub(super) fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     match text.starts_with(FORMULAS) && text.parse::<f64>().is_err() {
         true => in_quotes(&format!("'{text}")),
         false => in_quotes(text),
@@ -13,12 +13,12 @@ pub(super) fn quoted(text: &str) -> String {
 }
 
 /// Returns the text of a cell without its protecting apostrophe.
-pub(super) fn unguarded(cell: &str) -> &str {
+pub(crate) fn unguarded(cell: &str) -> &str {
     cell.strip_prefix('\'').filter(|text| text.starts_with(FORMULAS)).unwrap_or(cell)
 }
 
 /// Returns a cell with its text in quotes, if it needs them.
-pub(super) fn in_quotes(text: &str) -> String {
+pub(crate) fn in_quotes(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {
