@@ -58,7 +58,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Result;
 use crate::grid::Field;
-use crate::motion::{FrettingRecord, IncrementRecord, Law, Pair, PassRecord, SweepRecord, UpdateRecord};
+use crate::motion::{
+    FrettingRecord, IncrementRecord, Law, Pair, PassRecord, StepRow, SweepRecord, UpdateRecord,
+};
 use crate::operator::Boundary;
 use views::{Answer, Kept, Line, OfPoints};
 
@@ -266,6 +268,16 @@ pub fn after_increments(increments: &[IncrementRecord]) -> Vec<Answer> {
 /// Returns what the points of a sweep show beside the contact.
 pub fn after_points(points: &[SweepRecord]) -> Vec<Answer> {
     viscoelastic::answers(points)
+}
+
+/// Returns a number that is largest for the step of a course that the answers describe: the least load of bodies that attract each other,
+/// the largest drag of a sweep of speeds. `None` where the answers describe the last step.
+pub fn answering_rank(row: StepRow<'_>) -> Option<f64> {
+    match row {
+        StepRow::Increment(row) => row.interface.as_ref().map(|_| -row.load),
+        StepRow::Point(row) => row.steady.map(|steady| steady.drag_coefficient),
+        StepRow::Update(_) | StepRow::Pass(_) => None,
+    }
 }
 
 /// Returns what cycles of slip have done to the bodies.

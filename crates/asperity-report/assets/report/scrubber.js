@@ -149,7 +149,7 @@ function busiest(packed) {
   if (packed.busiest === undefined) {
     const [[nx, ny], { levels }] = [packed.shape, packed];
     const rows = new Float64Array(ny);
-    for (let i = 0, n = 0; i < nx; i++) for (let j = 0; j < ny; j++, n++) rows[j] += levels[n];
+    for (let i = 0, n = 0; i < nx; i++) for (let j = 0; j < ny; j++, n++) rows[j] += Math.abs(value(packed, levels[n])) || 0;
     const most = rows.reduce((a, b) => Math.max(a, b));
     packed.busiest = ((most > 0 ? rows.indexOf(most) : Math.floor(ny / 2)) + 0.5) * packed.pitch[1];
   }

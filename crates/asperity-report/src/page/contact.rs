@@ -2,7 +2,8 @@
 
 use asperity_base::Field;
 use asperity_base::units::{Dimension, format};
-use asperity_contact::motion::{IncrementRecord, StepRecord, Strategy, SweepRecord};
+use asperity_contact::motion::{IncrementRecord, StepRecord, StepRow, Strategy, SweepRecord};
+use asperity_contact::with::answering_rank;
 use asperity_study::io::fields::Fields;
 use asperity_study::io::fs;
 use asperity_study::{cap_name, pressure_name, temperature_name};
@@ -45,6 +46,8 @@ struct Frame {
     seam: usize,
     /// Its place on the force–distance curve, if there is one.
     mark: Option<[f64; 2]>,
+    /// Largest for the frame that the answers describe, see [`answering_rank`].
+    rank: Option<f64>,
     fields: Vec<(&'static str, StoredArray)>,
 }
 
@@ -61,10 +64,10 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
     }
     let groups = vec![json!({ "label": "" })];
     if let Some(frames) = of_increments(found) {
-        let pull_off = least_load(&frames);
+        let begin = answering(&frames);
         let html = SCRUBBER.to_owned() + &blocks(&frames);
         data["contact"] = shown(&all_packed(frames), groups);
-        data["contact"]["begin"] = pull_off.into();
+        data["contact"]["begin"] = begin.into();
         data["contact"]["steps"] = "increment".into();
         return Some(html);
     }
@@ -75,7 +78,7 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
         let mut html = SCRUBBER.to_owned() + &in_blocks(block, false);
         data["contact"] = shown(&[frame.with_maps(maps)], groups);
         let profile = found.take_profile();
-        html += &section_of(profile, charts);
+        html += &section_of(profile, "", charts);
         return Some(html);
     }
     let frames = match found.points.is_empty() {
@@ -86,24 +89,32 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
         return None;
     }
     let mut html = SCRUBBER.to_owned() + &blocks(&frames);
+    let begin = answering(&frames);
     data["contact"] = shown(&all_packed(frames), groups);
+    if !found.points.is_empty() {
+        data["contact"]["begin"] = begin.into();
+    }
     if has_rest(found.results)
         && let Some(fields) = found.kept(found.results.static_fields())
         && let Some(profile) = found.kept(figures::profile_at_rest(&fields, &found.case))
     {
-        html += &section_of(profile, charts);
+        let of = match found.points.len() {
+            0 => String::new(),
+            points => format!(", {}", point_of(points, points)),
+        };
+        html += &section_of(profile, &of, charts);
     }
     Some(html)
 }
 
-/// HTML with places for the section through the most loaded spot.
-fn section_of(profile: Option<Charts>, charts: &mut Vec<Value>) -> String {
+/// HTML with places for the section through the most loaded spot, `of` a point.
+fn section_of(profile: Option<Charts>, of: &str, charts: &mut Vec<Value>) -> String {
     if let Some(profile) = profile {
         let caption = captions::of("profile").unwrap_or_default();
         let charts_of = Curves { charts: profile, name: "profile", title: String::new(), caption };
         let places = curves::html(vec![charts_of], charts);
         if !places.is_empty() {
-            return format!("<h3>Section through the most loaded spot</h3>{places}");
+            return format!("<h3>Section through the most loaded spot{of}</h3>{places}");
         }
     }
     String::new()
@@ -248,6 +259,7 @@ fn read_pass(
             approach: step.approach,
             seam,
             mark: None,
+            rank: None,
             fields: maps,
         })
     };
@@ -300,18 +312,28 @@ fn changes_before(found: &PageData, pass: usize) -> asperity_base::Result<Option
     Ok(Some([change(0, 1.0), change(1, -1.0)]))
 }
 
+fn point_of(point: usize, points: usize) -> String {
+    format!("point {point} of {points}")
+}
+
+/// The points of a sweep that are kept, and its last one, whose contact the answers describe unless another one ranks above.
 fn of_sweep(found: &mut PageData) -> Vec<Frame> {
     let mut frames = Vec::new();
     let points: Vec<SweepRecord> = found.points.clone();
-    let path = |point: usize| found.directory().join(format!("fields/point-{point:04}.h5"));
-    let kept: Vec<&SweepRecord> = points.iter().filter(|point| fs::exists(path(point.point))).collect();
-    for index in evenly(kept.len(), MAX_BYTES >> 16) {
-        let point = kept[index];
-        let Some(fields) = found.fields(found.results.point_fields(point.point)) else { continue };
+    let is_kept = |point: usize| fs::exists(found.results.point_path(point));
+    let has_last = has_rest(found.results);
+    let is_there = |point: &&SweepRecord| is_kept(point.point) || has_last && point.point == points.len();
+    let kept: Vec<&SweepRecord> = points.iter().filter(is_there).collect();
+    for point in chosen(&kept, |point| answering_rank(StepRow::Point(point))) {
+        let opened = match fs::exists(found.results.point_path(point.point)) {
+            true => found.results.point_fields(point.point),
+            false => found.results.static_fields(),
+        };
+        let Some(fields) = found.fields(opened) else { continue };
         let Some(maps) = found.kept(at_rest(&fields)) else { continue };
         frames.push(Frame {
             group: 0,
-            label: format!("point {} of {}", point.point, points.len()),
+            label: point_of(point.point, points.len()),
             text: format!(
                 "{}load {}, real contact {}, largest pressure {}",
                 point.steady.map_or(String::new(), |steady| format!(
@@ -327,10 +349,29 @@ fn of_sweep(found: &mut PageData) -> Vec<Frame> {
             approach: point.approach,
             seam: 0,
             mark: None,
+            rank: answering_rank(StepRow::Point(point)),
             fields: maps,
         });
     }
     frames
+}
+
+/// The steps that have room on a page, evenly chosen, with the one that ranks highest.
+fn chosen<'a, T>(kept: &[&'a T], rank: impl Fn(&T) -> Option<f64>) -> Vec<&'a T> {
+    let mut chosen = evenly(kept.len(), MAX_BYTES >> 16);
+    let ranked = (0..kept.len()).filter_map(|index| Some((index, rank(kept[index])?)));
+    let highest = ranked.max_by(|one, other| one.1.total_cmp(&other.1));
+    chosen.extend(highest.map(|(index, _)| index));
+    chosen.sort_unstable();
+    chosen.dedup();
+    chosen.into_iter().map(|index| kept[index]).collect()
+}
+
+/// The frame that the answers describe: that of the highest rank, or the last one.
+fn answering(frames: &[Frame]) -> usize {
+    let ranked = frames.iter().enumerate().filter_map(|(index, frame)| Some((index, frame.rank?)));
+    let highest = ranked.max_by(|one, other| one.1.total_cmp(&other.1));
+    highest.map_or(frames.len().saturating_sub(1), |(index, _)| index)
 }
 
 /// The increments that are kept of bodies that are no hard walls to each other, each with its place on the force–distance curve; `None` if none is.
@@ -340,8 +381,7 @@ fn of_increments(found: &mut PageData) -> Option<Vec<Frame>> {
     let kept: Vec<&IncrementRecord> =
         increments.iter().filter(|each| fs::exists(found.results.increment_path(each.increment))).collect();
     let mut frames = Vec::new();
-    for index in evenly(kept.len(), MAX_BYTES >> 16) {
-        let increment = kept[index];
+    for increment in chosen(&kept, |increment| answering_rank(StepRow::Increment(increment))) {
         let opened = found.results.increment_fields(increment.increment);
         let Some(fields) = found.fields(opened) else { continue };
         let Some(maps) = found.kept(at_rest(&fields)) else { continue };
@@ -355,18 +395,12 @@ fn of_increments(found: &mut PageData) -> Option<Vec<Frame>> {
             ),
             approach: increment.approach,
             mark: Some([-increment.approach, increment.load]),
+            rank: answering_rank(StepRow::Increment(increment)),
             fields: maps,
             ..Frame::at_rest()
         });
     }
     (!frames.is_empty()).then_some(frames)
-}
-
-/// The frame with the least load.
-fn least_load(frames: &[Frame]) -> usize {
-    let load = |frame: &Frame| frame.mark.map_or(f64::INFINITY, |[_, load]| load);
-    let frames = frames.iter().enumerate();
-    frames.min_by(|one, other| load(one.1).total_cmp(&load(other.1))).map_or(0, |(index, _)| index)
 }
 
 fn of_rest(found: &mut PageData) -> Option<Vec<Frame>> {
@@ -439,6 +473,7 @@ impl Frame {
             approach: 0.0,
             seam: 0,
             mark: None,
+            rank: None,
             fields: Vec::new(),
         }
     }

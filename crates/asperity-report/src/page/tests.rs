@@ -1,8 +1,10 @@
 //! The page of computed results, whatever they are.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use asperity_contact::motion::{IncrementRecord, SweepRecord};
 use asperity_study::{self, Case, Existing, Results, SurfaceInput};
 use serde_json::Value;
 use tempfile::TempDir;
@@ -147,11 +149,42 @@ fn bodies_that_attract_each_other_have_a_section_with_their_curve() {
         });
         assert!(on_it, "{distance} {load}");
     }
+    // The page opens on the pull-off.
+    let load = |row: &IncrementRecord| row.load;
+    let least = computed.results().increments().unwrap().iter().map(load).fold(f64::INFINITY, f64::min);
+    assert_eq!(frames[data["contact"]["begin"].as_u64().unwrap() as usize]["mark"][1], least);
     let layer = &data["contact"]["layers"][0];
     assert_eq!((&layer["name"], &layer["kind"]), (&"pressure".into(), &"diverging".into()));
     let [low, high] = [0, 1].map(|end| layer["ranges"][0][end].as_f64().unwrap());
     assert!(low < 0.0 && low == -high);
     assert!(!Computed::of(AT_REST).page().contains("id=\"adhesion\""));
+}
+
+/// A sweep opens on its last point, to which the numbers beside the map belong, and one of speeds on that of the largest drag, which is kept.
+#[test]
+fn a_sweep_opens_on_the_point_that_its_answers_describe() {
+    let loads = AT_REST.replace("load = 5e-3", "loads = { from = 1e-3, to = 5e-3, points = 5 }");
+    let rubber = "viscoelastic = { moduli = [9e9], times = [1e-3] }, young = 1e9, ";
+    let speeds = AT_REST.replacen("young = 210e9, poisson = 0.3, ", &format!("poisson = 0.5, {rubber}"), 1)
+        + "steady = { speeds = { from = 1e-4, to = 1, points = 9 } }\n";
+    for text in [loads, speeds] {
+        let computed = Computed::of(&text);
+        let data = computed.data();
+        let points = computed.results().sweep().unwrap();
+        let drag = |row: &SweepRecord| row.steady.map(|steady| steady.drag_coefficient);
+        let answering = match drag(&points[0]) {
+            Some(_) => points.iter().max_by(|a, b| drag(a).unwrap().total_cmp(&drag(b).unwrap())).unwrap(),
+            None => points.last().unwrap(),
+        };
+        let kept = BTreeSet::from([1, answering.point, points.len()]);
+        assert_eq!(kept.len(), if drag(&points[0]).is_some() { 3 } else { 2 });
+        let labels: Vec<String> =
+            kept.iter().map(|point| format!("point {point} of {}", points.len())).collect();
+        let frames = data["contact"]["frames"].as_array().unwrap();
+        assert_eq!(frames.iter().map(|frame| frame["label"].as_str().unwrap()).collect::<Vec<_>>(), labels);
+        let begin = &frames[data["contact"]["begin"].as_u64().unwrap() as usize]["label"];
+        assert_eq!(begin, &format!("point {} of {}", answering.point, points.len()));
+    }
 }
 
 #[test]

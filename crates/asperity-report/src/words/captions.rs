@@ -36,7 +36,7 @@ const CAPTIONS: [(&str, &str); 40] = [
     ("load", "Load at each position: it grows with the overlap where the bodies enter and leave."),
     (
         "loading",
-        "Force over displacement on the way through all stages. A loop encloses the energy that friction takes.",
+        "Force over displacement on the way through all stages. A loop encloses the energy that is lost.",
     ),
     ("material_ratio", "Share of the surface that lies above a height."),
     ("max_pressure", "Pressure of the most loaded cell."),

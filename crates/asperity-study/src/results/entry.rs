@@ -5,6 +5,7 @@ use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use super::kept::KeptContacts;
 use super::state::{ALTERED, ROWS};
 use super::{Results, has_every_position, is_nth};
 use crate::identity;
@@ -14,7 +15,7 @@ use crate::io::{atomic, fs};
 use crate::limit::LIMITS_TABLE;
 use crate::tables;
 use asperity_base::error::{Error, Result};
-use asperity_contact::motion::{StepRecord, SweepRecord};
+use asperity_contact::motion::{StepRecord, StepRow, SweepRecord};
 use asperity_contact::with::Capability;
 use asperity_contact::with::plasticity::Keep;
 use asperity_contact::{each_capability, each_interface};
@@ -174,9 +175,9 @@ fn resumable(results: &Results, case: &Value) -> Result<ExistingResults> {
             each_interface!(I => has_interface |= case.get(I::NAME).is_some_and(Value::is_object));
             if first == 1 && has_interface {
                 let every = kept_every(case);
-                for increment in (1..=state).filter(|increment| is_nth(*increment, every)) {
-                    whole(&results.increment_path(increment), &identity, None)?;
-                }
+                let increments = results.increments()?;
+                let rows = increments.iter().take(state).map(StepRow::Increment);
+                whole_contacts(every, rows, |increment| results.increment_path(increment), &identity)?;
             }
             return Ok(ExistingResults::Steps);
         }
@@ -246,11 +247,23 @@ fn kept_points(
     if let Some(done) = results.last_state(points.len(), 1, &results.sweep_path())? {
         same_rows(&results.state_path(done), &tables::digest("", &points[..done]), &results.sweep_path())?;
     }
-    let every = kept_every(case);
-    for point in points.iter().map(|point| point.point).filter(|point| is_nth(*point, every)) {
-        whole(&results.point_path(point), identity, None)?;
-    }
+    let rows = points.iter().map(StepRow::Point);
+    whole_contacts(kept_every(case), rows, |point| results.point_path(point), identity)?;
     Ok(ExistingResults::Steps)
+}
+
+/// Returns an error unless the fields of these contacts that are kept are undamaged fields of this run. Those of the contact that the
+/// answers describe may have been removed for a later one whose row is not written.
+fn whole_contacts<'a>(
+    every: usize,
+    rows: impl ExactSizeIterator<Item = StepRow<'a>>,
+    path: impl Fn(usize) -> PathBuf,
+    identity: &str,
+) -> Result<()> {
+    let nth = (1..=rows.len()).filter(|number| is_nth(*number, every)).map(&path);
+    let answering = KeptContacts::after(every, rows).0.answering();
+    let answering = answering.map(&path).filter(|path| fs::exists(path));
+    nth.chain(answering).try_for_each(|path| whole(&path, identity, None))
 }
 
 /// Interval of the steps of a case whose fields are kept.

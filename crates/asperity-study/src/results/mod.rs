@@ -31,6 +31,7 @@
 
 mod entry; // accepted content, clearing, the lock
 mod bodies; // bodies in field files
+mod kept; // the contacts of a course whose fields are kept
 mod state; // state between two steps of a course
 mod step; // the output of a course, step by step
 mod write; // the output of a run
@@ -402,7 +403,8 @@ impl Results {
         self.fields_folder().join(format!("increment-{increment:04}.h5"))
     }
 
-    pub(super) fn point_path(&self, point: usize) -> PathBuf {
+    /// The file of the fields of a point of a sweep that is kept.
+    pub fn point_path(&self, point: usize) -> PathBuf {
         self.fields_folder().join(format!("point-{point:04}.h5"))
     }
 

@@ -7,9 +7,10 @@
 use std::path::PathBuf;
 
 use super::bodies::{add_bodies, add_volumes, set_caps};
+use super::kept::KeptContacts;
 use super::state::{self, ROWS};
 use super::write::Writer;
-use super::{Results, cap_name, is_nth, pressure_name, temperature_name, traction_name};
+use super::{Results, cap_name, pressure_name, temperature_name, traction_name};
 use crate::io::fields::FieldFile;
 use crate::subsurface::{Plan, SubsurfaceRecord};
 use crate::tables::{self, GrowingTable};
@@ -32,7 +33,9 @@ pub struct StepWriter {
     digest: String,
     /// The table of the positions of the passes of a motion.
     positions: Option<GrowingTable>,
-    /// Interval of the increments, of the points of a sweep, or of the positions of a pass, whose fields are kept; 0 for none.
+    /// The increments, or the points of a sweep, whose fields are kept.
+    kept: KeptContacts,
+    /// Interval of the positions of a pass whose fields are kept; 0 for none.
     fields_every: usize,
     /// The plan of the stress under the surface in each pass.
     plan: Option<Plan>,
@@ -53,6 +56,11 @@ impl Output for StepWriter {
             StepRow::Point(row) => self.add(step, positions, row),
             StepRow::Pass(row) => self.add(step, positions, row),
         }?;
+        if let Some(before) = self.kept.add(step.number, step.row)
+            && let Some((_, path)) = self.contact_file(step.row, before)
+        {
+            self.results.remove(&path)?;
+        }
         match (step.pass(), self.keep) {
             (Some(_), Keep::Last) => self.results.remove(&self.results.volume_path(Some(step.number - 1))),
             _ => Ok(()),
@@ -62,13 +70,15 @@ impl Output for StepWriter {
 
 impl Writer {
     /// Creates the output for the increments of a loading, after those that are `done`, with the fields of every
-    /// `fields_every`-th (0 for none).
+    /// `fields_every`-th (0 for none), and of the one that the answers describe.
     ///
     /// # Errors
     /// [`asperity_base::Error::File`].
     pub fn increments(&self, done: &[IncrementRecord], fields_every: usize) -> Result<StepWriter> {
         let writer = self.steps(self.results.increments_path(), done.len(), tables::digest("", done))?;
-        Ok(StepWriter { fields_every, ..writer })
+        let (kept, left) = KeptContacts::after(fields_every, done.iter().map(StepRow::Increment));
+        left.map_or(Ok(()), |left| self.results.remove(&self.results.increment_path(left)))?;
+        Ok(StepWriter { kept, ..writer })
     }
 
     /// Creates the output for the updates of a contact that slides in place, after those that are `done`.
@@ -80,13 +90,15 @@ impl Writer {
     }
 
     /// Creates the output for the points of a sweep, after those that are `done`, with the fields of every
-    /// `fields_every`-th (0 for none).
+    /// `fields_every`-th (0 for none), and of the one that the answers describe.
     ///
     /// # Errors
     /// [`asperity_base::Error::File`].
     pub fn points(&self, done: &[SweepRecord], fields_every: usize) -> Result<StepWriter> {
         let writer = self.steps(self.results.sweep_path(), done.len(), tables::digest("", done))?;
-        Ok(StepWriter { fields_every, ..writer })
+        let (kept, left) = KeptContacts::after(fields_every, done.iter().map(StepRow::Point));
+        left.map_or(Ok(()), |left| self.results.remove(&self.results.point_path(left)))?;
+        Ok(StepWriter { kept, ..writer })
     }
 
     /// Creates the output for passes, with the pressures of every `pressure_every`-th position (0 for none), the stress
@@ -111,6 +123,7 @@ impl Writer {
             rows: GrowingTable::open(table, rows)?,
             digest,
             positions: None,
+            kept: KeptContacts::new(0),
             fields_every: 0,
             plan: None,
             keep: Keep::Last,
@@ -153,17 +166,25 @@ impl StepWriter {
         }
     }
 
+    /// What a row of this kind describes, and the file of its fields.
+    fn contact_file(&self, row: StepRow<'_>, number: usize) -> Option<(&'static str, PathBuf)> {
+        match row {
+            StepRow::Increment(_) => Some(("increment", self.results.increment_path(number))),
+            StepRow::Point(_) => Some(("point", self.results.point_path(number))),
+            StepRow::Update(_) | StepRow::Pass(_) => None,
+        }
+    }
+
     /// Writes the fields of a contact, a point of a sweep or an increment, if they are kept.
     fn write_contact(&self, step: &Step<'_>) -> Result<()> {
         let number = step.number;
-        let (kind, path, may_pull) = match step.row {
-            StepRow::Increment(row) => {
-                ("increment", self.results.increment_path(number), row.interface.is_some())
-            }
-            StepRow::Point(row) => ("point", self.results.point_path(number), row.interface.is_some()),
-            StepRow::Update(_) | StepRow::Pass(_) => return Ok(()),
+        let Some((kind, path)) = self.contact_file(step.row, number) else { return Ok(()) };
+        let may_pull = match step.row {
+            StepRow::Increment(row) => row.interface.is_some(),
+            StepRow::Point(row) => row.interface.is_some(),
+            StepRow::Update(_) | StepRow::Pass(_) => false,
         };
-        let (Some(solution), true) = (step.contact, is_nth(number, self.fields_every)) else { return Ok(()) };
+        let (Some(solution), true) = (step.contact, self.kept.has(number, step.row)) else { return Ok(()) };
         let mut file = FieldFile::of_run(&self.identity, &path);
         file.set(kind, number).set("approach", solution.approach);
         let mut add = |name: &str, unit: &str, field: &Field| {
