@@ -427,6 +427,10 @@ class Flow(_RequiredFlow, total=False):
         must be given.
     density : float or str
         Density of a liquid, by which its leakage is also told as a mass; density > 0. Without it: unknown.
+    width : float or str
+        Width of the face of a seal, from one side of it to the other along the flow, for which the leakage of a metre
+        of seal is told. A face of n times the length of the map leaks 1/n of what the map leaks; length > 0. Without
+        it: the length of the map along the flow.
     every : int
         Interval of the positions of a pass, or of the increments, updates or points, whose flow is computed; 0: once a
         pass, where the left edges are flush, or for the last contact alone; whole number ≥ 0. By default `1`.
@@ -438,6 +442,7 @@ class Flow(_RequiredFlow, total=False):
     gas: bool
     outlet: Quantity
     density: Quantity
+    width: Quantity
     every: int
 
 
@@ -586,7 +591,7 @@ class Capabilities(TypedDict, total=False):
     """Keywords of the capabilities."""
 
     flow: Annotated[Flow | None, "",
-        "Flow of a fluid through the gap: `viscosity`, `pressure`, `along`, `ends`, `gas`, `outlet`, `density`, `every`."]
+        "Flow of a fluid through the gap: `viscosity`, `pressure`, `along`, `ends`, `gas`, `outlet`, `density`, `width`, `every`."]
     conductance: Annotated[Conductance | None, "",
         "Thermal or electrical conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`."]
     fatigue: Annotated[Fatigue | None, "",
@@ -667,8 +672,8 @@ class Rest(TypedDict, total=False):
         "Stress below the surface: `to`, `layers`, `body`, `planes`, `section`, `columns`, `step`."]
     pressure_every: Annotated[int | None, "output",
         "Interval of the steps whose fields are stored, from the first one on; 0: none. A position of a pass has its pressure, a "
-        "point of a sweep and an increment of bodies that attract each other have pressure and gap; whole number ≥ 0. By default "
-        "`8`."]
+        "point of a sweep and an increment of bodies that attract each other have pressure and gap; the point of the largest drag "
+        "and the increment of the largest pull are stored as well; whole number ≥ 0. By default `8`."]
 
 
 class _RequiredSliding(TypedDict):
@@ -739,8 +744,8 @@ class Motion(TypedDict, total=False):
         "Stress below the surface: `to`, `layers`, `body`, `planes`, `section`, `columns`, `step`."]
     pressure_every: Annotated[int | None, "output",
         "Interval of the steps whose fields are stored, from the first one on; 0: none. A position of a pass has its pressure, a "
-        "point of a sweep and an increment of bodies that attract each other have pressure and gap; whole number ≥ 0. By default "
-        "`8`."]
+        "point of a sweep and an increment of bodies that attract each other have pressure and gap; the point of the largest drag "
+        "and the increment of the largest pull are stored as well; whole number ≥ 0. By default `8`."]
     rim: Annotated[float | None, "output",
         "Part of a body's length, at its free ends, that the columns `…_interior` of the tables leave out; number ≥ 0, < 0.5. By "
         "default `0.1`."]

@@ -65,7 +65,8 @@
 //! - A cell yields at the hardness, the upper limit of its pressure. Its surface is truncated there,
 //!   which leaves no residual stress.
 //! - Friction follows Coulomb's law in each cell, up to a shear strength. All positions of a motion are in gross slip.
-//! - Nothing depends on time or on temperature: there is no inertia, no creep of the material, no lubricant.
+//! - There is no inertia, and no lubricant carries load. Of the materials only viscoelastic ones ([`mod@viscoelastic`]) depend on time, none on
+//!   temperature.
 //!   [`temperature`] computes the frictional heating of half-spaces with constant properties at a given bulk temperature.
 //! - A grid has at most 2³² cells. Roughness shorter than about eight cells is not resolved.
 //!

@@ -10,7 +10,8 @@ use asperity_derive::Table;
 #[non_exhaustive]
 pub struct Output {
     /// Interval of the steps whose fields are stored, from the first one on; 0: none. A position of a pass has its pressure, a point of a
-    /// sweep and an increment of bodies that attract each other have pressure and gap.
+    /// sweep and an increment of bodies that attract each other have pressure and gap; the point of the largest drag and the increment of the
+    /// largest pull are stored as well.
     #[key(count = 0, default = 8, example = "4")]
     pub pressure_every: usize,
     /// Part of a body's length, at its free ends, that the columns `…_interior` of the tables leave out.

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{Along, Ends, Fluid};
 use crate::operator::Boundary;
-use crate::units::{Pascal, PascalSecond};
+use crate::units::{Metre, Pascal, PascalSecond};
 use asperity_base::beside::{Beside, Scale};
 use asperity_base::exists;
 use asperity_base::table::Exists;
@@ -50,6 +50,11 @@ pub struct Leakage {
     #[key(quantity = Density, range = AboveZero, absent = "unknown", example = "\"870 kg/m3\"", exists = exists::DENSITY)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
+    /// Width of the face of a seal, from one side of it to the other along the flow, for which the leakage of a metre of seal is told. A face
+    /// of n times the length of the map leaks 1/n of what the map leaks.
+    #[key(quantity = Length, range = AboveZero, absent = "the length of the map along the flow", example = "\"2 mm\"", exists = FACE)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width: Option<Metre>,
     /// Interval of the positions of a pass, or of the increments, updates or points, whose flow is computed; 0: once a pass, where the left
     /// edges are flush, or for the last contact alone.
     #[key(count = 0, default = 1, example = "4")]
@@ -67,6 +72,9 @@ const PRESSURE: Exists = Exists::Within {
     slips: &["bar", "MPa"],
 };
 
+/// Widths of the faces of seals.
+const FACE: Exists =
+    Exists::Within { least: 1e-6, most: 1.0, of: "sealing lips to flanges", slips: &["mm", "um"] };
 /// Pressures of gases that are ideal.
 const OUTLET: Exists =
     Exists::Within { least: 1e-3, most: 3e7, of: "vacuum pumps to gas cylinders", slips: &["bar", "mbar"] };

@@ -94,11 +94,13 @@ pub(super) fn describe(leakage: &Leakage, surroundings: &Surroundings) -> String
 
 pub(super) fn answers(leakage: &Leakage, rows: &[FlowRecord]) -> Vec<Answer> {
     let last = rows.last().and_then(|row| row.pass);
-    // Both directions in one unit, that of the largest pressure at which fluid leaks.
-    let leaking = || rows.iter().filter(|row| row.pass == last && row.leakage > 0.0);
-    let pressed = leaking().map(|row| row.mean_pressure).fold(f64::NEG_INFINITY, f64::max);
-    let most = leaking().filter(|row| last.is_some() || row.mean_pressure == pressed).map(|row| row.leakage);
-    let unit = Dimension::VolumeFlow.multiple(most.fold(0.0, f64::max));
+    let told = |axis: Axis| {
+        let leaking = rows.iter().filter(|row| row.along == axis && row.pass == last && row.leakage > 0.0);
+        leaking.max_by(|one, other| one.mean_pressure.total_cmp(&other.mean_pressure))
+    };
+    // Both directions in one unit.
+    let most = [Axis::X, Axis::Y].into_iter().filter_map(told).map(|row| row.leakage).fold(0.0, f64::max);
+    let unit = Dimension::VolumeFlow.multiple(most);
     let along = |axis: Axis| {
         if last.is_some() {
             return of_pass(axis, &unit, rows.iter().filter(|row| row.pass == last && row.along == axis));
@@ -175,19 +177,21 @@ fn of_pass<'a>(axis: Axis, unit: &Multiple, rows: impl Iterator<Item = &'a FlowR
 /// Describes a leakage for a metre of a seal, in the units of the trade: ml/h of a liquid, with its mass if the density is known; mbar l/s of
 /// a gas. `None` if the width of the strip is not known.
 fn per_metre(leakage: &Leakage, row: &FlowRecord) -> Option<String> {
-    let width = row.load / (row.mean_pressure * row.length);
-    let flow = row.leakage / width;
+    let strip = row.load / (row.mean_pressure * row.length);
+    let width = leakage.width.unwrap_or(row.length);
+    let flow = row.leakage / strip * row.length / width;
     if !(flow.is_finite() && flow > 0.0) {
         return None;
     }
-    if let Some(outlet) = leakage.outlet.filter(|_| leakage.gas) {
-        return Some(format!("{} mbar l/s per metre of seal", format_number(10.0 * outlet * flow)));
-    }
-    let mut text = scaled(3.6e6 * flow, "l/h");
-    if let Some(density) = leakage.density {
-        text += &format!(", {}", scaled(1e3 * density * flow, "g/s"));
-    }
-    Some(text + " per metre of seal")
+    let text = match (leakage.outlet.filter(|_| leakage.gas), leakage.density) {
+        (Some(outlet), _) => format!("{} mbar l/s", format_number(10.0 * outlet * flow)),
+        (None, None) => scaled(3.6e6 * flow, "l/h"),
+        (None, Some(density)) => {
+            format!("{}, {}", scaled(3.6e6 * flow, "l/h"), scaled(1e3 * density * flow, "g/s"))
+        }
+    };
+    let as_the_map = if leakage.width.is_none() { ", as the map" } else { "" };
+    Some(format!("{text} per metre of a seal {} wide{as_the_map}", format(width, Dimension::Length)))
 }
 
 /// Writes a value with the prefix of its unit that suits it.
@@ -248,6 +252,7 @@ mod tests {
         gas: false,
         outlet: None,
         density: None,
+        width: None,
         every: 1,
     };
 
@@ -288,8 +293,7 @@ mod tests {
     fn a_sweep_is_told_by_the_pressure_that_closes_the_gap() {
         let sweep = [row(None, 1e7, 2e-15), row(None, 2e7, 0.0), row(None, 5e6, 3e-14), row(None, 3e7, 0.0)];
         // 2e-15 m³/s over a width of 1 mm are 7.2 µl/h per metre.
-        let closed =
-            "Along x the gap is closed from 20 MPa; at 10 MPa 2000 µm³/s leak (7.2 µl/h per metre of seal).";
+        let closed = "Along x the gap is closed from 20 MPa; at 10 MPa 2000 µm³/s leak (7.2 µl/h per metre of a seal 2 mm wide, as the map).";
         assert_eq!(
             told(&LIQUID, &answering::<Leakage>(&sweep, true)),
             ("closed from 20 MPa".to_owned(), closed.to_owned())
@@ -314,6 +318,20 @@ mod tests {
         };
         assert_eq!(told(None), ["0.0009178 mm³/s", "0.005932 mm³/s"]);
         assert_eq!(told(Some(1)), told(None));
+        // Also where they close at different pressures.
+        let closing = [
+            row(None, 1e7, 7.4e-20),
+            along_y(row(None, 2e7, 7e-22)),
+            row(None, 2e7, 0.0),
+            along_y(row(None, 3e7, 0.0)),
+        ];
+        let sentences: Vec<String> =
+            LIQUID.answers(&closing).into_iter().map(|answer| answer.sentence).collect();
+        assert!(
+            sentences[0].contains("at 10 MPa 0.074 µm³/s leak")
+                && sentences[1].contains("at 20 MPa 0.0007 µm³/s"),
+            "{sentences:?}"
+        );
     }
 
     #[test]
@@ -322,11 +340,16 @@ mod tests {
         // 2e-12 m²/s of 870 kg/m³.
         assert_eq!(
             per_metre(&known, &row(None, 1e7, 2e-15)).unwrap(),
-            "7.2 µl/h, 1.74 µg/s per metre of seal"
+            "7.2 µl/h, 1.74 µg/s per metre of a seal 2 mm wide, as the map"
         );
         let gas = Leakage { gas: true, outlet: Some(1e5), ..LIQUID };
         // 1 Pa m³/s is 10 mbar l/s.
-        assert_eq!(per_metre(&gas, &row(None, 1e7, 2e-9)).unwrap(), "2 mbar l/s per metre of seal");
+        let told = per_metre(&gas, &row(None, 1e7, 2e-9)).unwrap();
+        assert_eq!(told, "2 mbar l/s per metre of a seal 2 mm wide, as the map");
+        // A face of ten times the length of the map leaks a tenth.
+        let wide = Leakage { width: Some(2e-2), ..known };
+        let told = per_metre(&wide, &row(None, 1e7, 2e-15)).unwrap();
+        assert_eq!(told, "720 nl/h, 174 ng/s per metre of a seal 20 mm wide");
         assert_eq!(per_metre(&LIQUID, &row(None, 0.0, 1e-12)), None);
     }
 
