@@ -341,7 +341,7 @@ class FatigueLimits(_RequiredFatigueLimits, total=False):
     tension : float or str
         Limit σ₋₁ in alternating tension: an amplitude, at most twice that in torsion; pressure > 0. Required.
     exponent : float
-        Exponent m of Basquin's law: a pass does the damage (f/b)^m/N₀; number > 0, ≤ 100. By default `10.0`.
+        Exponent m of Basquin's law: a pass or cycle does the damage (f/b)^m/N₀; number > 0, ≤ 100. By default `10.0`.
     cycles : float
         Cycles N₀ that a material endures at the limit; number > 0. By default `2e6`.
     endurance : bool
@@ -482,7 +482,7 @@ class _RequiredFatigue(TypedDict):
 
 
 class Fatigue(_RequiredFatigue, total=False):
-    """Keys of ``fatigue``: fatigue below the surfaces of bodies that pass over each other.
+    """Keys of ``fatigue``: fatigue below the surfaces of bodies under loads that repeat.
 
     Attributes
     ----------
@@ -491,10 +491,11 @@ class Fatigue(_RequiredFatigue, total=False):
     layers : int
         Number of depths, geometric from half a cell to the largest; whole number ≥ 1. By default `8`.
     every : int
-        Interval of the positions of a pass whose stress is computed; whole number ≥ 1. By default `1`.
+        Interval of the positions of a pass, or of the increments of a cycle, whose stress is computed; whole number ≥
+        1. By default `1`.
     passes : sequence
-        Passes that are looked at, counted as they are computed; list of whole numbers ≥ 1. Without it: all computed
-        ones.
+        Passes, or cycles of each stage, that are looked at, counted as they are computed; list of whole numbers ≥ 1.
+        Without it: all computed ones.
     """
 
     layers: int
@@ -595,7 +596,7 @@ class Capabilities(TypedDict, total=False):
     conductance: Annotated[Conductance | None, "",
         "Thermal or electrical conductance of the contacts: `kind`, `film`, `gas`, `jump`, `drop`, `every`."]
     fatigue: Annotated[Fatigue | None, "",
-        "Fatigue below the surfaces of bodies that pass over each other: `to`, `layers`, `every`, `passes`."]
+        "Fatigue below the surfaces of bodies under loads that repeat: `to`, `layers`, `every`, `passes`."]
 
 
 class OfBody(TypedDict, total=False):

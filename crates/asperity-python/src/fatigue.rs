@@ -4,6 +4,7 @@ use asperity::fatigue::{AtDepth, Basquin, DangVan, StressHistory, critical_depth
 use asperity::motion::Watch;
 use asperity::ndarray::{Array3, Axis, Ix3};
 use asperity::operator::{Boundary, Edge};
+use asperity::subsurface::Tractions;
 use asperity::{Choice, Field, Grid};
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray3};
 use pyo3::prelude::*;
@@ -38,7 +39,7 @@ pub(crate) fn fatigue<'py>(
         let at = |position: usize| {
             let pressure = pressures.index_axis(Axis(0), position).to_owned();
             let shear = (friction[position] != 0.0).then(|| friction[position] * &pressure);
-            (pressure, shear)
+            Tractions { pressure, shear: [shear, None] }
         };
         let stop = || watch.stop();
         let history = StressHistory::new(grid, boundary, poisson, positions, at).until(&stop);

@@ -18,7 +18,7 @@ use asperity_base::error::{Error, Result};
 use asperity_base::math::parallel;
 use asperity_contact::each_capability;
 use asperity_contact::motion::{
-    ObservedContact, Output, Pair, PassReport, Position, Step, StepCell, StepRow,
+    CycleReport, ObservedContact, Output, Pair, Position, Step, StepCell, StepRow,
 };
 use asperity_contact::solver::Solution;
 use asperity_contact::with::{BodyField, Capability, Given, Listed, Observations, Observer, Place, Reported};
@@ -74,7 +74,8 @@ impl<C: Reported> Observed<C> {
         let column = if is_motion { "pass" } else { "step" };
         let rows = match done {
             None => 0,
-            Some(_) if !fs::exists(&path) && self.asked.every() > 0 => {
+            // The first load cycle may not have ended, or none of them is looked at.
+            Some(_) if !fs::exists(&path) && self.asked.every() > 0 && !C::OF_LOAD_CYCLES => {
                 return Err(Error::NotResumable { path, reason: "is missing" });
             }
             Some(done) => tables::rows_up_to(&path, column, done)?,
@@ -101,7 +102,7 @@ impl<C: Reported> Observed<C> {
         for NamedField { name, values, unit } in fields {
             let name = match place.pass {
                 Some(_) => format!("{name}_{:05}", place.step),
-                None => (*name).to_owned(),
+                None => name.clone().into_owned(),
             };
             file.add_field(&name, unit, &contact.grid, contact.corner, values);
         }
@@ -127,11 +128,11 @@ trait Look {
     /// The errors of the observer.
     fn look(&mut self, step: Option<&Step<'_>>, contacts: &[Seen<'_>]) -> Result<()>;
 
-    /// Looks at a whole pass.
+    /// Looks at the load cycle that ends with a step.
     ///
     /// # Errors
     /// The errors of the observer.
-    fn look_at_pass(&mut self, report: &PassReport<'_>) -> Result<()>;
+    fn look_at_cycle(&mut self, step: &Step<'_>, cycle: &CycleReport<'_>) -> Result<()>;
 
     /// Writes what it has found in a step, and adds what the terminal shows of it to the cells.
     ///
@@ -148,7 +149,7 @@ trait Look {
 
 impl<C: Reported> Look for Observed<C> {
     fn wants(&self, place: Place, is_main: bool) -> bool {
-        if C::OF_PASSES {
+        if C::OF_LOAD_CYCLES {
             return false;
         }
         let every = self.asked.every();
@@ -172,13 +173,13 @@ impl<C: Reported> Look for Observed<C> {
         Ok(())
     }
 
-    fn look_at_pass(&mut self, report: &PassReport<'_>) -> Result<()> {
-        let (rows, fields) = self.observer.after_pass(report)?;
+    fn look_at_cycle(&mut self, step: &Step<'_>, cycle: &CycleReport<'_>) -> Result<()> {
+        let (rows, fields) = self.observer.after_cycle(cycle)?;
         self.rows.extend(rows);
         let Some(files) = self.files.as_mut().filter(|_| !fields.is_empty()) else { return Ok(()) };
-        let pass = report.record.pass;
-        let mut file = FieldFile::of_run(&files.identity, &files.results.observer_fields(C::NAME, pass));
-        file.set("pass", pass);
+        let path = files.results.observer_fields(C::NAME, step.number);
+        let mut file = FieldFile::of_run(&files.identity, &path);
+        file.set(if cycle.pass.is_some() { "pass" } else { "increment" }, step.number);
         for BodyField { name, unit, grid, values } in &fields {
             file.add_field(name, unit, grid, [0.0; 2], values);
         }
@@ -311,8 +312,8 @@ impl Output for Observers {
             }
             self.each.iter_mut().try_for_each(|each| each.look(Some(step), &some))?;
         }
-        if let Some(report) = step.pass() {
-            self.each.iter_mut().try_for_each(|each| each.look_at_pass(report))?;
+        if let Some(cycle) = step.cycle() {
+            self.each.iter_mut().try_for_each(|each| each.look_at_cycle(step, cycle))?;
         }
         let Self { each, cells, .. } = self;
         cells.clear();

@@ -231,8 +231,7 @@ fn simulation(
     look: Option<usize>,
 ) -> Result<Simulation> {
     let simulation = Simulation::new(pair, case.contact.boundary, motion, params(case))?;
-    let simulation = case.running(simulation.with_rim(case.output.rim)?)?;
-    let simulation = case.remembering(simulation, params(case))?;
+    let simulation = case.running(simulation.with_rim(case.output.rim)?, params(case))?;
     let simulation = match &case.plasticity {
         None => simulation,
         Some(spec) => {

@@ -11,7 +11,7 @@ use crate::given::SurfaceInput;
 use crate::limits::Limits;
 use crate::observe::{self, Observers};
 use crate::prepare::bodies_until;
-use crate::results::{StepWriter, Writer};
+use crate::results::{BODIES, StepWriter, Writer, state_name};
 use crate::review;
 use crate::summary::Outcome;
 use crate::tables;
@@ -20,12 +20,11 @@ use asperity_base::grid::{CellValues, Field, check_finite};
 use asperity_contact::motion::{
     Body, ChangedBodies, ElastoPlasticContact, IncrementRecord, LoadedContact, Output, Pair, PlasticResult,
     PlasticVolume, Point, Slide, SlidingContact, SlidingOutcome, SlidingState, SlipRegime, Stage,
-    StagedLoading, StaticRecord, UpdateRecord, Watch, press, press_elasto_plastic, sweep,
+    StagedLoading, State, StaticRecord, UpdateRecord, Watch, press, press_elasto_plastic, sweep,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Equilibrium, Friction, Params, Solution};
 use asperity_contact::with::plasticity::PlasticRegion;
-use asperity_contact::with::views::Kept;
 use asperity_contact::with::{self, InterfaceNumbers, Observations};
 
 /// Result of a static contact.
@@ -187,7 +186,8 @@ impl StaticProblem<'_> {
         let (mut observers, mut limits) = (self.observers(done)?, self.limits(done)?);
         let (boundary, outputs) = (self.boundary(), &mut outputs(&mut observers, &mut limits, &mut kept));
         let (pair, law, stages) = (self.pair.clone(), self.law.copied(), stages.to_vec());
-        let loading = case.fretting(StagedLoading::new(pair, boundary, law, stages, self.params)?)?;
+        let loading = StagedLoading::new(pair, boundary, law, stages, self.params)?;
+        let loading = case.fretting(loading, self.params)?;
         let contact = loading.run(left, self.watch, outputs)?;
         self.loaded(contact, limits.all()).seen_by(case, observers)
     }
@@ -344,17 +344,16 @@ fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field
     // The heights are those of the prepared bodies, whatever the loading history did to them.
     drop(normal.initial_gap);
     let gap = pair.initial_gap(&pair.at_rest()) + &normal.displacement - normal.approach;
-    let mut fields = Vec::new();
-    let mut add = |name, unit, values| fields.push(NamedField { name, unit, values });
+    let mut fields = states(&pair);
+    let mut add = |name: &'static str, unit: &'static str, values| {
+        fields.push(NamedField { name: name.into(), unit: unit.into(), values });
+    };
     add("pressure", "Pa", normal.pressure);
     if let Some(contact) = contact {
         add("contact", "1", contact);
     }
     add("displacement", "m", normal.displacement);
     add("gap", "m", gap);
-    for (name, values) in states(&pair) {
-        add(name, "m", values);
-    }
     add("lower", "m", pair.lower.heights);
     add("upper", "m", pair.upper.heights);
     add("plastic", "m", plastic);
@@ -378,15 +377,18 @@ fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field
     RestFields { grid, approach: normal.approach, hardness, fields }
 }
 
-/// Returns the state of laws on both bodies, m, by the names of its fields.
-fn states(pair: &Pair) -> Vec<(&'static str, Field)> {
-    let of_bodies = |kept: Kept| {
-        let of_body =
-            |(name, body): (&'static str, &Body)| Some((name, body.state.get(kept.state)?.values.clone()));
-        let bodies = kept.names.into_iter().zip([&pair.lower, &pair.upper]);
-        bodies.filter_map(of_body).collect::<Vec<_>>()
+/// Returns what laws and memories keep with both bodies.
+fn states(pair: &Pair) -> Vec<NamedField> {
+    let of_body = |(body, state): (&'static str, &Body)| {
+        let states = state.state.iter();
+        let named = move |(name, State { unit, values }): (&String, &State)| NamedField {
+            name: state_name(name, body).into(),
+            unit: unit.clone().into(),
+            values: values.clone(),
+        };
+        states.map(named).collect::<Vec<_>>()
     };
-    with::kept().into_iter().flat_map(of_bodies).collect()
+    BODIES.into_iter().zip([&pair.lower, &pair.upper]).flat_map(of_body).collect()
 }
 
 /// Creates the fields of a contact that slid in place, with its worn bodies.
@@ -395,15 +397,14 @@ fn worn_fields(contact: SlidingOutcome, friction: Option<Friction>) -> RestField
     // Films have changed the hardness of the bodies.
     let (grid, approach, hardness) = (pair.lower_grid(), solution.approach, pair.min_hardness());
     let (gap, plastic) = (solution.gap(), solution.plastic_interference());
-    let mut fields = Vec::new();
-    let mut add = |name, unit, values| fields.push(NamedField { name, unit, values });
+    let mut fields = states(&pair);
+    let mut add = |name: &'static str, unit: &'static str, values| {
+        fields.push(NamedField { name: name.into(), unit: unit.into(), values });
+    };
     let shear = friction.map(|friction| solution.pressure.mapv(|p| friction.shear_limit(p)));
     add("pressure", "Pa", solution.pressure);
     add("displacement", "m", solution.displacement);
     add("gap", "m", gap);
-    for (name, values) in states(&pair) {
-        add(name, "m", values);
-    }
     add("lower", "m", pair.lower.heights);
     add("upper", "m", pair.upper.heights);
     add("plastic", "m", plastic);

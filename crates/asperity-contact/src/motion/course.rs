@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::pair::Pair;
 use crate::motion::record::{IncrementRecord, PassRecord, SweepRecord, UpdateRecord};
-use crate::motion::report::PassReport;
+use crate::motion::report::{CycleReport, PassReport};
 use crate::motion::state::Flattening;
 use crate::motion::store::CourseState;
 use crate::motion::watch::{Progress, StepCell, Watch};
@@ -52,8 +52,8 @@ pub struct Step<'a> {
     pub changed: Option<&'a Pair>,
     /// The state from which the next step begins; `None` if the course cannot be resumed.
     pub state: Option<&'a dyn CourseState>,
-    /// More of a pass of a motion.
-    pub(super) pass: Option<PassReport<'a>>,
+    /// The load cycle that ends with the step.
+    pub(super) cycle: Option<CycleReport<'a>>,
 }
 
 /// The row of a step.
@@ -137,7 +137,7 @@ impl<'a> Step<'a> {
             ends_loading: number == of,
             changed: None,
             state: None,
-            pass: None,
+            cycle: None,
         }
     }
 
@@ -148,7 +148,7 @@ impl<'a> Step<'a> {
             ends_loading: false,
             changed: Some(report.pair),
             state: Some(report.warm),
-            pass: Some(report),
+            cycle: Some(report.cycle()),
             ..Self::new(report.record.pass, report.record.pass, StepRow::Pass(report.record))
         }
     }
@@ -160,7 +160,13 @@ impl<'a> Step<'a> {
 
     /// Returns the pass, if the step is a pass of a motion.
     pub fn pass(&self) -> Option<&PassReport<'a>> {
-        self.pass.as_ref()
+        self.cycle.as_ref()?.pass.as_ref()
+    }
+
+    /// Returns the load cycle that ends with the step: a pass of a motion, or a computed cycle of a loading whose bodies laws change or
+    /// memories remember.
+    pub fn cycle(&self) -> Option<&CycleReport<'a>> {
+        self.cycle.as_ref()
     }
 
     /// The pitch of the bodies; `None` while elasto-plastic bodies are unloaded at the end.

@@ -1,4 +1,4 @@
-//! Laws that change the bodies during a loading: where a contact slips by less than its size, its bodies change where it slips.
+//! Changes of the bodies in a loading. Laws change them where they slip by less than the size of the contact. Memories look at whole cycles.
 //!
 //! In a stage the laws act after each increment. In a cycle the bodies are frozen: the laws sum over its increments and act at its end,
 //! for the cycle itself or for several at once, with the slip of the computed one. The pressures change with the removal of these cycles. The
@@ -9,17 +9,20 @@ use crate::error::Result;
 use crate::grid::{CellValues, Field};
 use crate::motion::extrapolation::{self, Acceleration, Bounds, GridCompliance, LastExtrapolation};
 use crate::motion::law::{self, CyclicSlip, Law, Sums};
+use crate::motion::memory::{self, LoadCycle, Memory};
 use crate::motion::pair::Pair;
 use crate::motion::record::{FrettingRecord, LawsInCycles, LostVolume};
 use crate::motion::rim::Interior;
 use crate::motion::{Strategy, worn_away};
 use crate::operator::{Boundary, Compliant, Operator, Operators};
-use crate::solver::{Control, FrictionalSolution, Params, solve_normal};
+use crate::solver::{Control, Equilibrium, FrictionalSolution, Params, Solution, solve_normal};
+use crate::subsurface::Tractions;
 use crate::units::{Joule, Kelvin, Metre, Second};
 
-/// Laws that change the bodies of a loading.
-pub(super) struct Laws {
+/// Laws that change the bodies of a loading, and memories of its cycles.
+pub(super) struct Changes {
     laws: Vec<Box<dyn Law>>,
+    memories: Vec<Box<dyn Memory>>,
     acceleration: Acceleration,
     bulk: [Kelvin; 2],
     interiors: [Interior; 2],
@@ -45,6 +48,10 @@ pub struct ChangedBodies {
     pub error: Metre,
     /// Cycles of all stages so far.
     pub cycles: usize,
+    /// Computed cycles of the present stage.
+    pub computed: usize,
+    /// Tractions on the lower body in the contacts of the present cycle, from that at its beginning; empty without memories.
+    pub contacts: Vec<Tractions>,
 }
 
 /// The last computed cycle, needed to choose how many cycles the next one stands for.
@@ -58,18 +65,21 @@ pub struct LastCycle {
     pub work: Joule,
 }
 
-impl Laws {
+impl Changes {
     pub(super) fn new(
         pair: &mut Pair,
         mut laws: Vec<Box<dyn Law>>,
+        memories: Vec<Box<dyn Memory>>,
         acceleration: Acceleration,
         bulk: [Kelvin; 2],
         (operators, boundary, params): (&Operators, Boundary, Params),
     ) -> Result<Self> {
         laws.iter_mut().for_each(|law| law.prepare(pair));
+        memories.iter().for_each(|memory| memory.prepare(pair));
         let shape = pair.lower_grid().shape;
         Ok(Self {
             laws,
+            memories,
             acceleration: acceleration.checked()?,
             bulk,
             interiors: Interior::of_bodies([shape; 2], boundary, Strategy::Overlap, 0.0),
@@ -82,7 +92,22 @@ impl Laws {
     /// The bodies before the first increment.
     pub(super) fn begin(&self, pair: Pair) -> ChangedBodies {
         let sums = law::nothing(&self.laws, &pair);
-        ChangedBodies { pair, sums, last: None, work: 0.0, cycle_work: 0.0, error: 0.0, cycles: 0 }
+        ChangedBodies {
+            pair,
+            sums,
+            last: None,
+            work: 0.0,
+            cycle_work: 0.0,
+            error: 0.0,
+            cycles: 0,
+            computed: 0,
+            contacts: Vec::new(),
+        }
+    }
+
+    /// Whether the heights of the bodies change.
+    pub(super) fn remove(&self) -> bool {
+        !self.laws.is_empty() || self.memories.iter().any(|memory| memory.takes().is_some())
     }
 
     /// Prepares bodies that come from a file.
@@ -102,11 +127,44 @@ impl Laws {
         law::add_slip(&self.laws, &bodies.pair, &slip, time, self.bulk, &mut bodies.sums);
     }
 
+    /// Adds a contact to those of the present cycle, which begins with the contact `before` if it is on the same bodies.
+    pub(super) fn see(
+        &self,
+        bodies: &mut ChangedBodies,
+        contact: &Equilibrium,
+        before: Option<&Equilibrium>,
+    ) {
+        if self.memories.is_empty() {
+            return;
+        }
+        let tractions = |contact: &Equilibrium| {
+            let shear = contact.shear().map_or([None, None], |shear| shear.map(Some));
+            Tractions { pressure: contact.normal().pressure.clone(), shear }
+        };
+        if bodies.contacts.is_empty() {
+            bodies.contacts.extend(before.map(tractions));
+        }
+        bodies.contacts.push(tractions(contact));
+    }
+
+    /// Lets the memories look at the cycle that has ended.
+    pub(super) fn look(&self, bodies: &mut ChangedBodies, stop: &(dyn Fn() -> bool + Sync)) -> Result<()> {
+        bodies.computed += 1;
+        let contacts = std::mem::take(&mut bodies.contacts);
+        let cycle = LoadCycle {
+            number: bodies.computed,
+            extrapolated: bodies.last.as_ref().map_or(1.0, |last| last.extrapolation.passes as f64),
+            stop,
+            ..LoadCycle::at_rest(&contacts)
+        };
+        self.memories.iter().try_for_each(|memory| memory.look(&cycle, &mut bodies.pair))
+    }
+
     /// Lets the laws act once for their sums, which begin anew.
     pub(super) fn act_once(&self, bodies: &mut ChangedBodies) -> Result<()> {
         let sums = std::mem::replace(&mut bodies.sums, law::nothing(&self.laws, &bodies.pair));
         worn_away::check_losses(&bodies.pair, &law::tried(&self.laws, &bodies.pair, &sums, 1))?;
-        self.act(bodies, &sums, 1);
+        self.act(bodies, &sums, 1, 0);
         Ok(())
     }
 
@@ -115,7 +173,7 @@ impl Laws {
     pub(super) fn act_for_cycles(
         &mut self,
         bodies: &mut ChangedBodies,
-        contact: &FrictionalSolution,
+        contact: &Solution,
         (gap, control): (&Field, Control),
         [done, left]: [usize; 2],
     ) -> Result<usize> {
@@ -131,11 +189,12 @@ impl Laws {
             stable: f64::INFINITY,
         };
         let most = bodies.last.as_ref().filter(|_| done >= SETTLING && self.acceleration.max_jump > 1);
-        let mut cycles = most.map_or(1, |last| self.acceleration.most(&bounds, &last.extrapolation));
-        let highest = contact.normal.pressure.iter().copied().fold(0.0, f64::max);
+        let most = most.map_or(1, |last| self.acceleration.most(&bounds, &last.extrapolation));
+        let mut cycles = most.min(memory::most_cycles(&self.memories, &bodies.pair)).max(1);
+        let highest = contact.pressure.iter().copied().fold(0.0, f64::max);
         let allowed = self.acceleration.tolerance * self.compliance.single * highest;
         let (implicit, error) = loop {
-            let of_slip = self.with_slip(bodies, &contact.normal.pressure, &sums, cycles);
+            let of_slip = self.with_slip(bodies, &contact.pressure, &sums, cycles);
             let implicit = self.implicitly(bodies, contact, (gap, control), of_slip.clone(), cycles)?;
             let error = self.error(bodies, &sums, [&of_slip, &implicit], cycles);
             if cycles == 1 || error <= allowed {
@@ -145,7 +204,7 @@ impl Laws {
             let fewer = (cycles as f64 * (allowed / error).sqrt()) as usize;
             cycles = fewer.clamp(1, cycles - 1);
         };
-        self.act(bodies, &implicit, cycles);
+        self.act(bodies, &implicit, cycles, cycles);
         let (work, several) = (bodies.cycle_work, cycles as f64);
         let growth = bodies
             .last
@@ -156,7 +215,7 @@ impl Laws {
         bodies.work += several * (work + growth) - work;
         bodies.cycle_work = 0.0;
         let extrapolation = LastExtrapolation { passes: cycles, sums };
-        bodies.last = Some(LastCycle { extrapolation, pressure: contact.normal.pressure.clone(), work });
+        bodies.last = Some(LastCycle { extrapolation, pressure: contact.pressure.clone(), work });
         bodies.error += error;
         bodies.cycles += cycles;
         Ok(cycles)
@@ -167,12 +226,11 @@ impl Laws {
     fn implicitly(
         &mut self,
         bodies: &ChangedBodies,
-        contact: &FrictionalSolution,
+        normal: &Solution,
         (gap, control): (&Field, Control),
         mut sums: Vec<Sums>,
         cycles: usize,
     ) -> Result<Vec<Sums>> {
-        let normal = &contact.normal;
         if !self.laws.iter().any(|law| follows_pressure(law.as_ref())) {
             return Ok(sums);
         }
@@ -249,9 +307,13 @@ impl Laws {
         law::difference(&explicit, &tried(implicit)).max(of_slip)
     }
 
-    fn act(&self, bodies: &mut ChangedBodies, sums: &[Sums], cycles: usize) {
+    /// Lets the laws act for their `sums` over so many `times`, and the memories go on by so many `cycles`.
+    fn act(&self, bodies: &mut ChangedBodies, sums: &[Sums], times: usize, cycles: usize) {
         let mut lost: Vec<_> = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
-        law::advance(&self.laws, &mut bodies.pair, sums, cycles as f64, &self.interiors, &mut lost);
+        let pair = &mut bodies.pair;
+        let taken = law::advance(&self.laws, pair, sums, times as f64, &self.interiors, &mut lost);
+        let worn = law::uncovered(&self.laws, &taken);
+        memory::advance(&self.memories, pair, cycles as f64, worn, &self.interiors);
     }
 
     /// Describes the bodies after an increment.

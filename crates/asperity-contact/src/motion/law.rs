@@ -41,7 +41,7 @@ pub trait Law: Send + Sync {
         true
     }
 
-    /// Whether the depths that the law takes uncover the material below, which memories of whole passes keep: removal of a body does, a film that
+    /// Whether the depths that the law takes uncover the material below, which memories keep: removal of a body does, a film that
     /// grows on it does not.
     fn uncovers(&self) -> bool {
         false
@@ -370,6 +370,12 @@ pub(super) fn compliance(
 pub(super) fn tried(laws: &[Box<dyn Law>], pair: &Pair, sums: &[Sums], passes: usize) -> Vec<[Field; 2]> {
     let mut pair = pair.clone();
     laws.iter().zip(sums).map(|(law, sums)| law.advance(&mut pair, sums, passes as f64)).collect()
+}
+
+/// Returns the depth by which the `laws` that uncover material have lowered both bodies, from what each has `taken`; `None` without such laws.
+pub(super) fn uncovered(laws: &[Box<dyn Law>], taken: &[[Field; 2]]) -> Option<[Field; 2]> {
+    let uncovers = laws.iter().zip(taken).filter(|(law, _)| law.uncovers());
+    uncovers.map(|(_, taken)| taken.clone()).reduce(|[a, b], [c, d]| [a + c, b + d])
 }
 
 /// Returns the largest depth removed from a cell of each body by all laws together.

@@ -8,11 +8,13 @@ use crate::motion::contact::facing;
 use crate::motion::course::{self, Course, Output, Step, StepRow};
 use crate::motion::creeping;
 use crate::motion::extrapolation::Acceleration;
-use crate::motion::fretting::{ChangedBodies, Laws};
+use crate::motion::fretting::{ChangedBodies, Changes};
 use crate::motion::law::Law;
+use crate::motion::memory::Memory;
 use crate::motion::pair::Pair;
 use crate::motion::press::{shear_record, static_record};
 use crate::motion::record::{CreepRecord, IncrementRecord, StaticRecord};
+use crate::motion::report::CycleReport;
 use crate::motion::slip::SlipRegime;
 use crate::motion::stage::{Origin, Progress, Stage};
 use crate::motion::state::{Flattening, LoadedContact, LoadingState};
@@ -66,6 +68,7 @@ pub struct StagedLoading {
     boundary: Boundary,
     stages: Vec<Stage>,
     laws: Vec<Box<dyn Law>>,
+    memories: Vec<Box<dyn Memory>>,
     acceleration: Acceleration,
     bulk: [Kelvin; 2],
 }
@@ -91,7 +94,8 @@ impl StagedLoading {
         let shape = pair.lower_grid().shape;
         let solver = SlipRegime::from(friction).solver(&pair, &operators, shape, params.device)?;
         let (acceleration, bulk) = (Acceleration::NONE, [f64::NAN; 2]);
-        Ok(Self { pair, gap, solver, params, boundary, stages, laws: Vec::new(), acceleration, bulk })
+        let (laws, memories) = (Vec::new(), Vec::new());
+        Ok(Self { pair, gap, solver, params, boundary, stages, laws, memories, acceleration, bulk })
     }
 
     /// Adds a `law` by which slip changes the bodies. It needs friction.
@@ -104,6 +108,13 @@ impl StagedLoading {
     #[must_use]
     pub fn with_laws(mut self, laws: Vec<Box<dyn Law>>) -> Self {
         self.laws.extend(laws);
+        self
+    }
+
+    /// Adds a `memory` of whole cycles.
+    #[must_use]
+    pub fn with_memory(mut self, memory: Box<dyn Memory>) -> Self {
+        self.memories.push(memory);
         self
     }
 
@@ -136,40 +147,48 @@ impl StagedLoading {
         outputs: &mut [&mut dyn Output],
     ) -> Result<LoadedContact> {
         let mut state = under_way;
-        let mut laws = match std::mem::take(&mut self.laws) {
-            laws if laws.is_empty() => None,
-            _ if !self.solver.sticks() => {
-                return Err(Error::Unsupported(
-                    "laws change the bodies of a loading by slip, which needs friction",
-                ));
-            }
-            _ if !self.pair.interface().is_hard() => {
-                return Err(Error::Unsupported(
-                    "laws change the bodies of a loading only between hard walls without attraction",
-                ));
-            }
-            laws => {
-                let (operators, _) = facing(&self.pair, self.boundary)?;
-                let with = (&operators, self.boundary, self.params);
-                Some(Laws::new(&mut self.pair, laws, self.acceleration, self.bulk, with)?)
-            }
-        };
-        if let (Some(laws), Some(changed)) =
-            (&mut laws, state.as_mut().and_then(|state| state.changed.as_mut()))
+        let mut changes = self.changes()?;
+        if let (Some(changes), Some(changed)) =
+            (&mut changes, state.as_mut().and_then(|state| state.changed.as_mut()))
         {
-            laws.resume(changed);
+            changes.resume(changed);
         }
-        let mut increments = Increments { loading: self, laws, state };
+        let mut increments = Increments { loading: self, changes, state };
         course::run(&mut increments, watch, outputs)?;
         let state = increments.state.ok_or(Error::Unsupported("a loading needs at least one increment"))?;
         Ok(increments.loading.finish(state))
+    }
+
+    /// Prepares the bodies for the laws that change them and for the memories of their cycles; `None` without any.
+    fn changes(&mut self) -> Result<Option<Changes>> {
+        let (laws, memories) = (std::mem::take(&mut self.laws), std::mem::take(&mut self.memories));
+        if laws.is_empty() && memories.is_empty() {
+            return Ok(None);
+        }
+        if !laws.is_empty() && !self.solver.sticks() {
+            return Err(Error::Unsupported(
+                "laws change the bodies of a loading by slip, which needs friction",
+            ));
+        }
+        if self.pair.creep().is_some() && self.acceleration.max_jump > 1 {
+            return Err(Error::Unsupported("cycles of viscoelastic bodies in time are not extrapolated"));
+        }
+        let (operators, _) = facing(&self.pair, self.boundary)?;
+        let with = (&operators, self.boundary, self.params);
+        let changes = Changes::new(&mut self.pair, laws, memories, self.acceleration, self.bulk, with)?;
+        if changes.remove() && !self.pair.interface().is_hard() {
+            return Err(Error::Unsupported(
+                "the bodies of a loading lose material only between hard walls without attraction",
+            ));
+        }
+        Ok(Some(changes))
     }
 }
 
 /// The increments of a loading, one after the other.
 struct Increments {
     loading: StagedLoading,
-    laws: Option<Laws>,
+    changes: Option<Changes>,
     /// State after the last increment; `None` before the first.
     state: Option<LoadingState>,
 }
@@ -204,8 +223,8 @@ impl Course for Increments {
     }
 
     fn report<'a>(&'a self, state: &'a LoadingState) -> Step<'a> {
-        let represented =
-            state.changed.as_ref().and_then(|changed| Some(changed.last.as_ref()?.extrapolation.passes));
+        let changed = state.changed.as_ref().filter(|_| !state.next.begins_stage());
+        let represented = changed.and_then(|changed| Some(changed.last.as_ref()?.extrapolation.passes));
         let left = state.next.left(&self.loading.stages, represented.unwrap_or(1));
         let record = state.increments.last().expect("the increment just done");
         let number = state.increments.len();
@@ -214,6 +233,7 @@ impl Course for Increments {
             flattening: Some(&state.flattening),
             changed: state.changed.as_ref().map(|changed| &changed.pair),
             state: Some(state),
+            cycle: self.loading.cycle(state),
             ..Step::new(number, number + left, StepRow::Increment(record))
         }
     }
@@ -250,7 +270,7 @@ impl Increments {
             }) => (Some(contact), flattening, increments, slip, dissipation_error, changed, memory),
             None => {
                 let deepest = Field::zeros(self.loading.gap.raw_dim());
-                let begun = self.laws.as_ref().map(|laws| laws.begin(self.loading.pair.clone()));
+                let begun = self.changes.as_ref().map(|changes| changes.begin(self.loading.pair.clone()));
                 let pair = &self.loading.pair;
                 let memory = creeping::memory(pair);
                 (None, Flattening { kept: None, deepest }, Vec::new(), None, 0.0, begun, memory)
@@ -299,34 +319,43 @@ impl Increments {
         let area = pair.cell_area();
         let stage = &stages[next.stage];
         let mut represented = 1;
-        if let (Some(laws), Some(changed), Some(now)) = (&mut self.laws, &mut changed, contact.frictional()) {
+        if let (Some(changes), Some(changed)) = (&mut self.changes, &mut changed) {
+            if next.begins_stage() {
+                (changed.last, changed.computed) = (None, 0);
+            }
             let before = last.as_ref().and_then(Equilibrium::frictional);
             changed.work += dissipation;
             if next.step > 0 {
                 let period = stage.cycles.and_then(|cycles| cycles.period).unwrap_or(f64::NAN);
-                laws.add(changed, now, before, if share > 0.0 { share * period } else { 0.0 });
+                if let Some(now) = contact.frictional() {
+                    changes.add(changed, now, before, if share > 0.0 { share * period } else { 0.0 });
+                }
                 changed.cycle_work += dissipation;
             }
             match stage.cycles {
-                Some(cycles) if next.ends_cycle(stages) => {
-                    let left = cycles.count - next.cycles;
-                    let gap = flattening.open(&gap);
-                    // The load or the approach is that of the contact itself, as closely as it is solved.
-                    let control = match loading.normal {
-                        Control::Load(_) => Control::Load(now.normal.load()),
-                        Control::Approach(_) => Control::Approach(now.normal.approach),
-                    };
-                    represented = laws.act_for_cycles(changed, now, (&gap, control), [next.cycles, left])?;
+                Some(cycles) => {
+                    changes.see(changed, &contact, last.as_ref().filter(|_| next.step > 0));
+                    if next.ends_cycle(stages) {
+                        changes.look(changed, &|| watch.stop())?;
+                        let left = cycles.count - next.cycles;
+                        let gap = flattening.open(&gap);
+                        // The load or the approach is that of the contact itself, as closely as it is solved.
+                        let now = contact.normal();
+                        let control = match loading.normal {
+                            Control::Load(_) => Control::Load(now.load()),
+                            Control::Approach(_) => Control::Approach(now.approach),
+                        };
+                        represented =
+                            changes.act_for_cycles(changed, now, (&gap, control), [next.cycles, left])?;
+                    }
                 }
-                Some(_) => {}
-                None => laws.act_once(changed)?,
+                None => changes.act_once(changed)?,
             }
         }
-        let following = next.after(stages, represented, changed.is_some());
-        if let Some(changed) = changed.as_mut().filter(|_| following.stage != next.stage) {
-            changed.last = None;
-        }
-        let fretting = self.laws.as_ref().zip(changed.as_ref()).map(|(laws, changed)| laws.record(changed));
+        let removes = self.changes.as_ref().is_some_and(Changes::remove);
+        let following = next.after(stages, represented, removes);
+        let fretting =
+            self.changes.as_ref().zip(changed.as_ref()).map(|(changes, changed)| changes.record(changed));
         let creep = memory.as_ref().map(|_| {
             let before = increments.last().and_then(|last| last.creep).unwrap_or_default();
             CreepRecord { time: before.time + duration }
@@ -360,6 +389,27 @@ impl Increments {
 }
 
 impl StagedLoading {
+    /// Returns the cycle that ends with the last increment of a `state`, if there is one and its bodies change or have a memory.
+    fn cycle<'a>(&self, state: &'a LoadingState) -> Option<CycleReport<'a>> {
+        let (end, before) = state.increments.split_last()?;
+        let changed = state.changed.as_ref()?;
+        let done = |increment: &IncrementRecord| increment.fretting.map_or(0, |bodies| bodies.cycles);
+        if done(end) == before.last().map_or(0, done) {
+            return None;
+        }
+        let increments = state.increments.rchunks(self.stages[end.stage - 1].steps()).next()?;
+        let load = increments.iter().map(|increment| increment.load).sum::<f64>() / increments.len() as f64;
+        Some(CycleReport {
+            number: changed.computed,
+            done: done(end),
+            step: end.increment,
+            stage: Some(end.stage),
+            mean_pressure: load / changed.pair.lower_grid().area(),
+            pair: &changed.pair,
+            pass: None,
+        })
+    }
+
     /// Returns the contact at the end of its loading.
     fn finish(self, state: LoadingState) -> LoadedContact {
         let LoadingState {

@@ -52,7 +52,7 @@ pub use heat::FLASH;
 pub(crate) use law::largest;
 pub use law::{ContactCells, Law, Sums};
 pub use loading::{StagedLoading, load_in_stages};
-pub use memory::{Memory, WholePass};
+pub use memory::{LoadCycle, Memory};
 pub use observed::ObservedContact;
 pub use pair::Pair;
 pub use pair::{initial_gap, opposing_values};
@@ -68,7 +68,7 @@ pub use record::{
     PlasticStepRecord, Regime, ResidualRecord, RunningRecord, ShearRecord, StaticRecord, SteadyRecord,
     StepRecord, SweepRecord, UpdateRecord,
 };
-pub use report::PassReport;
+pub use report::{CycleReport, PassReport};
 pub use rim::Interior;
 pub use simulation::{Simulation, SolvedPass};
 pub use sliding::{Slide, SlidingContact, SlidingOutcome};

@@ -1,4 +1,4 @@
-//! Report of a motion after each pass.
+//! Reports of load cycles: of each pass of a motion, and of each computed cycle of a loading.
 
 use crate::grid::{CellValues, Field};
 use crate::motion::Motion;
@@ -36,6 +36,41 @@ pub struct PassReport<'a> {
     /// The plastic state under the load at the [selected position](crate::motion::Simulation::with_state_under_load); empty if none is
     /// selected.
     pub states_under_load: &'a [PlasticState],
+}
+
+/// A finished load cycle: a pass of a motion, or a computed cycle of a loading at rest.
+#[derive(Clone, Copy)]
+#[non_exhaustive]
+pub struct CycleReport<'a> {
+    /// Number of the computed pass, or of the computed cycle of its stage, from 1.
+    pub number: usize,
+    /// Passes of the motion, or cycles of all stages, that are finished, with those that were not computed.
+    pub done: usize,
+    /// Number of its last position in the pass, or of its last increment.
+    pub step: usize,
+    /// The stage of a loading, from 1; `None` for a pass.
+    pub stage: Option<usize>,
+    /// Mean load of its contacts over their mean overlap.
+    pub mean_pressure: Pascal,
+    /// The bodies after it.
+    pub pair: &'a Pair,
+    /// The pass; `None` for a cycle of a loading.
+    pub pass: Option<PassReport<'a>>,
+}
+
+impl<'a> PassReport<'a> {
+    /// Returns the pass as a load cycle.
+    pub(super) fn cycle(self) -> CycleReport<'a> {
+        CycleReport {
+            number: self.record.pass,
+            done: self.warm.represented,
+            step: self.contacts.len(),
+            stage: None,
+            mean_pressure: self.record.mean_pressure,
+            pair: self.pair,
+            pass: Some(self),
+        }
+    }
 }
 
 impl PassReport<'_> {

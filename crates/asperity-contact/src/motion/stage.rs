@@ -149,9 +149,9 @@ impl Progress {
         stage.cycles.is_some() && self.step == stage.steps()
     }
 
-    /// Returns the step after the next one. A cycle that ends with it stands for `represented` cycles; `has_changed` tells whether the
-    /// bodies have changed with it.
-    pub(super) fn after(self, stages: &[Stage], represented: usize, has_changed: bool) -> Self {
+    /// Returns the step after the next one. A cycle that ends with it stands for `represented` cycles; `changes` tells whether the
+    /// heights of the bodies change with it.
+    pub(super) fn after(self, stages: &[Stage], represented: usize, changes: bool) -> Self {
         let stage = &stages[self.stage];
         if self.step < stage.steps() {
             return Self { step: self.step + 1, ..self };
@@ -159,7 +159,7 @@ impl Progress {
         let cycles = self.cycles + represented;
         match stage.cycles {
             Some(Cycles { count, .. }) if cycles < count => {
-                Self { cycles, step: usize::from(!has_changed), ..self }
+                Self { cycles, step: usize::from(!changes), ..self }
             }
             _ => Self { stage: self.stage + 1, cycles: 0, step: 1 },
         }

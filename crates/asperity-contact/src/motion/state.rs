@@ -14,6 +14,7 @@ use crate::motion::store::{
     CourseState, StateReader, StateWriter, restore_both, restore_if, restore_sums, store_both, store_sums,
 };
 use crate::solver::{Bounds, Equilibrium, FrictionalSolution, Solution, Stats};
+use crate::subsurface::Tractions;
 use crate::units::{Joule, Metre};
 use crate::viscoelastic::{Creep, CreepMemory};
 
@@ -247,7 +248,7 @@ impl LoadingState {
 impl ChangedBodies {
     /// Keeps the bodies and the present cycle.
     fn store(&self, to: &mut dyn StateWriter) {
-        let Self { pair, sums, last, work, cycle_work, error, cycles } = self;
+        let Self { pair, sums, last, work, cycle_work, error, cycles, computed, contacts } = self;
         to.bodies(pair);
         store_sums(to, "cycle", sums);
         if let Some(LastCycle { extrapolation, pressure, work }) = last {
@@ -260,6 +261,14 @@ impl ChangedBodies {
         to.number("cycle_work", *cycle_work);
         to.number(HEIGHT_ERROR, *error);
         to.count("cycles_done", *cycles);
+        to.count("cycles_computed", *computed);
+        for (Tractions { pressure, shear }, index) in contacts.iter().zip(1..) {
+            to.field(&format!("contact_{index}"), "Pa", pressure);
+            if let [Some(x), Some(y)] = shear {
+                to.field(&format!("contact_{index}_x"), "Pa", x);
+                to.field(&format!("contact_{index}_y"), "Pa", y);
+            }
+        }
     }
 
     /// Restores the bodies of a `pair`, whose hardness they have, without their films.
@@ -274,6 +283,12 @@ impl ChangedBodies {
                 work: from.number("last_work")?,
             })
         })?;
+        let contacts = (1..).map(|index| format!("contact_{index}"));
+        let tractions = |name: String| {
+            let shear =
+                |axis| restore_if(from, &format!("{name}_{axis}"), || from.field(&format!("{name}_{axis}")));
+            Ok(Tractions { shear: [shear("x")?, shear("y")?], pressure: from.field(&name)? })
+        };
         Ok(Self {
             pair,
             sums: restore_sums(from, "cycle")?,
@@ -282,6 +297,8 @@ impl ChangedBodies {
             cycle_work: from.number("cycle_work")?,
             error: from.number(HEIGHT_ERROR)?,
             cycles: from.number("cycles_done")? as usize,
+            computed: from.number("cycles_computed")? as usize,
+            contacts: contacts.take_while(|name| from.holds(name)).map(tractions).collect::<Result<_>>()?,
         })
     }
 }

@@ -29,7 +29,7 @@ mod response;
 
 pub use layered::LayeredStress;
 pub use maximum::{Extreme, Maximum};
-pub use response::SlidingStress;
+pub use response::StressAtDepth;
 
 use asperity_transforms::num_complex::Complex64;
 use ndarray::{Array1, Axis, s};

@@ -1,4 +1,6 @@
-//! Stress at one depth under one pressure after another.
+//! Stress at one depth under one contact after another.
+
+use std::sync::OnceLock;
 
 use asperity_transforms::num_complex::Complex64;
 
@@ -9,34 +11,21 @@ use crate::operator::Boundary;
 use crate::stress::Component;
 use crate::units::Metre;
 
-/// The stress at one depth of a body under one pressure after another, and under shear tractions along x.
+/// The stress at one depth of a body under the tractions of one contact after another.
 ///
 /// It keeps the transforms of the influence, which take most of the time of [`Subsurface::plane`]. The results are the same.
-pub struct SlidingStress {
+pub struct StressAtDepth {
     body: Subsurface,
-    /// Transforms of the influence of the pressure and of the shear on each component.
-    influence: [[Spectrum; 2]; 6],
+    depth: Metre,
+    /// Transforms of the influence of the pressure and of the shear along x and y on each component, each computed when it is first needed.
+    influence: [OnceLock<[Spectrum; 6]>; 3],
 }
 
-impl SlidingStress {
+impl StressAtDepth {
     /// Creates the stress at `depth` ≥ 0 of a body with Poisson's ratio `poisson`.
     pub fn new(grid: Grid, boundary: Boundary, poisson: f64, depth: Metre) -> Self {
         let body = Subsurface::new(grid, boundary, poisson, &Tractions::frictionless(grid.zeros()));
-        let influence = Component::ALL.map(|component| {
-            [Traction::Pressure, Traction::X].map(|traction| {
-                let imaginary = is_imaginary(traction, component);
-                let pair = if imaginary { [None, Some(traction)] } else { [Some(traction), None] };
-                let mut symbol = body.symbol(component, pair, depth);
-                // Two real tables may share a transform, so that only one part of it belongs to this traction.
-                let part = |value: Complex64| match imaginary {
-                    true => Complex64::new(0.0, value.im),
-                    false => Complex64::new(value.re, 0.0),
-                };
-                symbol.mapv_inplace(part);
-                symbol
-            })
-        });
-        Self { body, influence }
+        Self { body, depth, influence: Default::default() }
     }
 
     /// The grid of the plane.
@@ -44,17 +33,49 @@ impl SlidingStress {
         self.body.grid()
     }
 
-    /// Computes the components of the stress, Pa, in the order of [`Component::ALL`], under this `pressure` and this `shear` traction along
-    /// +x, if there is one.
-    pub fn under(&self, pressure: &Field, shear: Option<&Field>) -> [Field; 6] {
-        let (pressure, shear) =
-            (self.body.fft.forward(pressure), shear.map(|shear| self.body.fft.forward(shear)));
-        self.influence.each_ref().map(|[of_pressure, of_shear]| {
-            let mut sum = of_pressure * &pressure;
-            if let Some(shear) = &shear {
-                ndarray::Zip::from(&mut sum).and(of_shear).and(shear).for_each(|sum, g, q| *sum += g * q);
+    /// Computes the components of the stress, Pa, in the order of [`Component::ALL`], under these `tractions`.
+    ///
+    /// # Panics
+    /// If the shape of a traction differs from that of the grid.
+    pub fn under(&self, tractions: &Tractions) -> [Field; 6] {
+        let Tractions { pressure, shear: [x, y] } = tractions;
+        let all =
+            [(Traction::Pressure, Some(pressure)), (Traction::X, x.as_ref()), (Traction::Y, y.as_ref())];
+        let present: Vec<_> = all
+            .into_iter()
+            .zip(&self.influence)
+            .filter_map(|((traction, field), influence)| {
+                let field = field.filter(|field| field.iter().any(|value| *value != 0.0))?;
+                assert_eq!(field.shape(), self.grid().shape, "shape of the tractions");
+                let influence = influence.get_or_init(|| self.influence_of(traction));
+                Some((influence, self.body.fft.forward(field)))
+            })
+            .collect();
+        std::array::from_fn(|component| {
+            let mut sum = Spectrum::zeros([self.body.fft.shape()[0], self.body.fft.half()]);
+            for (influence, traction) in &present {
+                ndarray::Zip::from(&mut sum)
+                    .and(&influence[component])
+                    .and(traction)
+                    .for_each(|sum, g, q| *sum += g * q);
             }
             self.body.fft.inverse_leading(&sum, self.body.grid.shape)
+        })
+    }
+
+    /// Returns the transforms of the influence of a traction on each component.
+    fn influence_of(&self, traction: Traction) -> [Spectrum; 6] {
+        Component::ALL.map(|component| {
+            let imaginary = is_imaginary(traction, component);
+            let pair = if imaginary { [None, Some(traction)] } else { [Some(traction), None] };
+            let mut symbol = self.body.symbol(component, pair, self.depth);
+            // Two real tables may share a transform, so that only one part of it belongs to this traction.
+            let part = |value: Complex64| match imaginary {
+                true => Complex64::new(0.0, value.im),
+                false => Complex64::new(value.re, 0.0),
+            };
+            symbol.mapv_inplace(part);
+            symbol
         })
     }
 }
@@ -69,11 +90,10 @@ mod tests {
         for boundary in [Boundary::FREE, Boundary::PERIODIC, Boundary([Edge::Free, Edge::Periodic])] {
             let grid = Grid::new([9, 8], [1.0, 0.8]).unwrap();
             let pressure = Field::from_shape_fn(grid.shape, |(i, j)| ((5 * i + 3 * j * j) % 7) as f64);
-            for (depth, friction) in [(0.0, 0.0), (0.4, -0.3), (2.0, 0.2)] {
-                let stress = SlidingStress::new(grid, boundary, 0.3, depth)
-                    .under(&pressure, Some(&(friction * &pressure)));
-                let tractions =
-                    Tractions { shear: [Some(friction * &pressure), None], pressure: pressure.clone() };
+            for (depth, x, y) in [(0.0, 0.0, 0.1), (0.4, -0.3, 0.0), (2.0, 0.2, -0.4)] {
+                let shear = [x, y].map(|friction| Some(friction * &pressure));
+                let tractions = Tractions { shear, pressure: pressure.clone() };
+                let stress = StressAtDepth::new(grid, boundary, 0.3, depth).under(&tractions);
                 let plane = Subsurface::new(grid, boundary, 0.3, &tractions).plane(depth);
                 for (found, expected) in stress.iter().flatten().zip(plane.stress.iter().flatten()) {
                     assert!(

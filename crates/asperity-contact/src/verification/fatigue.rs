@@ -7,6 +7,7 @@ use crate::grid::{Field, Grid};
 use crate::operator::{Boundary, Edge};
 use crate::reference::HertzLine;
 use crate::stress::Stress;
+use crate::subsurface::Tractions;
 
 /// A line contact that rolls, and one that slides, over a body. On the grid the pressure is its mean over a cell.
 pub(super) const LINE: Case = Case {
@@ -53,7 +54,7 @@ fn line() -> Result<Vec<Check>> {
             let pass = StressHistory::new(grid, line, POISSON, columns, |at| {
                 let pressure = pressure(at);
                 let shear = friction * &pressure;
-                (pressure, Some(shear))
+                Tractions { pressure, shear: [Some(shear), None] }
             });
             pass.dang_van(&criterion, &depths)
         };

@@ -1,5 +1,6 @@
 //! The definition of a capability.
 
+use std::borrow::Cow;
 use std::fmt::Debug;
 
 use serde::Serialize;
@@ -10,7 +11,7 @@ use super::{BodyProperties, Capabilities, Listed, Observations};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::material::Material;
-use crate::motion::{Memory, ObservedContact, Pair, PassReport, StepCell};
+use crate::motion::{CycleReport, Memory, ObservedContact, Pair, StepCell};
 use crate::operator::Boundary;
 use crate::solver::Params;
 use crate::units::{MetrePerSecond, Pascal};
@@ -27,8 +28,8 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
     const MEANING: &'static str;
     /// Name of what it computes in the rows of `asperity check`: "conducts".
     const VERB: &'static str;
-    /// Whether it looks at whole passes of a motion instead of single contacts.
-    const OF_PASSES: bool = false;
+    /// Whether it looks at whole load cycles, the passes of a motion or the cycles of a loading, instead of single contacts.
+    const OF_LOAD_CYCLES: bool = false;
 
     /// A row of its table: what it has computed from a contact, or from a contact along one axis.
     type Row: Row;
@@ -56,11 +57,11 @@ pub trait Capability: Table + Serialize + Clone + PartialEq + Debug + Send + Syn
     /// The reason why it is not possible.
     fn begin(&self, given: &Given<'_>) -> Result<Self::Observer>;
 
-    /// Returns what it has to remember of the passes of a motion, of a capability [of passes](Self::OF_PASSES).
+    /// Returns what it has to remember of load cycles, of a capability [of load cycles](Self::OF_LOAD_CYCLES).
     ///
     /// # Errors
     /// The reason why it is not possible.
-    fn pass_memory(&self, given: &Given<'_>) -> Result<Option<Box<dyn Memory>>> {
+    fn cycle_memory(&self, given: &Given<'_>) -> Result<Option<Box<dyn Memory>>> {
         let _ = given;
         Ok(None)
     }
@@ -130,6 +131,11 @@ pub trait Row: Record + DeserializeOwned + Clone + PartialEq + Debug + Send + Sy
     /// Pass of a motion, from 1; `None` for a static contact.
     fn pass(&self) -> Option<usize>;
 
+    /// Last increment of a cycle of a loading, and the cycles that are done by then; `None` if the row is not that of a whole cycle.
+    fn cycle(&self) -> Option<[usize; 2]> {
+        None
+    }
+
     /// Mean pressure over the apparent area.
     fn mean_pressure(&self) -> Pascal;
 }
@@ -149,11 +155,11 @@ pub trait Observer: Send + Sync {
         contact: &ObservedContact<'_>,
     ) -> Result<(Vec<Self::Row>, Vec<NamedField>)>;
 
-    /// Computes the rows and the fields of a pass, of a capability [of passes](Capability::OF_PASSES).
+    /// Computes the rows and the fields of a load cycle, of a capability [of load cycles](Capability::OF_LOAD_CYCLES).
     ///
     /// # Errors
     /// The reason why they cannot be computed.
-    fn after_pass(&self, report: &PassReport<'_>) -> Result<(Vec<Self::Row>, Vec<BodyField>)> {
+    fn after_cycle(&self, report: &CycleReport<'_>) -> Result<(Vec<Self::Row>, Vec<BodyField>)> {
         let _ = report;
         Ok((Vec::new(), Vec::new()))
     }
@@ -172,9 +178,9 @@ pub struct Place {
 #[derive(Debug, Clone)]
 pub struct NamedField {
     /// The name.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Unit of the values, SI.
-    pub unit: &'static str,
+    pub unit: Cow<'static, str>,
     /// The values, `[ix, iy]`.
     pub values: Field,
 }
@@ -218,6 +224,8 @@ pub struct Surroundings {
     pub is_shift: bool,
     /// Whether all passes have the same bodies at the same positions.
     pub repeats: bool,
+    /// Whether stages of a loading go there and come back, again and again.
+    pub has_cycles: bool,
     /// Sum of the speeds at which both bodies move past the contact; `None` if it is unknown or they are at rest.
     pub dragging_speed: Option<MetrePerSecond>,
     /// Whether there is friction.

@@ -9,7 +9,7 @@
 //! |---|---|---|
 //! | [`flow`] | `[flow]` | the leakage of a fluid through the gap |
 //! | [`conductance`] | `[conductance]` | heat or current through a contact |
-//! | [`fatigue`] | `[fatigue]` | fatigue below the bodies of a motion |
+//! | [`fatigue`] | `[fatigue]` | fatigue below bodies under loads that repeat |
 //!
 //! A [`BodyLaw`] is a folder, too: what contacts do to a body. [`each_law!`](crate::each_law) walks their list.
 //!
@@ -158,7 +158,7 @@ capabilities! { $;
     flow::Leakage;
     /// Heat or current through each contact.
     conductance::Joint;
-    /// Fatigue below the bodies of a motion.
+    /// Fatigue below bodies under loads that repeat.
     fatigue::Fatigue;
 }
 

@@ -105,23 +105,21 @@ fn random_passes_are_those_of_their_stresses_one_by_one() {
         let grid = Grid::new(shape, [1.0, random.random_range(0.5..2.0)]).unwrap();
         let boundary = [Boundary::FREE, Boundary::PERIODIC, Boundary([Edge::Free, Edge::Periodic])][case % 3];
         let positions = random.random_range(1..12);
-        let friction = random.random_range(-0.3..0.3);
-        let pressures: Vec<Field> = (0..positions)
-            .map(|_| Field::from_shape_simple_fn(shape, || random.random_range(-1.0f64..1.0).max(0.0)))
+        let contacts: Vec<Tractions> = (0..positions)
+            .map(|_| {
+                let mut field = |least: f64| {
+                    Field::from_shape_simple_fn(shape, || random.random_range(-1.0f64..1.0).max(least))
+                };
+                Tractions { pressure: field(0.0), shear: [Some(0.3 * field(-1.0)), Some(0.3 * field(-1.0))] }
+            })
             .collect();
         let depths = [0.0, 0.4, 1.5];
-        let pass = StressHistory::new(grid, boundary, 0.3, positions, |at| {
-            (pressures[at].clone(), Some(friction * &pressures[at]))
-        });
+        let pass = StressHistory::new(grid, boundary, 0.3, positions, |at| contacts[at].clone());
         let found = pass.dang_van(&criterion(), &depths).unwrap();
         for (depth, found) in depths.into_iter().zip(&found) {
-            let planes: Vec<_> = pressures
+            let planes: Vec<_> = contacts
                 .iter()
-                .map(|p| {
-                    let shear = [Some(friction * p), None];
-                    let tractions = Tractions { shear, pressure: p.clone() };
-                    Subsurface::new(grid, boundary, 0.3, &tractions).plane(depth)
-                })
+                .map(|tractions| Subsurface::new(grid, boundary, 0.3, tractions).plane(depth))
                 .collect();
             for cell in ndarray::indices(shape).into_iter().map(|(i, j)| [i, j]) {
                 let history: Vec<Stress> = planes.iter().map(|plane| plane.at(cell)).collect();
@@ -159,9 +157,10 @@ fn the_life_of_a_line_falls_with_the_fourth_power_of_its_load() {
 #[test]
 fn what_is_no_history_is_refused() {
     let grid = Grid::new([4, 4], [1.0; 2]).unwrap();
-    let none =
-        |positions: usize| StressHistory::new(grid, Boundary::FREE, 0.3, positions, |_| (grid.zeros(), None));
-    assert!(none(0).dang_van(&criterion(), &[1.0]).unwrap_err().to_string().contains("positions"));
+    let none = |positions: usize| {
+        StressHistory::new(grid, Boundary::FREE, 0.3, positions, |_| Tractions::frictionless(grid.zeros()))
+    };
+    assert!(none(0).dang_van(&criterion(), &[1.0]).unwrap_err().to_string().contains("contacts"));
     assert!(none(1).dang_van(&criterion(), &[-1.0]).unwrap_err().to_string().contains("depth"));
     let stopped = none(1).until(&|| true).dang_van(&criterion(), &[1.0]).unwrap_err();
     assert!(matches!(stopped, asperity_base::Error::Interrupted));

@@ -29,15 +29,29 @@ pub(super) fn draw(results: &Results, done: &[usize], of: &str, of_all: &str, sh
     each_capability!(C => if C::of(&case.with).is_some() {
         let rows = results.rows::<C>()?;
         curves::<C>(&rows, done).into_iter().try_for_each(|curves| sheet.add_curves(curves, of_all))?;
-        // The fields of a static contact are those of its last contact.
-        if rows.iter().all(|row| row.pass().is_none()) {
-            maps::<C>(&results.static_fields()?, &C::summary(&rows), of, sheet)?;
-        }
-        if let Some(pass) = rows.last().and_then(Row::pass).filter(|_| C::OF_PASSES) {
-            maps::<C>(&results.observed_fields(C::NAME, pass)?, &C::summary(&rows), of, sheet)?;
+        let fields = match (load_cycle::<C>(&rows), rows.last()) {
+            (Some(number), _) => Some(results.observed_fields(C::NAME, number)),
+            // The fields of a static contact are those of its last contact.
+            (None, Some(last)) if last.pass().is_none() => Some(results.static_fields()),
+            _ => None,
+        };
+        if let Some(fields) = fields.transpose()? {
+            maps::<C>(&fields, &C::summary(&rows), of, sheet)?;
         }
     });
     Ok(())
+}
+
+/// Number in the name of the file of the last load cycle: its pass, or its last increment. `None` for a capability of single contacts.
+pub(crate) fn load_cycle<C: Capability>(rows: &[C::Row]) -> Option<usize> {
+    let last = rows.last().filter(|_| C::OF_LOAD_CYCLES)?;
+    last.pass().or(last.cycle().map(|[increment, _]| increment))
+}
+
+/// Returns the rows of the last pass or cycle; all rows if they belong to none.
+pub(crate) fn of_last<R: Row>(rows: &[R]) -> impl Iterator<Item = &R> {
+    let last = rows.last().map(|row| (row.pass(), row.cycle()));
+    rows.iter().filter(move |row| Some((row.pass(), row.cycle())) == last)
 }
 
 /// The maps of the last contact, whose `rows` there are.
@@ -92,31 +106,34 @@ pub fn field_map<'a, R>(
     }])
 }
 
-/// The curves of a capability over the loads of a sweep, or over the passes, and over the contacts of the last pass; none for a single
-/// contact.
+/// The curves of a capability over the loads of a sweep, or over the passes or cycles, and over the contacts of the last pass; none for a
+/// single contact.
 pub(crate) fn curves<C: Capability>(rows: &[C::Row], done: &[usize]) -> Vec<Curves> {
-    let last = rows.last().and_then(Row::pass);
-    let of_last: Vec<&C::Row> = rows.iter().filter(|row| row.pass() == last).collect();
+    let of_last: Vec<&C::Row> = of_last(rows).collect();
     let mut curves = Vec::new();
     for curve in C::CURVES {
-        let over_passes = over_passes(curve, rows, done);
-        let name = curve.names[usize::from(over_passes.is_some())];
-        curves.extend(over_passes);
+        let over_cycles = over_cycles(curve, rows, done);
+        let name = curve.names[usize::from(over_cycles.is_some())];
+        curves.extend(over_cycles);
         curves.extend(over_contacts(curve, &of_last, name));
     }
     curves
 }
 
-/// A curve over the passes, with the mean over the contacts of each; none for a single pass.
-fn over_passes<R: Row>(curve: &Curve<R>, rows: &[R], done: &[usize]) -> Option<Curves> {
-    let after = |pass: Option<usize>| pass.and_then(|pass| done.get(pass)).map(|done| *done as f64);
+/// A curve over the passes of a motion or the cycles of a loading, with the mean over the contacts of each; none for a single one.
+fn over_cycles<R: Row>(curve: &Curve<R>, rows: &[R], done: &[usize]) -> Option<Curves> {
+    let after = |row: &R| match row.cycle() {
+        Some([_, done]) => Some(done as f64),
+        None => row.pass().and_then(|pass| done.get(pass)).map(|done| *done as f64),
+    };
     let points = |series: &SeriesOf<R>| -> Vec<[f64; 2]> {
         let rows: Vec<_> = rows.iter().filter(|row| (series.has)(row)).collect();
         let mean = |rows: &[&R]| {
             let sum = rows.iter().map(|row| (series.value)(row)).sum::<Option<f64>>();
-            Some([after(rows[0].pass())?, sum.map_or(f64::NAN, |sum| sum / rows.len() as f64)])
+            Some([after(rows[0])?, sum.map_or(f64::NAN, |sum| sum / rows.len() as f64)])
         };
-        rows.chunk_by(|one, other| one.pass() == other.pass()).filter_map(mean).collect()
+        let of = |row: &R| (row.pass(), row.cycle());
+        rows.chunk_by(|one, other| of(one) == of(other)).filter_map(mean).collect()
     };
     let drawn = curve.series.iter().filter(|series| !series.is_beside);
     let drawn = drawn
@@ -132,9 +149,11 @@ fn over_passes<R: Row>(curve: &Curve<R>, rows: &[R], done: &[usize]) -> Option<C
         let name = if is_alone { "" } else { series.name };
         Series::new(name, points, if series.is_dashed { Mark::Dashed } else { Mark::LineAndPoints })
     });
-    let (x, y) = (Axis::linear("pass", Unit::Count), Axis::of(curve.title, (curve.column)(rows.first()?)));
+    let first = rows.first()?;
+    let [of, all] = if first.cycle().is_some() { ["cycle", "cycles"] } else { ["pass", "passes"] };
+    let (x, y) = (Axis::linear(of, Unit::Count), Axis::of(curve.title, (curve.column)(first)));
     let chart = Chart::new("", x, y, series.collect());
-    let title = format!("{} over the passes", curve.title);
+    let title = format!("{} over the {all}", curve.title);
     Some(Curves { caption: curve.caption, ..Curves::new(curve.names[0], title, chart) })
 }
 

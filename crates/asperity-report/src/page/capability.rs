@@ -1,7 +1,7 @@
 //! The sections of the capabilities: the numbers, maps and curves that each declares.
 
 use asperity_contact::each_capability;
-use asperity_contact::with::{Capability, Listed, Row};
+use asperity_contact::with::{Capability, Listed};
 use asperity_study::io::fields::Fields;
 use serde_json::Value;
 
@@ -26,12 +26,6 @@ pub(super) fn sections(found: &mut PageData, data: &mut Value, charts: &mut Vec<
     sections
 }
 
-/// The rows of the last contact, or of the last pass.
-fn of_last<C: Capability>(rows: &[C::Row]) -> Vec<C::Row> {
-    let last = rows.last().and_then(Row::pass);
-    rows.iter().filter(|row| row.pass() == last).cloned().collect()
-}
-
 fn section<C: Capability>(
     asked: &C,
     found: &mut PageData,
@@ -40,13 +34,12 @@ fn section<C: Capability>(
 ) -> String {
     let rows = found.kept(found.results.rows::<C>()).unwrap_or_default();
     let done = figures::done(&found.kept(found.results.passes()).unwrap_or_default());
-    let last = of_last::<C>(&C::summary(&rows));
+    let last: Vec<C::Row> = figures::of_last(&C::summary(&rows)).cloned().collect();
     let numbers = last.iter().flat_map(|row| asked.numbers(row));
     let numbers: Vec<_> = numbers.map(|line| (line.name.into_owned(), escaped(&line.value))).collect();
     let html = curves::first(figures::curves_of_capability::<C>(&rows, &done), charts);
-    let of_pass = last.last().and_then(Row::pass).filter(|_| C::OF_PASSES);
-    let fields = match of_pass {
-        Some(pass) => Some(found.results.observed_fields(C::NAME, pass)),
+    let fields = match figures::load_cycle::<C>(&last) {
+        Some(number) => Some(found.results.observed_fields(C::NAME, number)),
         None if !found.moves() && found.is_finished() => Some(found.results.static_fields()),
         None => None,
     };
@@ -59,7 +52,7 @@ fn section<C: Capability>(
     html + &facts(numbers)
 }
 
-/// The maps of the last contact, or of the last pass.
+/// The maps of the last contact, or of the last load cycle.
 fn planes<C: Capability>(fields: &Fields, rows: &[C::Row]) -> Vec<Plane> {
     let plane = |map: &asperity_contact::with::views::Map<C::Row>| -> Option<Plane> {
         let (stored, row) = (fields.read(map.field).ok()?, rows.last()?);

@@ -156,6 +156,7 @@ impl Case {
             moves: self.motion.is_some(),
             is_shift: self.motion.is_some_and(|motion| motion.strategy() != Strategy::Overlap),
             repeats: self.motion.is_some_and(|motion| motion.repeats()),
+            has_cycles: self.history.iter().any(|stage| stage.cycles.is_some()),
             dragging_speed: self.dragging_speed(),
             has_friction: self.friction.is_some(),
             shear_changes_pressures: self.shear_displaces_normally()

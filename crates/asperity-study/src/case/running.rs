@@ -3,20 +3,23 @@
 use super::{Body, Case};
 use asperity_base::error::Result;
 use asperity_base::units::PerPascal;
-use asperity_contact::motion::{Acceleration, Law, Pair, Simulation, SlidingContact, StagedLoading};
+use asperity_contact::motion::{Acceleration, Law, Memory, Pair, Simulation, SlidingContact, StagedLoading};
 use asperity_contact::solver::Params;
 use asperity_contact::temperature::Thermal;
 use asperity_contact::with::{self, BodyLaw, Capability, Given, Listed};
 use asperity_contact::{each_capability, each_law};
 
 impl Case {
-    /// Adds to a motion the laws that change its bodies.
+    /// Adds to a motion the laws that change its bodies, and what capabilities remember of its passes.
     ///
     /// # Errors
-    /// The errors of the library.
-    pub(crate) fn running(&self, simulation: Simulation) -> Result<Simulation> {
+    /// The errors of the library, and of the capabilities.
+    pub(crate) fn running(&self, simulation: Simulation, params: Params) -> Result<Simulation> {
         let laws = self.laws(simulation.pair())?;
         let mut simulation = simulation.with_laws(laws);
+        for memory in self.memories(simulation.pair(), params)? {
+            simulation = simulation.with_memory(memory);
+        }
         if let (Some(thermal), Some(temperature)) = (self.heated(), self.temperature) {
             simulation = simulation.with_heat(thermal, temperature.every())?;
         }
@@ -39,13 +42,16 @@ impl Case {
         }
     }
 
-    /// Adds the same laws to a loading in stages.
+    /// Adds the same laws to a loading in stages, and what capabilities remember of its cycles.
     ///
     /// # Errors
-    /// The errors of the library.
-    pub(crate) fn fretting(&self, loading: StagedLoading) -> Result<StagedLoading> {
+    /// The errors of the library, and of the capabilities.
+    pub(crate) fn fretting(&self, loading: StagedLoading, params: Params) -> Result<StagedLoading> {
         let laws = self.laws(loading.pair())?;
         let mut loading = loading.with_laws(laws);
+        for memory in self.memories(loading.pair(), params)? {
+            loading = loading.with_memory(memory);
+        }
         if let Some(temperature) = self.temperature {
             loading = loading.with_bulk(temperature.bulk);
         }
@@ -63,18 +69,17 @@ impl Case {
         Some([self.lower.thermal?, self.upper.thermal?]).filter(|_| wanted)
     }
 
-    /// Adds to a motion what capabilities remember of its passes.
+    /// Returns what capabilities remember of the load cycles of a `pair`.
     ///
     /// # Errors
     /// The errors of the capabilities.
-    pub(crate) fn remembering(&self, mut simulation: Simulation, params: Params) -> Result<Simulation> {
+    pub(crate) fn memories(&self, pair: &Pair, params: Params) -> Result<Vec<Box<dyn Memory>>> {
+        let given = Given { pair, surroundings: self.surroundings(), params };
+        let mut memories = Vec::new();
         each_capability!(C => if let Some(asked) = C::of(&self.with) {
-            let given = Given { pair: simulation.pair(), surroundings: self.surroundings(), params };
-            if let Some(memory) = asked.pass_memory(&given)? {
-                simulation = simulation.with_memory(memory);
-            }
+            memories.extend(asked.cycle_memory(&given)?);
         });
-        Ok(simulation)
+        Ok(memories)
     }
 
     /// Number of fields that capabilities keep with each body.
@@ -84,8 +89,8 @@ impl Case {
         kept
     }
 
-    /// Whether passes change the bodies: by a law, or what a capability remembers of them.
-    pub(crate) fn is_changed_by_passes(&self) -> bool {
+    /// Whether passes or cycles change the bodies: by a law, or what a capability remembers of them.
+    pub(crate) fn is_changed_by_cycles(&self) -> bool {
         self.runs_in() || self.remembered() > 0
     }
 

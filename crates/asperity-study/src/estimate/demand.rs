@@ -492,14 +492,19 @@ impl Sizes<'_> {
         let mut effort = 0.0;
         each_capability!(C => if let Some(asked) = C::of(&self.case.with) {
             let every = asked.every();
-            effort += asked.effort(boundary, digits) * self.observed(every) / together(self.observed_together(every));
+            let at_once = self.observed_together(every, C::OF_LOAD_CYCLES);
+            effort += asked.effort(boundary, digits) * self.observed(every) / together(at_once);
         });
         effort * work
     }
 
-    /// Number of contacts of a step that an observer with this interval looks at.
-    fn observed_together(&self, every: usize) -> usize {
+    /// Number of contacts that an observer with this interval looks at together: those of a step, or of a whole cycle.
+    fn observed_together(&self, every: usize, whole: bool) -> usize {
         match (self.case.motion, every) {
+            (None, every) if whole => {
+                let steps = self.case.history.iter().filter(|stage| stage.cycles.is_some());
+                steps.map(|stage| 2 * stage.steps() + 1).max().unwrap_or(1).div_ceil(every)
+            }
             (None, _) | (Some(_), 0) => 1,
             (Some(_), every) => self.overlaps.len().div_ceil(every),
         }
@@ -510,7 +515,7 @@ impl Sizes<'_> {
         let [nx, ny] = self.facing();
         let (mut looked_at, mut largest) = (0, 0.0_f64);
         each_capability!(C => if let Some(asked) = C::of(&self.case.with) {
-            let positions = self.observed_together(asked.every());
+            let positions = self.observed_together(asked.every(), C::OF_LOAD_CYCLES);
             let at_once = threads.clamp(1, positions.max(1)).min(positions) as f64;
             looked_at = looked_at.max(positions);
             largest = largest.max(at_once * C::memory([nx as usize, ny as usize]));

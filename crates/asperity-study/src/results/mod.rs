@@ -641,10 +641,10 @@ fn is_state(path: &Path) -> bool {
 }
 
 /// Names of the bodies in the fields of their heights.
-const BODIES: [&str; 2] = ["lower", "upper"];
+pub(crate) const BODIES: [&str; 2] = ["lower", "upper"];
 
-/// Name of the field of a law's state on a body.
-fn state_name(state: &str, body: &str) -> String {
+/// Name of the field of a state of a body.
+pub(crate) fn state_name(state: &str, body: &str) -> String {
     format!("{state}_{body}")
 }
 

@@ -113,7 +113,7 @@ impl Writer {
         let mut file = self.field_file(&self.results.static_path());
         file.set("approach", contact.approach).set("hardness", contact.hardness);
         for NamedField { name, unit, values } in contact.fields {
-            file.add_field(name, unit, &contact.grid, [0.0, 0.0], &values);
+            file.add_field(&name, &unit, &contact.grid, [0.0, 0.0], &values);
         }
         file.write()
     }

@@ -7,6 +7,7 @@ mod documents;
 mod elasto_plastic;
 mod extremes;
 mod fatigue;
+mod fatigue_cycles;
 mod fretting;
 mod good_inputs;
 mod hardness;

@@ -57,7 +57,7 @@ columns! {
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PlasticStepRecord>,
-        /// Changes by laws; none of bodies that do not change.
+        /// Cycles, and changes by laws; none of bodies that neither change nor count their cycles.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub fretting: Option<FrettingRecord>,
         /// Time of viscoelastic bodies; none of others.

@@ -82,7 +82,7 @@ columns! {
 }
 
 columns! {
-    /// Bodies that slip a little during a loading, and that laws change: further columns of an increment.
+    /// Bodies that laws change where they slip during a loading, or whose cycles count: further columns of an increment.
     #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
     pub struct FrettingRecord {
         /// Cycles done at the end of the increment, with those that were not computed.

@@ -45,7 +45,7 @@ columns! {
         /// Plastic flow below the surfaces; none without elasto-plastic bodies.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub plastic: Option<PlasticRecord>,
-        /// Changes by slip in the stages of a loading; none of bodies that do not change.
+        /// Cycles of a loading, and changes by slip; none of bodies that neither change nor count their cycles.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub fretting: Option<FrettingRecord>,
     }

@@ -8,7 +8,7 @@ use crate::motion::extrapolation::{
 };
 use crate::motion::heat::PassHeat;
 use crate::motion::law::{self, FrictionHeat, Heat, Law, Sums};
-use crate::motion::memory::Memory;
+use crate::motion::memory::{self, Memory};
 use crate::motion::pass::Pass;
 use crate::motion::record::{LawsInPass, RunningRecord, StepRecord};
 use crate::motion::truncation::Truncation;
@@ -187,9 +187,7 @@ impl Simulation {
             law::advance(laws, &mut pass.pair, mean, passes as f64, &self.interiors, &mut lost[once..]);
         pass.lost = lost;
         worn_away::check_cells(&pass.pair, laws)?;
-        let uncovered =
-            laws.iter().zip(&taken).filter(|(law, _)| law.uncovers()).map(|(_, taken)| taken.clone());
-        self.remember(pass, passes, uncovered.reduce(|[a, b], [c, d]| [a + c, b + d]).as_ref());
+        self.remember(pass, passes, law::uncovered(laws, &taken));
         let mut of_laws = LawsInPass::default();
         laws.iter().zip(&taken).for_each(|(law, taken)| law.record_pass(&pass.pair, taken, &mut of_laws));
         let positions = self.positions.len() as f64;
@@ -217,6 +215,13 @@ impl Simulation {
         Ok((Some(running), extrapolation))
     }
 
+    /// Lets the memories go on by a number of passes in which laws that uncover material have taken the depth `worn` from both bodies, `None`
+    /// without such laws.
+    pub(super) fn remember(&self, pass: &mut Pass, passes: usize, worn: Option<[Field; 2]>) {
+        let memories = &self.changes.memories;
+        pass.lost.extend(memory::advance(memories, &mut pass.pair, passes as f64, worn, &self.interiors));
+    }
+
     /// Chooses the number of passes of the extrapolation from the sums of the `laws` and from the plastic volume.
     fn extrapolate(
         &self,
@@ -239,8 +244,12 @@ impl Simulation {
             deepest: law::deepest(&one).into_iter().fold(0.0, f64::max),
             stable: removal.stable,
         };
-        let mut passes =
-            self.changes.acceleration.most(&bounds, before).min(self.most_remembered(pass)).max(1);
+        let mut passes = self
+            .changes
+            .acceleration
+            .most(&bounds, before)
+            .min(memory::most_cycles(&self.changes.memories, &pass.pair))
+            .max(1);
         let pressures = pass.contacts.iter().flat_map(|contact| &contact.pressure);
         let highest = pressures.fold(0.0, |most: f64, (_, p)| most.max(*p));
         let allowed = self.changes.acceleration.tolerance * removal.compliance_of_grid.single * highest;

@@ -131,7 +131,11 @@ impl Observer for ConductanceObserver {
             },
         };
         let unit = flux_unit(joint.kind);
-        let flux = found.flux.map(|flux| NamedField { name: "flux", unit, values: flux * joint.drop });
+        let flux = found.flux.map(|flux| NamedField {
+            name: "flux".into(),
+            unit: unit.into(),
+            values: flux * joint.drop,
+        });
         Ok((vec![record], flux.into_iter().collect()))
     }
 }

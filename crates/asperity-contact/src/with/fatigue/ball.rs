@@ -15,7 +15,7 @@ fn dot(a: &Point, b: &Point) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn less(a: &Point, b: &Point) -> Point {
+pub(super) fn less(a: &Point, b: &Point) -> Point {
     std::array::from_fn(|i| a[i] - b[i])
 }
 

@@ -1,8 +1,8 @@
-//! The bodies of a motion below their surfaces.
+//! Bodies under load cycles, below their surfaces.
 
 use super::{AtDepth, Basquin, DangVan, Fatigue, StressHistory};
 use crate::error::Result;
-use crate::motion::{Contact, Motion, Pair};
+use crate::motion::{LoadCycle, Pair};
 use crate::operator::Boundary;
 use crate::units::Metre;
 use crate::with::Given;
@@ -60,7 +60,7 @@ impl Below {
         self.bodies.iter().enumerate().filter_map(|(index, body)| Some((index, body.as_ref()?)))
     }
 
-    /// Computes what a body of a pair has seen in the contacts of a pass.
+    /// Computes what a body of a pair has seen in a load cycle.
     ///
     /// # Errors
     /// [`Error::Interrupted`](crate::Error::Interrupted).
@@ -68,22 +68,13 @@ impl Below {
         &self,
         (index, body): (usize, &Limited),
         pair: &Pair,
-        (contacts, motion): (&[Contact], &Motion),
-        stop: &(dyn Fn() -> bool + Sync),
+        cycle: &LoadCycle<'_>,
     ) -> Result<Vec<AtDepth>> {
         let grid = [pair.lower_grid(), pair.upper_grid()][index];
-        let sign = if index == 0 { 1.0 } else { -1.0 };
-        let contacts: Vec<&Contact> = contacts.iter().step_by(self.fatigue.every).collect();
-        let tractions = |position: usize| {
-            let contact = contacts[position];
-            let pressure = contact.pressure_field(pair.lower.width());
-            let placement = pair.placements(&contact.position)[index];
-            let sliding = motion.sliding(contact.position.stroke);
-            let shear = sliding.map(|sliding| placement.onto(&pressure.mapv(|p| sign * sliding.shear(p)[0])));
-            (placement.onto(&pressure), shear)
-        };
-        StressHistory::new(grid, self.boundary, body.poisson, contacts.len(), tractions)
-            .until(stop)
+        let every = self.fatigue.every;
+        let tractions = |number: usize| cycle.tractions(number * every, pair, index);
+        StressHistory::new(grid, self.boundary, body.poisson, cycle.contacts().div_ceil(every), tractions)
+            .until(&|| cycle.stop())
             .dang_van(&body.criterion, &self.depths)
     }
 }

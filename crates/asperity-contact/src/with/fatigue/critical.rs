@@ -1,4 +1,4 @@
-//! The wear that is faster than fatigue: a column that loses as much in each pass is gone before it fails.
+//! The wear that is faster than fatigue: a column that loses as much in each load cycle is gone before it fails.
 
 use ndarray::{Array3, Axis};
 use serde::{Deserialize, Serialize};
@@ -11,8 +11,8 @@ use crate::with::views::{Line, Map, percent};
 use crate::with::wear::WEAR;
 use asperity_base::record::{columns, known_or_none};
 
-/// Name of the state of a body that wears: its wear of the last pass.
-pub(super) const OF_PASS: &str = "wear_of_pass";
+/// Name of the state of a body that wears: its wear of the last load cycle.
+pub(super) const OF_CYCLE: &str = "wear_of_pass";
 
 /// Part of the largest critical wear from which on a column counts as one that needs much.
 const MUCH: f64 = 0.1;
@@ -22,9 +22,9 @@ columns! {
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct Critical {
-        /// Largest wear of a pass below which a column pits.
+        /// Largest wear of a pass or cycle below which a column fails.
         pub critical_wear: Metre,
-        /// Share of the columns that pit unless they wear by more than a tenth of this.
+        /// Share of the columns that fail unless they wear by more than a tenth of this.
         pub critical_share: f64,
         /// Share of the columns that are among these and wear by less than they need; unknown without wear.
         #[serde(deserialize_with = "known_or_none")]
@@ -32,7 +32,7 @@ columns! {
     }
 }
 
-/// Returns the depth that a column must lose in a pass for it not to pit, m: ∫ d dz, from the damage of a pass at ascending `depths`. The damage
+/// Returns the depth that a column must lose in a load cycle for it not to pit, m: ∫ d dz, from the damage of a cycle at ascending `depths`. The damage
 /// at the first depth reaches to the surface.
 ///
 /// # Panics
@@ -44,7 +44,7 @@ pub fn critical_depth(depths: &[Metre], damage: &[f64]) -> Metre {
     first * most + below.map(|(z, d)| 0.5 * (z[1] - z[0]) * (d[0] + d[1])).sum::<f64>()
 }
 
-/// Returns the [`critical_depth`] of each column, from the damage of a pass at ascending `depths`, `[iz, ix, iy]`.
+/// Returns the [`critical_depth`] of each column, from the damage of a load cycle at ascending `depths`, `[iz, ix, iy]`.
 ///
 /// # Panics
 /// If there is not a damage for each depth.
@@ -56,7 +56,7 @@ pub fn critical_depths(depths: &[Metre], damage: &Array3<f64>) -> Field {
 pub(super) fn prepare(body: &mut Body) {
     if body.state.contains_key(WEAR) {
         let state = State { unit: "m".to_owned(), values: Field::zeros(body.heights.raw_dim()) };
-        body.state.entry(OF_PASS.to_owned()).or_insert(state);
+        body.state.entry(OF_CYCLE.to_owned()).or_insert(state);
     }
 }
 
@@ -65,7 +65,7 @@ pub(super) fn of_body(body: &Body, needed: Field) -> (Critical, Vec<(&'static st
     let most = needed.iter().copied().fold(0.0, f64::max);
     let is_much = |needed: f64| needed > MUCH * most;
     let share = |count: usize| count as f64 / needed.len() as f64;
-    let worn = body.state.get(OF_PASS).map(|worn| &worn.values);
+    let worn = body.state.get(OF_CYCLE).map(|worn| &worn.values);
     let unsaved = worn.map(|worn| {
         let columns = needed.iter().zip(worn);
         share(columns.filter(|(needed, worn)| is_much(**needed) && worn < needed).count())
@@ -80,15 +80,15 @@ pub(super) fn of_body(body: &Body, needed: Field) -> (Critical, Vec<(&'static st
     (columns, lacking.into_iter().chain([("critical_wear", needed)]).collect())
 }
 
-const NEEDED: &str = "A column pits unless it loses more than this in each pass.";
-const LACKING: &str = "Where a column wears by less than it needs in order not to pit, and by how much. Where nothing is lacking, wear is faster than fatigue.";
-const QUANTITY: &str = "wear of a pass";
+const NEEDED: &str = "A column fails unless it loses more than this in each load cycle.";
+const LACKING: &str = "Where a column wears by less than it needs in order not to fail, and by how much. Where nothing is lacking, wear is faster than fatigue.";
+const QUANTITY: &str = "wear of a load cycle";
 
 /// The map of the depths that the columns of a body must lose, 0 the lower or 1 the upper one.
 pub(super) const fn needed<R>(body: usize) -> Map<R> {
     const NAMES: [[&str; 2]; 2] = [
-        ["critical_wear_lower", "wear of a pass that saves the lower body"],
-        ["critical_wear_upper", "wear of a pass that saves the upper body"],
+        ["critical_wear_lower", "wear of a load cycle that saves the lower body"],
+        ["critical_wear_upper", "wear of a load cycle that saves the upper body"],
     ];
     logarithmic(NAMES[body][0], NAMES[body][1], NEEDED, QUANTITY, |_| "m")
 }
@@ -96,15 +96,15 @@ pub(super) const fn needed<R>(body: usize) -> Map<R> {
 /// The map of the depths by which the columns of a body lose less than they must.
 pub(super) const fn lacking<R>(body: usize) -> Map<R> {
     const NAMES: [[&str; 2]; 2] = [
-        ["lacking_wear_lower", "wear of a pass that the lower body lacks"],
-        ["lacking_wear_upper", "wear of a pass that the upper body lacks"],
+        ["lacking_wear_lower", "wear of a load cycle that the lower body lacks"],
+        ["lacking_wear_upper", "wear of a load cycle that the upper body lacks"],
     ];
     logarithmic(NAMES[body][0], NAMES[body][1], LACKING, QUANTITY, |_| "m")
 }
 
 impl Critical {
-    /// Says from which pass of a life on the body pits, and what saves it.
-    pub(super) fn outlook(&self, life: f64) -> String {
+    /// Says from which pass or `cycle` of a life on the body fails, and what saves it.
+    pub(super) fn outlook(&self, life: f64, cycle: &str) -> String {
         let wear = format(self.critical_wear, Dimension::Length);
         let life = format_number(life.max(1.0).round());
         let saved = match self.unsaved_share {
@@ -112,15 +112,15 @@ impl Critical {
             Some(share) => format!(" On {} of the surface it is.", percent(share)),
             None => String::new(),
         };
-        format!("it pits from pass {life} on where wear is below {wear} a pass.{saved}")
+        format!("it fails from {cycle} {life} on where wear is below {wear} a {cycle}.{saved}")
     }
 
-    /// Returns the line of a body.
-    pub(super) fn line(&self, body: &str) -> Line {
+    /// Returns the line of a body, whose wear is that of a pass or a `cycle`.
+    pub(super) fn line(&self, body: &str, cycle: &str) -> Line {
         Line::new(
             format!("wear that saves it, {body}"),
             format!(
-                "{} a pass; {} of the area needs a tenth of it or more{}",
+                "{} a {cycle}; {} of the area needs a tenth of it or more{}",
                 format(self.critical_wear, Dimension::Length),
                 percent(self.critical_share),
                 self.unsaved_share

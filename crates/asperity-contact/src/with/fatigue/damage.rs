@@ -1,9 +1,9 @@
-//! Damage of passes, and its way to the surface of a body that loses height.
+//! Damage of load cycles, and its way to the surface of a body that loses height.
 
 use crate::error::{Result, check};
 use crate::units::Metre;
 
-/// Damage of a pass by Basquin's law, which Miner's rule adds up to 1.
+/// Damage of a load cycle by Basquin's law, which Miner's rule adds up to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Basquin {
     exponent: f64,
@@ -12,7 +12,7 @@ pub struct Basquin {
 }
 
 impl Basquin {
-    /// Creates the law d = (f/b)^m/N₀ of a pass with the `exponent` m and the `cycles` N₀ at the limit. With `endurance` there is no damage
+    /// Creates the law d = (f/b)^m/N₀ of a cycle with the `exponent` m and the `cycles` N₀ at the limit. With `endurance` there is no damage
     /// below the limit.
     ///
     /// # Errors
@@ -23,7 +23,7 @@ impl Basquin {
         Ok(Self { exponent, cycles, endurance })
     }
 
-    /// Damage of a pass in which f is this multiple of its limit, at most 1e200.
+    /// Damage of a cycle in which f is this multiple of its limit, at most 1e200.
     pub fn damage(&self, over_limit: f64) -> f64 {
         match over_limit {
             over if over <= 0.0 || self.endurance && over < 1.0 => 0.0,
@@ -32,14 +32,14 @@ impl Basquin {
     }
 }
 
-/// Advances the damage of a column at ascending `depths` over `passes` in each of which it suffers the damage `each` and loses the depth `removed`.
+/// Advances the damage of a column at ascending `depths` over so many `cycles` in each of which it suffers the damage `each` and loses the depth `removed`.
 /// Depths count from the surface as it is: worn material uncovers what lies below. Below the last depth nothing has suffered.
 ///
 /// # Panics
 /// If there is not a damage for each depth.
-pub fn advance_damage(depths: &[Metre], damage: &mut [f64], each: &[f64], passes: f64, removed: Metre) {
+pub fn advance_damage(depths: &[Metre], damage: &mut [f64], each: &[f64], cycles: f64, removed: Metre) {
     assert!(depths.len() == damage.len() && depths.len() == each.len(), "a damage for each depth");
-    let worn = passes * removed;
+    let worn = cycles * removed;
     let before = damage.to_vec();
     let at = |values: &[f64], depth: Metre| {
         let above = depths.partition_point(|z| *z <= depth);
@@ -58,9 +58,9 @@ pub fn advance_damage(depths: &[Metre], damage: &mut [f64], each: &[f64], passes
             }
         }
     };
-    // A point that is z below the surface in the end was z + w (N − n) below it in pass n.
+    // A point that is z below the surface in the end was z + w (N − n) below it in cycle n.
     let mean = |depth: Metre| {
-        if worn == 0.0 || passes == 0.0 {
+        if worn == 0.0 {
             return at(each, depth);
         }
         /// Parts of the way over which the damage is averaged.
@@ -69,7 +69,7 @@ pub fn advance_damage(depths: &[Metre], damage: &mut [f64], each: &[f64], passes
         (0..PARTS).map(part).sum::<f64>() / PARTS as f64
     };
     let after: Vec<f64> =
-        depths.iter().map(|depth| at(&before, depth + worn) + passes * mean(*depth)).collect();
+        depths.iter().map(|depth| at(&before, depth + worn) + cycles * mean(*depth)).collect();
     damage.copy_from_slice(&after);
 }
 

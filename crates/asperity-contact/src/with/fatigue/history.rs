@@ -1,34 +1,34 @@
-//! Stress of all positions of a pass, depth by depth.
+//! Stress of all contacts of a load cycle, depth by depth.
 
 use rayon::prelude::*;
 
-use super::ball::{Point, RIM, smallest_ball, squared};
+use super::ball::{Point, RIM, less, smallest_ball, squared};
 use super::criterion::{DangVan, max_shear, split};
 use crate::error::{Error, Result, check, check_in};
 use crate::grid::{Field, Grid};
 use crate::operator::Boundary;
 use crate::stress::Stress;
-use crate::subsurface::SlidingStress;
+use crate::subsurface::{StressAtDepth, Tractions};
 use crate::units::{Dimension, Metre, Pascal};
 
 /// Bytes of the stress that is kept instead of computed anew for each sweep, at all depths that are computed at the same time.
 const KEPT: f64 = 512e6;
-/// Sweeps over the positions without an end, which do not happen.
+/// Sweeps over the contacts without an end, which do not happen.
 const MOST_SWEEPS: usize = 64;
 /// Distance from a ball, over its radius, by which a point may lie outside.
 const OUTSIDE: f64 = 1e-10;
 /// Rounding of the stress over the largest pressure.
 const ROUNDING: f64 = 1e-14;
 
-/// A body that contacts pass over, which repeats: its pressures at all positions, on its own cells.
+/// A body under a load cycle, which repeats: the contacts that it sees, one after another, as those of a pass or of a cycle of fretting.
 ///
-/// `tractions` returns the pressure at a position, from 0, and the shear traction along +x on this body, `None` without friction, Pa. It is
-/// called several times for each position, from several threads.
+/// `tractions` returns the tractions on this body, on its own cells, in a contact of the cycle, from 0. It is called several times for each
+/// contact, from several threads.
 pub struct StressHistory<'a, F> {
     grid: Grid,
     boundary: Boundary,
     poisson: f64,
-    positions: usize,
+    contacts: usize,
     tractions: F,
     stop: Option<&'a (dyn Fn() -> bool + Sync)>,
 }
@@ -44,16 +44,18 @@ pub struct AtDepth {
     pub radius: Field,
     /// Half the range of σxz, Pa.
     pub shear_amplitude: Field,
-    /// Sweeps over the positions, the last of which found all deviators inside of the balls.
+    /// Sweeps over the contacts, the last of which found all deviators inside of the balls.
     pub sweeps: usize,
 }
 
 /// The ball around the deviators of a cell so far.
 struct Grown {
+    /// The first deviator. The others count from it, so that a ball much smaller than the stress is as exact.
+    origin: Point,
     centre: Point,
     square: f64,
     rim: Vec<Point>,
-    /// Whether no position of the present sweep was outside.
+    /// Whether no contact of the present sweep was outside.
     holds: bool,
     done: bool,
     f: Pascal,
@@ -62,9 +64,18 @@ struct Grown {
 
 impl Grown {
     fn new(deviator: Point, shear: Pascal) -> Self {
-        let rim = vec![deviator];
+        let (centre, rim) = ([0.0; 5], vec![[0.0; 5]]);
         let (holds, done) = (true, false);
-        Self { centre: deviator, square: 0.0, rim, holds, done, f: f64::NEG_INFINITY, shear: [shear; 2] }
+        Self {
+            origin: deviator,
+            centre,
+            square: 0.0,
+            rim,
+            holds,
+            done,
+            f: f64::NEG_INFINITY,
+            shear: [shear; 2],
+        }
     }
 
     /// Takes in a deviator that is outside.
@@ -80,18 +91,18 @@ impl Grown {
         self.holds = false;
     }
 
-    /// Looks at a position.
+    /// Looks at a contact.
     fn see(&mut self, stress: [Pascal; 6], weight: f64, rounding: Pascal) {
         let (deviator, mean) = split(stress);
         let shear = stress[4];
         self.shear = [self.shear[0].min(shear), self.shear[1].max(shear)];
+        let deviator = less(&deviator, &self.origin);
         let allowed = self.square * (1.0 + OUTSIDE).powi(2) + rounding * rounding;
         if squared(&deviator, &self.centre) > allowed {
             self.take_in(&deviator);
         }
         if self.holds {
-            let centred = std::array::from_fn(|i| deviator[i] - self.centre[i]);
-            self.f = self.f.max(max_shear(&centred) + weight * mean);
+            self.f = self.f.max(max_shear(&less(&deviator, &self.centre)) + weight * mean);
         }
     }
 
@@ -123,10 +134,10 @@ impl DangVan {
     }
 }
 
-impl<'a, F: Fn(usize) -> (Field, Option<Field>) + Sync> StressHistory<'a, F> {
+impl<'a, F: Fn(usize) -> Tractions + Sync> StressHistory<'a, F> {
     /// Creates the history of a body with Poisson's ratio `poisson`.
-    pub fn new(grid: Grid, boundary: Boundary, poisson: f64, positions: usize, tractions: F) -> Self {
-        Self { grid, boundary, poisson, positions, tractions, stop: None }
+    pub fn new(grid: Grid, boundary: Boundary, poisson: f64, contacts: usize, tractions: F) -> Self {
+        Self { grid, boundary, poisson, contacts, tractions, stop: None }
     }
 
     /// Ends with [`Error::Interrupted`] as soon as `stop` is true.
@@ -138,13 +149,12 @@ impl<'a, F: Fn(usize) -> (Field, Option<Field>) + Sync> StressHistory<'a, F> {
     /// Computes Dang Van's f at the `depths` ≥ 0.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a depth below 0 or without a position; [`Error::Interrupted`].
+    /// [`Error::OutOfRange`] for a depth below 0 or without a contact; [`Error::Interrupted`].
     ///
     /// # Panics
-    /// If a pressure has another shape than the grid.
+    /// If a traction has another shape than the grid.
     pub fn dang_van(&self, criterion: &DangVan, depths: &[Metre]) -> Result<Vec<AtDepth>> {
-        let positions = self.positions as f64;
-        check("positions", positions, self.positions > 0, "at least one position")?;
+        check("contacts", self.contacts as f64, self.contacts > 0, "at least one contact")?;
         for depth in depths {
             let is_depth = *depth >= 0.0 && depth.is_finite();
             check_in(Dimension::Length, "depth", *depth, is_depth, "a finite depth of at least 0")?;
@@ -152,32 +162,32 @@ impl<'a, F: Fn(usize) -> (Field, Option<Field>) + Sync> StressHistory<'a, F> {
         depths.par_iter().map(|depth| self.at(criterion.weight(), *depth)).collect()
     }
 
-    /// Returns the stress at a position, component by component, and the largest pressure there.
-    fn stress(&self, at_depth: &SlidingStress, position: usize) -> Result<([Field; 6], Pascal)> {
+    /// Returns the stress in a contact, component by component, and its largest traction.
+    fn stress(&self, at_depth: &StressAtDepth, contact: usize) -> Result<([Field; 6], Pascal)> {
         if self.stop.is_some_and(|stop| stop()) {
             return Err(Error::Interrupted);
         }
-        let (pressure, shear) = (self.tractions)(position);
-        assert_eq!(pressure.shape(), self.grid.shape, "shape of the pressure");
-        let largest = pressure.iter().fold(0.0f64, |most, p| most.max(p.abs()));
-        Ok((at_depth.under(&pressure, shear.as_ref()), largest))
+        let tractions = (self.tractions)(contact);
+        let all = tractions.shear.iter().flatten().chain([&tractions.pressure]).flatten();
+        let largest = all.fold(0.0f64, |most, traction| most.max(traction.abs()));
+        Ok((at_depth.under(&tractions), largest))
     }
 
     fn at(&self, weight: f64, depth: Metre) -> Result<AtDepth> {
-        let at_depth = SlidingStress::new(self.grid, self.boundary, self.poisson, depth);
-        let bytes = 48.0 * (self.positions * self.grid.cells()) as f64;
+        let at_depth = StressAtDepth::new(self.grid, self.boundary, self.poisson, depth);
+        let bytes = 48.0 * (self.contacts * self.grid.cells()) as f64;
         let mut kept: Vec<[Field; 6]> = Vec::new();
         let mut cells: Vec<Grown> = Vec::new();
         let (mut sweeps, mut largest) = (0, 0.0f64);
         while sweeps < MOST_SWEEPS && !cells.iter().all(|cell| cell.done) || sweeps == 0 {
-            for position in 0..self.positions {
+            for contact in 0..self.contacts {
                 let computed;
-                let stress = match kept.get(position) {
+                let stress = match kept.get(contact) {
                     Some(stress) => stress,
                     None => {
-                        let pressure;
-                        (computed, pressure) = self.stress(&at_depth, position)?;
-                        largest = largest.max(pressure);
+                        let traction;
+                        (computed, traction) = self.stress(&at_depth, contact)?;
+                        largest = largest.max(traction);
                         &computed
                     }
                 };

@@ -1,4 +1,4 @@
-//! The damage that the passes of a motion leave in the material below the surfaces.
+//! The damage that load cycles leave in the material below the surfaces.
 
 use ndarray::Axis;
 
@@ -6,20 +6,20 @@ use super::below::{Below, Limited};
 use super::{advance_damage, critical};
 use crate::error::Result;
 use crate::grid::Field;
-use crate::motion::{Body, Memory, Pair, PlasticVolume, State, WholePass};
+use crate::motion::{Body, LoadCycle, Memory, Pair, PlasticVolume, State};
 use crate::stress::Component;
 use crate::units::Metre;
 
-/// Part of a life by which a pit may be late, because a pass is extrapolated over several.
+/// Part of a life by which a pit may be late, because a cycle is extrapolated over several.
 const LATE: f64 = 0.05;
 
-/// The damage of the bodies of a motion: f of each pass, by Dang Van, and the damage that adds up, by Basquin and Miner. Both are states of a
+/// The damage of two bodies: f of each load cycle, by Dang Van, and the damage that adds up, by Basquin and Miner. Both are states of a
 /// body, a field for each depth.
 pub(super) struct Damage(pub(super) Below);
 
 /// Names of the states of a body.
 pub(super) mod states {
-    /// f over its limit in the pass that was looked at last, at a depth by its index.
+    /// f over its limit in the cycle that was looked at last, at a depth by its index.
     pub(in super::super) fn over_limit(depth: usize) -> String {
         format!("over_limit_{:02}", depth + 1)
     }
@@ -35,25 +35,27 @@ pub(super) mod states {
 
 impl Damage {
     /// Changes the damage of a body, and returns the depth that breaks out of each of its columns.
-    fn age(&self, limited: &Limited, body: &mut Body, passes: f64, worn: &Field) -> Field {
+    fn age(&self, limited: &Limited, body: &mut Body, cycles: f64, worn: &Field) -> Field {
         let layers = self.0.depths.len();
         let mut damage: Vec<Field> = (0..layers).map(|k| taken(body, &states::damage(k))).collect();
-        let of_pass: Vec<&Field> = (0..layers).map(|k| &body.state[&states::over_limit(k)].values).collect();
+        let of_cycle: Vec<&Field> = (0..layers).map(|k| &body.state[&states::over_limit(k)].values).collect();
         let mut lost = Field::zeros(body.heights.raw_dim());
         let (mut column, mut each) = (vec![0.0; layers], vec![0.0; layers]);
+        // Wear between cycles is that of a single one without damage.
+        let (times, share) = (cycles.max(1.0), cycles.min(1.0));
         for (cell, lost) in lost.indexed_iter_mut() {
             for k in 0..layers {
-                (column[k], each[k]) = (damage[k][cell], limited.damage.damage(of_pass[k][cell]));
+                (column[k], each[k]) = (damage[k][cell], share * limited.damage.damage(of_cycle[k][cell]));
             }
-            advance_damage(&self.0.depths, &mut column, &each, passes, worn[cell].max(0.0) / passes);
+            advance_damage(&self.0.depths, &mut column, &each, times, worn[cell].max(0.0) / times);
             *lost = pit(&self.0.depths, &mut column, limited.pitting);
             (0..layers).for_each(|k| damage[k][cell] = column[k]);
         }
         for (k, values) in damage.into_iter().enumerate() {
             body.state.insert(states::damage(k), State { unit: "1".to_owned(), values });
         }
-        if let Some(of_pass) = body.state.get_mut(critical::OF_PASS) {
-            of_pass.values = worn / passes;
+        if let Some(of_cycle) = body.state.get_mut(critical::OF_CYCLE).filter(|_| cycles > 0.0) {
+            of_cycle.values = worn / cycles;
         }
         if let Some(pitted) = body.state.get_mut(states::PITTED) {
             pitted.values += &lost;
@@ -110,18 +112,17 @@ impl Memory for Damage {
         }
     }
 
-    fn look(&self, pass: &WholePass<'_>, pair: &mut Pair) -> Result<()> {
-        if !self.0.fatigue.wants(pass.pass) {
+    fn look(&self, cycle: &LoadCycle<'_>, pair: &mut Pair) -> Result<()> {
+        if !self.0.fatigue.wants(cycle.number) {
             return Ok(());
         }
         for (index, limited) in self.0.limited() {
-            let contacts = (pass.contacts, pass.motion);
-            let found = self.0.seen((index, limited), pair, contacts, &|| pass.stop())?;
-            let volume = pass.plastic_volumes.iter().find(|volume| volume.body == index);
+            let found = self.0.seen((index, limited), pair, cycle)?;
+            let volume = cycle.plastic_volumes.iter().find(|volume| volume.body == index);
             let body = body_of(pair, index);
-            // Passes between two computed ones do damage between theirs.
+            // Cycles between two computed ones do damage between theirs.
             let between = match self.0.fatigue.passes.is_empty() {
-                true => 0.5 * (pass.extrapolated - 1.0),
+                true => 0.5 * (cycle.extrapolated - 1.0),
                 false => 0.0,
             };
             for (k, at) in found.into_iter().enumerate() {
@@ -145,7 +146,7 @@ impl Memory for Damage {
         Ok(())
     }
 
-    fn most_passes(&self, pair: &Pair) -> f64 {
+    fn most_cycles(&self, pair: &Pair) -> f64 {
         let mut most = f64::INFINITY;
         for (index, limited) in self.0.limited() {
             let body = [&pair.lower, &pair.upper][index];
@@ -160,11 +161,11 @@ impl Memory for Damage {
         most.max(1.0)
     }
 
-    fn advance(&self, pair: &mut Pair, passes: f64, worn: &[Field; 2]) -> [Field; 2] {
+    fn advance(&self, pair: &mut Pair, cycles: f64, worn: &[Field; 2]) -> [Field; 2] {
         let mut lost = [&pair.lower, &pair.upper].map(|body| Field::zeros(body.heights.raw_dim()));
         for (index, limited) in self.0.limited() {
             let body = body_of(pair, index);
-            lost[index] = self.age(limited, body, passes, &worn[index]);
+            lost[index] = self.age(limited, body, cycles, &worn[index]);
         }
         lost
     }

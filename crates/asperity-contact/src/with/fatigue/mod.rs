@@ -1,10 +1,10 @@
-//! Fatigue below the surface of a body that contacts pass over.
+//! Fatigue below the surface of a body under loads that repeat: contacts that pass over it, or the cycles of one contact.
 //!
-//! Each point sees a stress at each position of a pass, and the pass repeats. [`StressHistory`] computes the stress of all positions depth by
+//! Each point sees a stress in each contact of a load cycle, and the cycle repeats. [`StressHistory`] computes the stress of all contacts depth by
 //! depth, and from it Dang Van's f. Nothing fails in the end where f is below the limit b of [`DangVan`]:
 //!
 //! ```text
-//! f = max over the positions of τ + a σh
+//! f = max over the contacts of τ + a σh
 //! ```
 //!
 //! σh is the hydrostatic stress, and τ the largest shear of the deviator less s*, the centre of the smallest ball around all deviators in
@@ -13,12 +13,13 @@
 //! ```
 //! use asperity_contact::fatigue::{DangVan, StressHistory};
 //! use asperity_contact::operator::Boundary;
+//! use asperity_contact::subsurface::Tractions;
 //! use asperity_contact::{Field, Grid};
 //!
 //! // A ridge of pressure that passes over a period.
 //! let grid = Grid::new([32, 2], [1.0, 1.0])?;
 //! let pressure = |at: usize| Field::from_shape_fn(grid.shape, |(i, _)| if i == at { 1.0 } else { 0.0 });
-//! let pass = StressHistory::new(grid, Boundary::PERIODIC, 0.3, 32, |at| (pressure(at), None));
+//! let pass = StressHistory::new(grid, Boundary::PERIODIC, 0.3, 32, |at| Tractions::frictionless(pressure(at)));
 //! let criterion = DangVan::new(1.0, 1.7)?;
 //! let found = pass.dang_van(&criterion, &[0.5, 2.0])?;
 //! // Each cell sees the same history.
@@ -55,15 +56,15 @@ use crate::motion::{Memory, StepCell};
 use crate::with::views::{Answer, Curve, Line, Map};
 use crate::with::{Capability, Given, Rule, Surroundings};
 
-/// Work of the stress of a position at a depth over that of a convolution.
+/// Work of the stress of a contact at a depth over that of a convolution.
 const EFFORT: f64 = 40.0;
 
 impl Capability for Fatigue {
     const NAME: &'static str = "fatigue";
     const TITLE: &'static str = "Fatigue";
-    const MEANING: &'static str = "fatigue below the surfaces of bodies that pass over each other";
+    const MEANING: &'static str = "fatigue below the surfaces of bodies under loads that repeat";
     const VERB: &'static str = "tires";
-    const OF_PASSES: bool = true;
+    const OF_LOAD_CYCLES: bool = true;
 
     type Row = FatigueRecord;
     type Observer = FatigueObserver;
@@ -82,7 +83,7 @@ impl Capability for Fatigue {
         FatigueObserver::new(self, given)
     }
 
-    fn pass_memory(&self, given: &Given<'_>) -> Result<Option<Box<dyn Memory>>> {
+    fn cycle_memory(&self, given: &Given<'_>) -> Result<Option<Box<dyn Memory>>> {
         Ok(Some(Box::new(memory::Damage(below::Below::new(self, given)?))))
     }
 
@@ -91,8 +92,7 @@ impl Capability for Fatigue {
     }
 
     fn summary(rows: &[FatigueRecord]) -> Vec<FatigueRecord> {
-        let last = rows.last().map(|row| row.pass);
-        rows.iter().filter(|row| Some(row.pass) == last).cloned().collect()
+        views::of_last(rows).cloned().collect()
     }
 
     fn describe(&self, surroundings: &Surroundings) -> String {

@@ -8,10 +8,10 @@ use super::smooth::Smooth;
 use super::{Fatigue, FatigueRecord, OnBody, critical, critical_depths};
 use crate::error::Result;
 use crate::grid::{Field, Grid};
-use crate::motion::{Body, ObservedContact, PassReport};
+use crate::motion::{Body, CycleReport, ObservedContact};
 use crate::with::{BodyField, Given, NamedField, Observer, Place};
 
-/// Tells what the memory of a pass has found.
+/// Tells what the memory of a load cycle has found.
 #[derive(Debug)]
 pub struct FatigueObserver {
     below: Below,
@@ -32,17 +32,17 @@ impl FatigueObserver {
         &self,
         (index, limited): (usize, &Limited),
         (body, grid): (&Body, Grid),
-        report: &PassReport<'_>,
+        report: &CycleReport<'_>,
     ) -> Result<(FatigueRecord, Vec<BodyField>)> {
         let Below { fatigue, boundary, depths, .. } = &self.below;
         let states = |name: fn(usize) -> String| -> Vec<&Field> {
             (0..depths.len()).map(|k| &body.state[&name(k)].values).collect()
         };
-        let (of_pass, so_far) = (states(states::over_limit), states(states::damage));
+        let (of_cycle, so_far) = (states(states::over_limit), states(states::damage));
         let [nx, ny] = grid.shape;
         let all =
             |fields: &[&Field]| Array3::from_shape_fn((depths.len(), nx, ny), |(k, i, j)| fields[k][[i, j]]);
-        let (over, suffered) = (all(&of_pass), all(&so_far));
+        let (over, suffered) = (all(&of_cycle), all(&so_far));
         let each = over.mapv(|over| limited.damage.damage(over));
         let (critical, of_critical) = critical::of_body(body, critical_depths(depths, &each));
         let most = |values: &Array3<f64>| {
@@ -56,18 +56,21 @@ impl FatigueObserver {
         let share = |count: usize| count as f64 / grid.cells() as f64;
         let left = suffered.iter().zip(&each).map(|(damage, each)| (1.0 - damage).max(0.0) / each);
         let left = left.filter(|left| left.is_finite()).reduce(f64::min);
-        let flows = report.plastic_volumes.iter().any(|volume| volume.body == index);
-        let life_ratio = match &self.smooth {
-            Some(smooth) if limited.risk => {
-                smooth.life_ratio(&self.below, (index, limited), report.motion, &of_pass)?
+        let pass = report.pass.as_ref();
+        let plastic = pass.filter(|pass| pass.plastic_volumes.iter().any(|volume| volume.body == index));
+        let life_ratio = match (&self.smooth, pass) {
+            (Some(smooth), Some(pass)) if limited.risk => {
+                smooth.life_ratio(&self.below, (index, limited), pass.motion, &of_cycle)?
             }
             _ => None,
         };
         let row = FatigueRecord {
-            pass: report.record.pass,
-            step: report.contacts.len(),
+            pass: pass.map(|pass| pass.record.pass),
+            stage: report.stage,
+            cycle: report.stage.map(|_| report.done),
+            step: report.step,
             body: if index == 0 { OnBody::Lower } else { OnBody::Upper },
-            mean_pressure: report.record.mean_pressure,
+            mean_pressure: report.mean_pressure,
             over_limit: largest_over,
             x: grid.centre(0, place.1),
             y: grid.centre(1, place.2),
@@ -81,25 +84,24 @@ impl FatigueObserver {
                 .min(),
             damage_of_pass: largest(&mut each.iter()),
             damage: largest(&mut suffered.iter()),
-            life: left.map(|left| report.warm.represented as f64 + left),
+            life: left.map(|left| report.done as f64 + left),
             critical,
             pitted_share: body
                 .state
                 .get(states::PITTED)
                 .map(|pitted| share(pitted.values.iter().filter(|depth| **depth > 0.0).count())),
             life_ratio,
-            plastic_work: report
-                .record
-                .plastic
-                .filter(|_| flows)
+            plastic_work: plastic
+                .and_then(|pass| pass.record.plastic)
                 .map(|plastic| [plastic.plastic_work_lower, plastic.plastic_work_upper][index]),
-            stride: (report.motion.stride * fatigue.every) as f64
-                / report.record.largest_spot_cells.max(1) as f64,
+            stride: pass.map(|pass| {
+                (pass.motion.stride * fatigue.every) as f64 / pass.record.largest_spot_cells.max(1) as f64
+            }),
         };
         let name = ["lower", "upper"][index];
         let field =
             |what: &str, unit, grid, values| BodyField { name: format!("{what}_{name}"), unit, grid, values };
-        let (in_depth, section) = self.section(&of_pass, grid, place.2);
+        let (in_depth, section) = self.section(&of_cycle, grid, place.2);
         let mut fields = vec![
             field("over_limit", "1", grid, most(&over)),
             field("over_limit_section", "1", in_depth, section),
@@ -136,9 +138,9 @@ impl Observer for FatigueObserver {
         Ok((Vec::new(), Vec::new()))
     }
 
-    fn after_pass(&self, report: &PassReport<'_>) -> Result<(Vec<FatigueRecord>, Vec<BodyField>)> {
+    fn after_cycle(&self, report: &CycleReport<'_>) -> Result<(Vec<FatigueRecord>, Vec<BodyField>)> {
         let (mut rows, mut fields) = (Vec::new(), Vec::new());
-        if !self.below.fatigue.wants(report.record.pass) {
+        if !self.below.fatigue.wants(report.number) {
             return Ok((rows, fields));
         }
         let pair = report.pair;

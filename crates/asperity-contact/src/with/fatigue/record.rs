@@ -22,17 +22,24 @@ pub enum OnBody {
 choice!(OnBody: "lower" => Lower, "upper" => Upper);
 
 columns! {
-    /// Fatigue below the surface of a body in a pass, a row of `fatigue.csv`; in `summary.json` of the last pass.
+    /// Fatigue below the surface of a body in a pass or a cycle, a row of `fatigue.csv`; in `summary.json` of the last one.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct FatigueRecord {
-        /// Pass, from 1.
-        pub pass: usize,
-        /// Position in the pass up to which the stresses count: its last one.
+        /// Pass, from 1; left out of the cycles of a loading.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub pass: Option<usize>,
+        /// Stage of the loading, from 1; left out of passes.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub stage: Option<usize>,
+        /// Cycles of all stages that are done after this one, with those that it stands for; left out of passes.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub cycle: Option<usize>,
+        /// Position of the pass, or increment of the loading, up to which the stresses count: the last one of the pass or cycle.
         pub step: usize,
         /// The body: `lower` or `upper`.
         pub body: OnBody,
-        /// Mean pressure over the mean overlap.
+        /// Mean load of the pass or cycle over the mean overlap.
         pub mean_pressure: Pascal,
         /// Largest f over its limit b: where it is below 1, nothing fails in the end.
         pub over_limit: f64,
@@ -44,12 +51,12 @@ columns! {
         pub depth: Metre,
         /// Cells from this place to the nearest free edge of the body; unknown without one.
         pub edge_cells: Option<usize>,
-        /// Largest damage that this pass does, which adds up to 1 at failure; 0 below the limit with an endurance limit.
+        /// Largest damage that this pass or cycle does, which adds up to 1 at failure; 0 below the limit with an endurance limit.
         pub damage_of_pass: f64,
-        /// Largest damage after the pass and its extrapolation, less what has worn away or broken out.
+        /// Largest damage after the pass or cycle and its extrapolation, less what has worn away or broken out.
         #[over_motion(State)]
         pub damage: f64,
-        /// Pass of the motion in which a point first fails if all go on like this one and nothing is removed; unknown without damage.
+        /// Pass of the motion, or cycle of the loading, in which a point first fails if all go on like this one and nothing is removed; unknown without damage.
         #[over_motion(State)]
         pub life: Option<f64>,
         /// The removal that is faster.
@@ -62,8 +69,10 @@ columns! {
         pub life_ratio: Option<f64>,
         /// Plastic work below the surface of the body in the pass: f is that of shakedown, where it is 0; unknown for other than elasto-plastic bodies.
         pub plastic_work: Option<Joule>,
-        /// Distance between two positions whose stress is computed, over the width of the widest spot of contact.
-        pub stride: f64,
+        /// Distance between two positions whose stress is computed, over the width of the widest spot of contact; left out of the cycles of a
+        /// loading.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        pub stride: Option<f64>,
     }
 }
 
@@ -71,7 +80,10 @@ impl Record for FatigueRecord {
     const COLUMNS: &'static [Column] = Self::COLUMNS;
 
     fn at(&self, error: Error) -> Error {
-        error.if_of_step(|source| Error::AtPass { pass: self.pass, source })
+        error.if_of_step(|source| match self.pass {
+            Some(pass) => Error::AtPass { pass, source },
+            None => Error::AtIncrement { increment: self.step, source },
+        })
     }
 }
 
@@ -79,7 +91,11 @@ impl Row for FatigueRecord {
     const GROUPS: &'static [(&'static str, &'static [Column])] = &[("FatigueRecord", Self::COLUMNS)];
 
     fn pass(&self) -> Option<usize> {
-        Some(self.pass)
+        self.pass
+    }
+
+    fn cycle(&self) -> Option<[usize; 2]> {
+        Some([self.step, self.cycle?])
     }
 
     fn mean_pressure(&self) -> Pascal {

@@ -14,12 +14,12 @@ fn any(surroundings: &Surroundings, is: fn(&crate::with::BodyConstants) -> bool)
 pub(super) const RULES: &[Rule<Fatigue>] = &[
     Rule {
         this: "[fatigue]",
-        with: "a contact that does not move",
-        message: "fatigue needs a [motion]: a point of a body tires as contacts pass over it",
-        hint: "add a [motion], or ask for the stress by [subsurface]",
+        with: "a contact that neither moves nor has `cycles`",
+        message: "fatigue needs loads that repeat: a contact that is loaded once has no cycle",
+        hint: "add a [motion], or give a stage of the [[history]] its `cycles`; [subsurface] has the stress of a single contact",
         at: "fatigue",
         example: &[LIMITS, FATIGUE],
-        broken: |_, surroundings| !surroundings.moves,
+        broken: |_, surroundings| !surroundings.moves && !surroundings.has_cycles,
     },
     Rule {
         this: "[fatigue]",

@@ -6,7 +6,7 @@ use super::below::{Below, Limited};
 use super::risk;
 use crate::error::Result;
 use crate::grid::Field;
-use crate::motion::{Motion, Pair, Simulation};
+use crate::motion::{LoadCycle, Motion, Pair, Simulation};
 use crate::solver::{Control, Params};
 use crate::with::Given;
 use asperity_surface::{Level, Topography};
@@ -87,8 +87,8 @@ impl Smooth {
         let across = touched.columns().into_iter().filter(|row| row.iter().any(|p| *p > 0.0)).count();
         let mut risks = [0.0; 2];
         for (index, limited) in below.limited() {
-            let contacts = (pass.contacts(), &motion);
-            let found = below.seen((index, limited), &self.pair, contacts, &|| false)?;
+            let cycle = LoadCycle::of_pass(pass.contacts(), &motion);
+            let found = below.seen((index, limited), &self.pair, &cycle)?;
             let over: Vec<Field> = found.iter().map(|at| &at.f / limited.criterion.limit()).collect();
             risks[index] = at_risk(below, limited, &over.iter().collect::<Vec<_>>());
         }

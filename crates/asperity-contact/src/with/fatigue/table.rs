@@ -11,7 +11,7 @@ use asperity_base::exists;
 use asperity_base::table::{Bounds, Exists, Key, Kind, Source, Value, list, require};
 use asperity_derive::Table;
 
-/// Fatigue below the surfaces of bodies that pass over each other.
+/// Fatigue below the surfaces of bodies under loads that repeat: in the passes of a motion, or in the cycles of a history.
 #[derive(Table, Debug, Clone, PartialEq, Serialize)]
 #[table("fatigue")]
 #[non_exhaustive]
@@ -22,10 +22,10 @@ pub struct Fatigue {
     /// Number of depths, geometric from half a cell to the largest.
     #[key(count = 1, default = 8, example = "12")]
     pub layers: usize,
-    /// Interval of the positions of a pass whose stress is computed.
+    /// Interval of the positions of a pass, or of the increments of a cycle, whose stress is computed.
     #[key(count = 1, default = 1, example = "2")]
     pub every: usize,
-    /// Passes that are looked at, counted as they are computed.
+    /// Passes, or cycles of each stage, that are looked at, counted as they are computed.
     #[key(
         special = passes,
         form = "list of whole numbers ≥ 1",
@@ -48,7 +48,7 @@ pub struct FatigueLimits {
     /// Limit σ₋₁ in alternating tension: an amplitude, at most twice that in torsion.
     #[key(quantity = Pressure, range = AboveZero, example = "\"600 MPa\"", exists = STRENGTH, beside = [TENSION])]
     pub tension: Pascal,
-    /// Exponent m of Basquin's law: a pass does the damage (f/b)^m/N₀.
+    /// Exponent m of Basquin's law: a pass or cycle does the damage (f/b)^m/N₀.
     #[key(
         number = "a number",
         range = Between { least: 0.0, most: 100.0, open: [true, false] },
@@ -123,7 +123,7 @@ impl FatigueLimits {
         DangVan::new(self.torsion, self.tension)
     }
 
-    /// Returns the law of the damage of a pass.
+    /// Returns the law of the damage of a load cycle.
     ///
     /// # Errors
     /// [`Error::OutOfRange`](crate::Error::OutOfRange).
@@ -143,8 +143,8 @@ impl Fatigue {
         (0..self.layers).map(|k| first * step.powi(k as i32)).collect()
     }
 
-    /// Whether it looks at a pass.
-    pub fn wants(&self, pass: usize) -> bool {
-        self.passes.is_empty() || self.passes.contains(&pass)
+    /// Whether it looks at a load cycle, by the number of the computed pass, or of the computed cycle of its stage.
+    pub fn wants(&self, number: usize) -> bool {
+        self.passes.is_empty() || self.passes.contains(&number)
     }
 }

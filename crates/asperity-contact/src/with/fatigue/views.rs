@@ -32,8 +32,8 @@ pub(super) const CURVES: &[Curve<FatigueRecord>] = &[
     },
     Curve {
         names: ["life", "life_bodies"],
-        title: "life in passes",
-        caption: "Pass in which a point first fails if all go on like this one and nothing is removed.",
+        title: "life",
+        caption: "Pass or cycle in which a point first fails if all go on like this one and nothing is removed.",
         column: |_| "life",
         series: &[
             of_body("lower body", OnBody::Lower, |row| row.life),
@@ -66,7 +66,7 @@ const fn of_body(
 
 const F: &str = "The largest f over the depths, over its limit: where it is below 1, nothing fails in the end. The cross marks the largest.";
 const SECTION: &str = "f over its limit below the row of cells with the largest f, which the cross marks. z points into the body.";
-const DAMAGE: &str = "The largest damage over the depths after this pass. A point fails at 1.";
+const DAMAGE: &str = "The largest damage over the depths so far. A point fails at 1.";
 
 /// f, the damage, and the removal that is faster, of both bodies.
 pub(super) const MAPS: &[Map<FatigueRecord>] = &[
@@ -107,16 +107,31 @@ pub(super) fn describe(fatigue: &Fatigue, surroundings: &Surroundings) -> String
             [limits.torsion, limits.tension].map(|limit| format(limit, Dimension::Pressure));
         Some(format!("the {name} body from {torsion} in torsion and {tension} in tension"))
     });
-    let often = surroundings.often(fatigue.every);
+    let often = match (surroundings.moves, fatigue.every) {
+        (false, 1) => "at each increment of a cycle".to_owned(),
+        (false, every) => format!("at one of {every} increments of a cycle"),
+        (true, every) => surroundings.often(every),
+    };
     let to = format(fatigue.to, Dimension::Length);
     let depths =
         if fatigue.layers == 1 { "one depth".to_owned() } else { format!("{} depths", fatigue.layers) };
     format!("{}; {depths} to {to}, {often}", limits.collect::<Vec<_>>().join(", "))
 }
 
+/// Returns the rows of the last pass or cycle.
+pub(super) fn of_last(rows: &[FatigueRecord]) -> impl Iterator<Item = &FatigueRecord> {
+    let of = |row: &FatigueRecord| (row.pass, row.cycle);
+    let last = rows.last().map(of);
+    rows.iter().filter(move |row| Some(of(row)) == last)
+}
+
+/// The load cycle of a row, in a word.
+fn word(row: &FatigueRecord) -> &'static str {
+    if row.cycle.is_some() { "cycle" } else { "pass" }
+}
+
 pub(super) fn answers(rows: &[FatigueRecord]) -> Vec<Answer> {
-    let last = rows.last().map(|row| row.pass);
-    rows.iter().filter(|row| Some(row.pass) == last).map(answer).collect()
+    of_last(rows).map(answer).collect()
 }
 
 fn answer(row: &FatigueRecord) -> Answer {
@@ -127,7 +142,7 @@ fn answer(row: &FatigueRecord) -> Answer {
     let found = format!("In the {body} body the largest f/b is {value}, {depth} deep{within}");
     let sentence = match (row.pitted_share.filter(|share| *share > 0.0), row.life) {
         (Some(pitted), _) => format!("{found}: {} of its surface has pitted.", percent(pitted)),
-        (None, Some(life)) => format!("{found}: {}", row.critical.outlook(life)),
+        (None, Some(life)) => format!("{found}: {}", row.critical.outlook(life, word(row))),
         (None, None) => format!("{found}: no fatigue within the limit."),
     };
     Answer {
@@ -159,9 +174,10 @@ pub(super) fn numbers(row: &FatigueRecord) -> Vec<Line> {
         Line::new(
             format!("damage, {body}"),
             format!(
-                "{} so far, {} of this pass",
+                "{} so far, {} of this {}",
                 format_number(row.damage),
-                format_number(row.damage_of_pass)
+                format_number(row.damage_of_pass),
+                word(row)
             ),
         ),
         Line::new(
@@ -169,12 +185,14 @@ pub(super) fn numbers(row: &FatigueRecord) -> Vec<Line> {
             row.life.map_or_else(
                 || "no point fails within the limit".to_owned(),
                 |life| {
-                    let pass = format_number(life.max(1.0).round());
-                    format!("a point fails in pass {pass}, if all go on like this one and nothing is removed")
+                    let (word, number) = (word(row), format_number(life.max(1.0).round()));
+                    format!(
+                        "a point fails in {word} {number}, if all go on like this one and nothing is removed"
+                    )
                 },
             ),
         ),
-        row.critical.line(body),
+        row.critical.line(body, word(row)),
     ];
     lines.extend(
         row.pitted_share
@@ -202,7 +220,7 @@ const STILL: f64 = 1e-3;
 /// Returns reasons in the rows not to trust them.
 pub(super) fn doubts(fatigue: &Fatigue, rows: &[FatigueRecord], surroundings: &Surroundings) -> Vec<String> {
     let mut doubts = Vec::new();
-    if !surroundings.repeats {
+    if surroundings.moves && !surroundings.repeats {
         doubts.push(
             "the bodies meet at other places in each pass, and f is that of a single pass: in a shift set one speed to 0, so that a pass has all \
              encounters"
@@ -232,10 +250,9 @@ pub(super) fn doubts(fatigue: &Fatigue, rows: &[FatigueRecord], surroundings: &S
             format_number(apart)
         ));
     }
-    let last = rows.last().map(|row| row.pass);
     let work = most(|row| row.plastic_work.unwrap_or(0.0));
     let yields = |row: &FatigueRecord| row.plastic_work.is_some_and(|left| left > STILL * work);
-    if rows.iter().any(|row| Some(row.pass) == last && yields(row)) {
+    if of_last(rows).any(yields) {
         doubts.push(
             "the bodies still yield in the last pass: f is that of shakedown, with the residual stress as it is; compute more passes"
                 .to_owned(),
@@ -266,14 +283,14 @@ pub(super) fn doubts(fatigue: &Fatigue, rows: &[FatigueRecord], surroundings: &S
                 .to_owned(),
         );
     }
-    if let Some(first) = rows.first().filter(|row| row.pass > 1) {
+    let of = if surroundings.moves { "pass" } else { "cycle" };
+    if let Some(first) = fatigue.passes.iter().min().filter(|first| **first > 1 && !rows.is_empty()) {
         doubts.push(format!(
-            "no pass before pass {} is looked at, and none of them counts as damage: look at the first pass, too",
-            first.pass
+            "no {of} before {of} {first} is looked at, and none of them counts as damage: look at the first {of}, too"
         ));
     }
     if rows.is_empty() {
-        doubts.push("no pass that was computed is among those whose fatigue is asked for".to_owned());
+        doubts.push(format!("no {of} that was computed is among those whose fatigue is asked for"));
     }
     if rows.iter().any(|row| row.edge_cells.is_some_and(|cells| cells < EDGE)) {
         doubts.push(
@@ -282,7 +299,7 @@ pub(super) fn doubts(fatigue: &Fatigue, rows: &[FatigueRecord], surroundings: &S
                 .to_owned(),
         );
     }
-    let stride = most(|row| row.stride);
+    let stride = most(|row| row.stride.unwrap_or(0.0));
     if stride > STRIDE {
         doubts.push(format!(
             "the bodies move by {} of the widest spot of contact between two positions whose stress is computed: points see less than the \

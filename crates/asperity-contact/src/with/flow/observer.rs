@@ -28,8 +28,8 @@ impl FlowObserver {
         let fluid = self.leakage.fluid();
         let [pressure, rate] = FIELDS[axis];
         [
-            NamedField { name: pressure, unit: "Pa", values: along.pressure_of(&fluid) },
-            NamedField { name: rate, unit: "m²/s", values: along.rate_of(&fluid) },
+            NamedField { name: pressure.into(), unit: "Pa".into(), values: along.pressure_of(&fluid) },
+            NamedField { name: rate.into(), unit: "m²/s".into(), values: along.rate_of(&fluid) },
         ]
     }
 }

@@ -30,9 +30,39 @@ pub(super) const RULES: &[Rule] = &[
             MOVES,
             r#"fatigue = { to = "8 um" }"#,
         ],
+        broken: |tables| tables.at("plasticity").and(tables.of_body("fatigue.pit_depth", pits)),
+    },
+    Rule {
+        this: "`risk`",
+        with: "a contact that does not move",
+        message: "'risk' needs a [motion], whose passes it compares with those of smooth bodies",
+        hint: "leave 'risk' out; `fatigue.csv` has the life in cycles without it",
+        at: "lower.fatigue.risk",
+        example: &[
+            r#"lower.fatigue = { torsion = "350 MPa", tension = "600 MPa", risk = true }"#,
+            r#"fatigue = { to = "8 um" }"#,
+            r#"history = [{ load = "1 N", cycles = 10 }]"#,
+        ],
         broken: |tables| {
-            let pits = |body: &Body| body.properties.fatigue.is_some_and(|limits| limits.pit_depth > 0.0);
-            tables.at("plasticity").and(tables.of_body("fatigue.pit_depth", pits))
+            let risks = |body: &Body| body.properties.fatigue.is_some_and(|limits| limits.risk);
+            tables.of_body("fatigue.risk", risks).filter(|_| tables.motion().is_none())
+        },
+    },
+    Rule {
+        this: "`pit_depth` in stages",
+        with: "[adhesion]",
+        message: "pits are not broken out of bodies with [adhesion] in stages",
+        hint: "leave 'pit_depth' out; `fatigue.csv` has the damage without it",
+        at: "lower.fatigue.pit_depth",
+        example: &[
+            r#"lower.fatigue = { torsion = "350 MPa", tension = "600 MPa", pit_depth = "2 um" }"#,
+            r#"fatigue = { to = "8 um" }"#,
+            r#"adhesion = { work = "50 mJ/m2", range = "2 nm" }"#,
+            r#"history = [{ load = "1 N", cycles = 10 }]"#,
+        ],
+        broken: |tables| {
+            let pits = tables.of_body("fatigue.pit_depth", pits);
+            pits.filter(|_| !tables.case.course(1.0).stages().is_empty() && !tables.case.interface.is_empty())
         },
     },
     Rule {
@@ -50,3 +80,8 @@ pub(super) const RULES: &[Rule] = &[
         },
     },
 ];
+
+/// Whether material breaks out of a body.
+fn pits(body: &Body) -> bool {
+    body.properties.fatigue.is_some_and(|limits| limits.pit_depth > 0.0)
+}

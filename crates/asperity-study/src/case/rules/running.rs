@@ -37,7 +37,7 @@ pub(super) const RULES: &[Rule] = &[
         hint: "give a body {law tables}, or leave [acceleration] out",
         at: "acceleration",
         example: &[MOVES, JUMPS],
-        broken: |tables| tables.at("acceleration").filter(|_| !tables.case.is_changed_by_passes()),
+        broken: |tables| tables.at("acceleration").filter(|_| !tables.case.is_changed_by_cycles()),
     },
     Rule {
         this: "`max_jump` above 1",

@@ -3,7 +3,7 @@
 use super::super::{Case, StageSpec};
 use super::Rule;
 use super::device::ON_PROCESSOR;
-use super::examples::{AT_ANY_SPEED, MOVES, ON_DEVICE, RUBS, STEADY};
+use super::examples::{AT_ANY_SPEED, JUMPS, MOVES, ON_DEVICE, RUBS, STEADY};
 
 /// The lower body relaxes.
 const RELAXES: &str = r#"lower.viscoelastic = { moduli = ["1 GPa"], times = ["1 s"] }"#;
@@ -78,6 +78,24 @@ pub(super) const RULES: &[Rule] = &[
             ["motion", "sliding", "friction", "adhesion", "plasticity"]
                 .iter()
                 .find_map(|table| tables.at(table))
+        },
+    },
+    Rule {
+        this: "`max_jump` above 1",
+        with: "`cycles` of viscoelastic bodies",
+        message: "the cycles of viscoelastic bodies in time are not extrapolated",
+        hint: "set `max_jump = 1`, or leave [acceleration] out",
+        at: "acceleration",
+        example: &[
+            RELAXES,
+            r#"lower.fatigue = { torsion = "35 MPa", tension = "60 MPa" }"#,
+            r#"fatigue = { to = "8 um" }"#,
+            r#"history = [{ load = "1 N", cycles = 10, period = "1 s" }]"#,
+            JUMPS,
+        ],
+        broken: |tables| {
+            tables.viscoelastic().and(tables.at("history"))?;
+            tables.at("acceleration").filter(|_| tables.jumps())
         },
     },
     Rule {
