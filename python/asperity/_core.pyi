@@ -37,7 +37,7 @@ class Passes:
     """
     A motion under way.
     """
-    def __new__(cls, /, source: dict | str | PathLike[str], handed: Incomplete, directory: str | PathLike[str], existing: str, threads: SupportsIndex) -> Passes: ...
+    def __new__(cls, /, source: dict | str | PathLike[str], handed: Incomplete, directory: str | PathLike[str], existing: str, threads: SupportsIndex, has_custom_laws: bool) -> Passes: ...
     def contacts(self, /, number: SupportsIndex) -> tuple[Incomplete, Incomplete, Incomplete, Incomplete, Incomplete, Incomplete, Incomplete, Incomplete, Incomplete]:
         """
         The contacts of the pass that is solved.

@@ -94,7 +94,7 @@ class Pass(_Moving):
         Number of the pass, from 1.
     numbers : dict
         Numbers of the pass with the columns of `passes.csv`, before material is removed. With `acceleration` a pass may represent
-        several passes, ``numbers["represents"]`` of them; :meth:`remove` then takes the material of all of them off.
+        several passes, ``numbers["represents"]`` of them.
     pitch : tuple of float
         Size of a cell along x and y, m.
     sliding_distance : float
@@ -193,10 +193,15 @@ class Pass(_Moving):
     def remove(self, depth_lower: ArrayLike, depth_upper: ArrayLike, law: str = "wear") -> None:
         """Remove material before the next pass.
 
+        With `acceleration` the depths are those of a single pass. They are removed once for each of the passes that this one represents.
+        Their number is chosen before the depths are known: the depths of a pass bound the number of the next one by `max_wear`, and their
+        change since the pass before bounds it by `tolerance`. It at most doubles from one computed pass to the next.
+
         Parameters
         ----------
         depth_lower, depth_upper : array_like
-            Depth removed from each cell of the body, m; negative for growth. A matrix of the shape of its heights, or one number.
+            Depth that a single pass removes from each cell of the body, m; negative for growth. A matrix of the shape of its heights, or
+            one number.
         law : str
             Name of the law. The results have the removed volumes in the columns `<law>_volume_lower` and `<law>_volume_upper`.
 
@@ -244,6 +249,8 @@ class Simulation(_Moving):
     (2,)
     """
 
+    _has_custom_laws = True
+
     @takes(MotionKeywords)
     def __init__(
         self,
@@ -264,7 +271,7 @@ class Simulation(_Moving):
             out = self._temporary.path
         self.directory = path("out", out)
         self._warner = Warner()
-        self._core = _core.Passes(case, handed.given, self.directory, existing, count)
+        self._core = _core.Passes(case, handed.given, self.directory, existing, count, self._has_custom_laws)
 
     @property
     def done(self) -> int:
@@ -296,8 +303,14 @@ class Simulation(_Moving):
         return run
 
 
+class _WithoutLaws(Simulation):
+    """A motion whose passes no custom law changes."""
+
+    _has_custom_laws = False
+
+
 Law = Callable[[Pass], "tuple[ArrayLike, ArrayLike] | None"]
-"""A law: takes each pass, and returns the depths to remove from the lower and the upper body, m, or `None`."""
+"""A law: takes each pass, and returns the depths that a single pass removes from the lower and the upper body, m, or `None`."""
 
 
 @takes(MotionKeywords)
@@ -317,8 +330,8 @@ def simulate(
     lower, upper, lower_material, upper_material
         The bodies, as in :func:`contact`.
     law : callable, optional
-        Called with each solved :class:`Pass` in the calling thread. It returns the depths to remove from the lower and the upper
-        body, m, or `None`. The volumes are the columns `wear_volume_lower` and `wear_volume_upper` of :attr:`Run.passes`.
+        Called with each solved :class:`Pass` in the calling thread. It returns the depths that a single pass removes from the lower and the
+        upper body, m, or `None`; see :meth:`Pass.remove`. The volumes are the columns `wear_volume_lower` and `wear_volume_upper` of :attr:`Run.passes`.
     **options
 
     Returns
@@ -330,7 +343,8 @@ def simulate(
     asperity.errors.BadInput, asperity.errors.Failed, KeyboardInterrupt
         For the same reasons as :func:`contact`. An exception of `law` ends the run, and its pass is not finished.
     """
-    simulation = Simulation(lower, upper, lower_material, upper_material, **options)
+    motion = _WithoutLaws if law is None else Simulation
+    simulation = motion(lower, upper, lower_material, upper_material, **options)
     for each in simulation:
         removed = None if law is None else law(each)
         if removed is not None:

@@ -114,6 +114,36 @@ def test_archards_wear_balances_its_volume(pair: Pair) -> None:
     assert (run.passes["plastic_volume_lower"] == 0).all()
 
 
+def test_a_custom_law_counts_in_an_accelerated_run(pair: Pair, tmp_path: pathlib.Path) -> None:
+    elastic = [asp.Body(body.surface, asp.Material(young="210 GPa", poisson=0.3)) for body in pair]
+    most = []
+
+    def law(p: asp.Pass) -> tuple:
+        depths = p.on_bodies(1e-16 * p.contacts.pressure * p.sliding_distance)
+        most.append(p.numbers["represents"] * depths[0].max())
+        return depths
+
+    limits = {"acceleration": {"max_wear": "0.2 nm", "tolerance": 1}, "speed": 0.5, "load": 0.02, "progress": False}
+    whole = asp.simulate(*elastic, passes=400, law=law, out=tmp_path / "whole", **limits)
+    table = whole.passes
+    assert table["represents"].sum() == 400 and len(table) < 100
+    # k W s: the depths of a single pass come off once for each pass that is represented.
+    distance = table["distance"][-1] / 400
+    expected = 1e-16 * (table["represents"] * table["mean_load"]).sum() * distance
+    assert table["wear_volume_lower"].sum() == pytest.approx(expected, rel=1e-6)
+    assert 0.1e-9 < max(most) < 0.22e-9
+    simulation = asp.Simulation(*elastic, passes=400, out=tmp_path / "parts", **limits)
+    for p in simulation:
+        p.remove(*law(p))
+        if p.number == 7:
+            break
+    simulation.close()
+    asp.simulate(*elastic, passes=400, law=law, out=tmp_path / "parts", resume=True, **limits)
+    assert (asp.open(tmp_path / "parts").passes["wear_volume_lower"] == table["wear_volume_lower"]).all()
+    with pytest.raises(errors.CaseError, match="needs a body that passes change"):
+        asp.simulate(*elastic, passes=400, **limits)
+
+
 def test_what_is_done_between_two_cells_comes_to_both(pair: Pair) -> None:
     simulation = asp.Simulation(
         *pair, load=0.02, passes=1, strategy="shift", speed_lower=0.3, speed_upper=1.0, stride=2, boundary="periodic"

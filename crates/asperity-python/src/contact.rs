@@ -47,23 +47,29 @@ pub(crate) enum Source<'py> {
 }
 
 impl Source<'_> {
-    fn case(&self, py: Python<'_>) -> PyResult<Case> {
+    fn case(&self, py: Python<'_>, has_custom_laws: bool) -> PyResult<Case> {
+        let nowhere = Path::new("");
         let case = match self {
-            Self::Tables(tables) => Case::parse(&tables::text(tables)?, Path::new(""), Path::new("")),
+            Self::Tables(tables) if has_custom_laws => {
+                Case::parse_with_custom_laws(&tables::text(tables)?, nowhere, nowhere)
+            }
+            Self::Tables(tables) => Case::parse(&tables::text(tables)?, nowhere, nowhere),
             Self::File(path) => Case::load(path),
         };
         ok(case, py)
     }
 }
 
-/// Returns the case of a call with its surfaces; an error if it needs more memory than is available.
+/// Returns the case of a call with its surfaces; an error if it needs more memory than is available. Custom laws may change the bodies of a
+/// motion.
 pub(crate) fn asked(
     py: Python<'_>,
     source: &Source<'_>,
     handed: &CallArguments<'_>,
     threads: usize,
+    has_custom_laws: bool,
 ) -> PyResult<(Case, SurfaceInput)> {
-    let (case, given) = (source.case(py)?, handed.given(py)?);
+    let (case, given) = (source.case(py, has_custom_laws)?, handed.given(py)?);
     let cores = || std::thread::available_parallelism().map_or(1, usize::from);
     let threads = if threads == 0 { cores() } else { threads };
     let demand = study::demand(&case, &given, threads);
@@ -81,7 +87,7 @@ pub(crate) fn rest<'py>(
     progress: Option<Bound<'py, PyAny>>,
     warn: Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (case, given) = asked(py, &source, &handed, threads)?;
+    let (case, given) = asked(py, &source, &handed, threads, false)?;
     let StaticResult {
         outcome,
         increments,

@@ -34,7 +34,7 @@ pub(crate) fn run<'py>(
     progress: Option<Bound<'py, PyAny>>,
     warn: Bound<'py, PyAny>,
 ) -> PyResult<()> {
-    let (case, given) = asked(py, &source, &handed, threads)?;
+    let (case, given) = asked(py, &source, &handed, threads, false)?;
     let existing = self::existing(existing);
     work::run_warning(py, threads, progress.as_ref(), Some(&warn), |watch| {
         study::run(&case, given, &directory, existing, watch).map(|_| ())
@@ -78,8 +78,9 @@ impl CorePasses {
         directory: PathBuf,
         existing: &str,
         threads: usize,
+        has_custom_laws: bool,
     ) -> PyResult<Self> {
-        let (case, given) = asked(py, &source, &handed, threads)?;
+        let (case, given) = asked(py, &source, &handed, threads, has_custom_laws)?;
         let existing = self::existing(existing);
         let passes = work::run(py, threads, None, |looking| {
             Passes::enter_until(&case, given, &directory, existing, &|| looking.stop())
@@ -193,7 +194,7 @@ impl CorePasses {
         Ok((pitch, distance, time, [&pair.lower, &pair.upper].map(|body| body.heights.dim())))
     }
 
-    /// Removes depths from the bodies of the solved pass.
+    /// Removes the depths of a single pass from the bodies of the solved one, for each pass that it represents.
     fn remove(
         &self,
         number: usize,

@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::error::{Result, check, check_in};
 use crate::grid::Field;
 use crate::motion::contact::Contact;
-use crate::motion::law::{Law, Sums};
+use crate::motion::law::{self, Law, Sums};
 use crate::motion::pair::Pair;
 use crate::operator::Boundary;
 use crate::units::{Dimension, MAX_COUNT, Metre};
@@ -89,6 +89,42 @@ pub struct LastExtrapolation {
     pub passes: usize,
     /// Sums over the computed pass of each law that repeats.
     pub sums: Vec<Sums>,
+}
+
+/// Removal by custom laws in the last computed pass. They act once a pass and its extrapolation are known, so that their removal bounds the next
+/// extrapolation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Removed {
+    /// Depth that a single pass takes off each cell of the lower and of the upper body.
+    pub depth: [Field; 2],
+    /// Largest change of this depth from one pass of the motion to the next; 0 after the first removal.
+    pub change: Metre,
+}
+
+impl Removed {
+    /// Creates the removal of a pass, so many `passes` of the motion after the removal `before`.
+    pub(super) fn after(depth: [Field; 2], before: Option<&Self>, passes: f64) -> Self {
+        let change = before.map_or(0.0, |before| {
+            let [now, then] = [&depth, &before.depth].map(std::slice::from_ref);
+            law::difference(now, then) / passes
+        });
+        Self { depth, change }
+    }
+
+    /// Estimates the error of the heights if the depth is taken off over so many `passes` as if it did not change.
+    pub(super) fn error(&self, passes: usize) -> Metre {
+        if passes > 1 { 0.5 * (passes as f64).powi(2) * self.change } else { 0.0 }
+    }
+
+    /// Largest number of passes within an error.
+    pub(super) fn within(&self, error: Metre) -> f64 {
+        (2.0 * error / self.change).sqrt()
+    }
+
+    /// Sum of the depths over the cells that lose height.
+    pub(super) fn sum(&self) -> Metre {
+        self.depth.iter().flatten().map(|depth| depth.max(0.0)).sum()
+    }
 }
 
 /// Bounds on an extrapolation that are known before its error.

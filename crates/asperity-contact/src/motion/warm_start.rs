@@ -5,7 +5,7 @@
 
 use crate::error::Result;
 use crate::motion::contact::Contact;
-use crate::motion::extrapolation::LastExtrapolation;
+use crate::motion::extrapolation::{LastExtrapolation, Removed};
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::motion::store::{CourseState, StateReader, StateWriter, restore_if, restore_sums, store_sums};
@@ -24,6 +24,8 @@ pub struct WarmStart {
     pub positions: Vec<LoadedCells>,
     /// The last extrapolation; `None` before the first pass, or if nothing is removed.
     pub extrapolation: Option<LastExtrapolation>,
+    /// Removal by custom laws in the last pass; `None` without it, or if passes are not extrapolated.
+    pub removed: Option<Removed>,
     /// Finished passes of the motion.
     pub represented: usize,
 }
@@ -59,6 +61,7 @@ impl WarmStart {
         guess: Option<Guess>,
         contacts: &[Contact],
         extrapolation: Option<LastExtrapolation>,
+        removed: Option<Removed>,
         represented: usize,
         before: &Self,
     ) -> Self {
@@ -69,6 +72,7 @@ impl WarmStart {
         Self {
             guess,
             positions: contacts.iter().enumerate().map(loaded_cells).collect(),
+            removed: removed.filter(|_| extrapolation.is_some()),
             extrapolation,
             represented,
         }
@@ -107,6 +111,7 @@ impl WarmStart {
 /// /change        its change since the computed pass before, Pa per pass of the motion
 /// /persistence   at each position, the fraction of this change that is expected again
 /// /sum_lower_1_1 first sum of the first repeating law over the last pass, for the lower body; and so on
+/// /removed_lower depth that custom laws take off the lower body in a single pass, m; and so on, with its change per pass as an attribute
 /// ```
 impl CourseState for WarmStart {
     fn store(&self, to: &mut dyn StateWriter) {
@@ -114,6 +119,11 @@ impl CourseState for WarmStart {
         if let Some(last) = &self.extrapolation {
             to.count("jump", last.passes);
             store_sums(to, "sum", &last.sums);
+        }
+        if let Some(Removed { depth: [lower, upper], change }) = &self.removed {
+            to.field("removed_lower", "m", lower);
+            to.field("removed_upper", "m", upper);
+            to.number("removed_change", *change);
         }
         if let Some(Guess { approach, slope }) = self.guess {
             to.number("approach", approach);
@@ -158,10 +168,15 @@ impl WarmStart {
             let passes = from.number("jump")? as usize;
             Ok(LastExtrapolation { passes, sums: restore_sums(from, "sum")? })
         };
+        let removed = || {
+            let depth = [from.field("removed_lower")?, from.field("removed_upper")?];
+            Ok(Removed { depth, change: from.number("removed_change")? })
+        };
         Ok(Self {
             positions: positions.collect(),
             guess: restore_if(from, "slope", guess)?,
             extrapolation: restore_if(from, "jump", extrapolation)?,
+            removed: restore_if(from, "removed_change", removed)?,
             represented: from.number("represented")? as usize,
         })
     }

@@ -379,6 +379,50 @@ fn chequered_softness(pair: &Pair) -> f64 {
     2.0 * PITCH / (pair.modulus() * PI * 2.0_f64.sqrt())
 }
 
+/// A law from outside, as one in Python: its depths are those of a single pass, and are taken off for each pass that is represented.
+#[test]
+fn a_custom_law_is_extrapolated_as_one_that_is_built_in() {
+    const PASSES: usize = 400;
+    let coefficient = 4e-16;
+    let run = |acceleration: Acceleration| {
+        let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(PASSES).with_stride(4);
+        let simulation =
+            Simulation::new(rough(f64::INFINITY, 16), Boundary::PERIODIC, motion, Params::default()).unwrap();
+        let mut simulation = simulation.with_acceleration(acceleration).unwrap();
+        let mut kept = Kept::default();
+        while simulation.represented() < PASSES {
+            let mut pass = simulation.solve(&()).unwrap();
+            let mut depth = [16; 2].map(|n| Field::zeros([n, n]));
+            let distance = 4.0 * PITCH;
+            for contact in pass.contacts() {
+                for (cell, pressure) in &contact.pressure {
+                    let cells = pass.pair().cells_of_bodies(&contact.position, *cell as usize);
+                    for (depth, cell) in depth.iter_mut().zip(cells) {
+                        depth.as_slice_mut().unwrap()[cell] += coefficient * pressure * distance;
+                    }
+                }
+            }
+            pass.remove("wear", &depth);
+            simulation.finish(pass, &(), &mut [&mut kept]).unwrap();
+        }
+        kept
+    };
+    let all = run(Acceleration::NONE);
+    let some = run(Acceleration::default().with_max_wear(1e-9));
+    assert!(some.represented() == PASSES && some.passes.len() < PASSES / 4, "{}", some.passes.len());
+    let volume = |kept: &Kept| kept.passes.iter().map(|pass| pass.lost("wear")[0]).sum::<f64>();
+    // Archard: k W s, where each of the passes slides over the length of the grid.
+    let expected = coefficient * 0.05 * 16.0 * PITCH * PASSES as f64;
+    for kept in [&all, &some] {
+        assert!((volume(kept) / expected - 1.0).abs() < 1e-3, "{} {expected}", volume(kept));
+    }
+    // No extrapolation takes much more than its limit from a cell, and the heights are off by no more than is estimated.
+    for (every, some_of_them) in all.heights().into_iter().zip(some.heights()) {
+        let off = (every - some_of_them).iter().fold(0.0, |most: f64, off| most.max(off.abs()));
+        assert!(off < some.error(), "{off:e} {:e}", some.error());
+    }
+}
+
 /// The explicit step oscillates above the bound (k₁ + k₂) Σ|Δs| = 2λ, until every second cell has no pressure. If a law
 /// wears more, a pass is solved together with its wear, and does not oscillate.
 #[test]

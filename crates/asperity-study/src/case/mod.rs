@@ -105,6 +105,9 @@ pub struct Case {
     pub with: Capabilities,
     /// Output options.
     pub output: Output,
+    /// Whether custom laws may change the bodies between two passes.
+    #[serde(skip)]
+    has_custom_laws: bool,
     #[serde(skip)]
     document: Document,
 }
@@ -190,7 +193,15 @@ impl Case {
     /// # Errors
     /// [`Error::Case`] if it has a mistake.
     pub fn parse(text: &str, file: &Path, folder: &Path) -> Result<Self> {
-        parse::case(text, file, folder)
+        parse::case(text, file, folder, false)
+    }
+
+    /// [`parse`](Self::parse) for a motion whose passes custom laws may change, by [`SolvedPass::remove`](asperity_contact::motion::SolvedPass::remove).
+    ///
+    /// # Errors
+    /// The errors of [`parse`](Self::parse).
+    pub fn parse_with_custom_laws(text: &str, file: &Path, folder: &Path) -> Result<Self> {
+        parse::case(text, file, folder, true)
     }
 
     /// Returns the case as it is solved by another device.

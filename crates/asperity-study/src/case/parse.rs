@@ -27,11 +27,11 @@ pub(super) fn topography_alone(text: &str, folder: &Path) -> Result<(TopographyS
     Ok((spec, document))
 }
 
-pub(super) fn case(text: &str, file: &Path, folder: &Path) -> Result<Case> {
+pub(super) fn case(text: &str, file: &Path, folder: &Path, has_custom_laws: bool) -> Result<Case> {
     let mut document = Document::new(file.to_owned(), text);
     let entries = document.parse(text)?;
     let root = Table::root(&document, entries.get_ref());
-    let case = read(&root, file, folder)?;
+    let case = Case { has_custom_laws, ..read(&root, file, folder)? };
     rules::check(&root, &case)?;
     Ok(Case { document, ..case })
 }
@@ -99,6 +99,7 @@ fn read(table: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
         subsurface: root.subsurface,
         with,
         output: root.output,
+        has_custom_laws: false,
         document: Document::default(),
     })
 }

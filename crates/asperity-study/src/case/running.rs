@@ -89,9 +89,9 @@ impl Case {
         kept
     }
 
-    /// Whether passes or cycles change the bodies: by a law, or what a capability remembers of them.
+    /// Whether passes or cycles change the bodies: by a law, a custom one, too, or what a capability remembers of them.
     pub(crate) fn is_changed_by_cycles(&self) -> bool {
-        self.runs_in() || self.remembered() > 0
+        self.runs_in() || self.remembered() > 0 || self.has_custom_laws
     }
 
     /// Whether contacts change the bodies by a law.

@@ -4,7 +4,7 @@ use super::Simulation;
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::extrapolation::{
-    self, Acceleration, Bounds, Extrapolation, GridCompliance, LastExtrapolation,
+    self, Acceleration, Bounds, Extrapolation, GridCompliance, LastExtrapolation, Removed,
 };
 use crate::motion::heat::PassHeat;
 use crate::motion::law::{self, FrictionHeat, Heat, Law, Sums};
@@ -20,11 +20,11 @@ use crate::units::CubicMetre;
 pub(super) struct Changes {
     /// The laws, in their order.
     pub(super) laws: Vec<Box<dyn Law>>,
-    /// The memories of whole passes.
+    /// The memories of passes.
     pub(super) memories: Vec<Box<dyn Memory>>,
     pub(super) acceleration: Acceleration,
-    /// Compliance of single cells; set once a law repeats, or if there is a memory.
-    compliance_of_grid: Option<GridCompliance>,
+    /// Compliance of single cells; set once a law repeats, if there is a memory, or if passes are extrapolated.
+    pub(super) compliance_of_grid: Option<GridCompliance>,
     /// The flash temperature over a pass, if requested.
     pub(super) heat: Option<PassHeat>,
 }
@@ -166,7 +166,7 @@ impl Simulation {
         let repeated = sums.split_off(once);
         let mut lost = std::mem::take(&mut pass.lost);
         law::advance(flow, &mut pass.pair, &sums, 1.0, &self.interiors, &mut lost[..once]);
-        let jumps = !self.changes.memories.is_empty() && self.changes.acceleration.max_jump > 1;
+        let jumps = self.changes.acceleration.max_jump > 1;
         if laws.is_empty() && self.changes.heat.is_none() && !jumps {
             pass.lost = lost;
             self.remember(pass, 1, None);
@@ -238,11 +238,18 @@ impl Simulation {
         };
         let one = law::tried(laws, &pass.pair, sums, 1);
         let worn = one.iter().flatten().map(|depth| depth.iter().map(|depth| depth.max(0.0)).sum::<f64>());
+        let pressures = pass.contacts.iter().flat_map(|contact| &contact.pressure);
+        let highest = pressures.fold(0.0, |most: f64, (_, p)| most.max(*p));
+        let allowed = self.changes.acceleration.tolerance * removal.compliance_of_grid.single * highest;
+        let custom = self.warm.removed.as_ref();
+        let by_custom = |value: &dyn Fn(&Removed) -> f64| custom.map_or(0.0, value);
+        let deepest = |depths: &[[Field; 2]]| law::deepest(depths).into_iter().fold(0.0, f64::max);
+        let worn = worn.sum::<f64>() + by_custom(&Removed::sum);
         let bounds = Bounds {
             left: self.motion.passes - self.represented(),
-            volumes: [flown, self.pair.cell_area() * worn.sum::<f64>()],
-            deepest: law::deepest(&one).into_iter().fold(0.0, f64::max),
-            stable: removal.stable,
+            volumes: [flown, self.pair.cell_area() * worn],
+            deepest: deepest(&one) + by_custom(&|custom| deepest(std::slice::from_ref(&custom.depth))),
+            stable: custom.map_or(f64::INFINITY, |custom| custom.within(allowed)).min(removal.stable),
         };
         let mut passes = self
             .changes
@@ -250,9 +257,6 @@ impl Simulation {
             .most(&bounds, before)
             .min(memory::most_cycles(&self.changes.memories, &pass.pair))
             .max(1);
-        let pressures = pass.contacts.iter().flat_map(|contact| &contact.pressure);
-        let highest = pressures.fold(0.0, |most: f64, (_, p)| most.max(*p));
-        let allowed = self.changes.acceleration.tolerance * removal.compliance_of_grid.single * highest;
         while passes > 1 {
             let mean = extrapolation::extrapolated(sums, before, passes);
             let error = law::difference(

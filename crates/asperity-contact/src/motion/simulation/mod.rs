@@ -1,7 +1,7 @@
 //! The motion itself: pass after pass.
 
 mod changes; // changes of the bodies by laws
-mod memories; // memories of whole passes
+mod memories; // memories of passes
 mod search; // the approach of a pass
 mod solved; // a solved pass
 
@@ -14,7 +14,7 @@ use crate::motion::body::Body;
 use crate::motion::contact::Contact;
 use crate::motion::course::{self, Course, Output, Step};
 use crate::motion::creeping;
-use crate::motion::extrapolation::{Acceleration, GridCompliance};
+use crate::motion::extrapolation::{Acceleration, GridCompliance, Removed};
 use crate::motion::heat::PassHeat;
 use crate::motion::law::Law;
 use crate::motion::pair::Pair;
@@ -228,6 +228,9 @@ impl Simulation {
     pub fn with_acceleration(mut self, acceleration: Acceleration) -> Result<Self> {
         let acceleration = acceleration.checked()?;
         if acceleration.max_jump > 1 {
+            self.changes
+                .compliance_of_grid
+                .get_or_insert_with(|| GridCompliance::of(&self.pair, self.boundary));
             if !self.repeats() {
                 return Err(Error::Unsupported("extrapolation needs passes that repeat"));
             }
@@ -436,6 +439,7 @@ impl Simulation {
             interiors,
             running,
             extrapolation,
+            removed: None,
             represented,
             history_difference,
             distance,
@@ -473,7 +477,12 @@ impl Simulation {
     }
 
     /// Returns a solved pass with the state that it leaves to the next one.
-    fn finished(&self, pass: SolvedPass) -> FinishedPass {
+    fn finished(&self, mut pass: SolvedPass) -> FinishedPass {
+        let (before, passes) = (self.warm.removed.as_ref(), self.warm.extrapolated_passes());
+        let removed = pass.removed.take().map(|depth| Removed::after(depth, before, passes));
+        if let (Some(running), Some(removed)) = (&mut pass.running, &removed) {
+            running.error_estimate += removed.error(running.represents);
+        }
         let record = pass.record();
         let SolvedPass { outcome, hardness, steps, guess, extrapolation, represented, .. } = pass;
         // Without repetition the next pass begins from zero.
@@ -483,7 +492,7 @@ impl Simulation {
             true => (guess, &outcome.contacts[..self.distinct]),
             false => (None, &[][..]),
         };
-        let warm = WarmStart::new(guess, again, extrapolation, represented, &self.warm);
+        let warm = WarmStart::new(guess, again, extrapolation, removed, represented, &self.warm);
         FinishedPass { record, outcome, hardness, steps, warm }
     }
 

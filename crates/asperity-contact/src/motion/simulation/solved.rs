@@ -27,6 +27,8 @@ pub struct SolvedPass {
     pub(super) interiors: [Interior; 2],
     pub(super) running: Option<RunningRecord>,
     pub(super) extrapolation: Option<LastExtrapolation>,
+    /// Depth that custom laws take off both bodies in a single pass.
+    pub(super) removed: Option<[Field; 2]>,
     /// Finished passes of the motion, this one and its extrapolation included.
     pub(super) represented: usize,
     /// Largest change of the load of a position if the bodies come from the position before, relative to the mean load.
@@ -80,8 +82,11 @@ impl SolvedPass {
         }
     }
 
-    /// Removes a `depth` from each cell of the lower and of the upper body, m, below 0 if a cell grows. The volume is
-    /// attributed to the law of this name, in snake case.
+    /// Removes the `depth` of a single pass from each cell of the lower and of the upper body, m, below 0 if a cell grows, for each pass that
+    /// this one represents. The volume is attributed to the law of this name, in snake case.
+    ///
+    /// The number of passes is chosen before the depth is known. With [`Acceleration`](crate::motion::Acceleration) the depth of a pass bounds
+    /// the extrapolation of the next one.
     ///
     /// # Panics
     /// If the shape of a depth differs from that of its body.
@@ -91,7 +96,12 @@ impl SolvedPass {
             lost.push(LostVolume::nothing(law));
             lost.len() - 1
         });
-        law::remove(pair, depth, &self.interiors, &mut lost[known]);
+        let passes = self.running.map_or(1, |running| running.represents) as f64;
+        law::remove(pair, &depth.each_ref().map(|depth| depth * passes), &self.interiors, &mut lost[known]);
+        self.removed = Some(match self.removed.take() {
+            None => depth.clone(),
+            Some([lower, upper]) => [lower + &depth[0], upper + &depth[1]],
+        });
     }
 }
 
