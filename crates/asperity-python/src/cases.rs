@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use asperity::motion::Watch;
-use asperity::study::many::{self, Axis, Computed, Folder, Queue, State, Study, Table, TableColumn, Tally, Task};
+use asperity::study::many::{
+    self, Axis, Computed, Folder, Queue, State, Study, Table, TableColumn, Tally, Task,
+};
 use asperity::study::unit_of_column;
 use asperity_cli::{available_memory, collect_study};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};

@@ -219,7 +219,7 @@ pub(super) struct Observers {
     each: Vec<Box<dyn Look + Send + Sync>>,
     /// Index of the first position of a pass at which the left edges are flush.
     flush: Option<usize>,
-    /// What the terminal shows of the last step.
+    /// Numbers of the last step for the terminal.
     cells: Vec<StepCell>,
 }
 

@@ -28,9 +28,9 @@ pub(super) struct Rows {
     done: usize,
     /// The columns of the laws that change a body, each with the sum of its values.
     laws: Vec<(PassCell, f64)>,
-    /// What capabilities show in the row of the next pass.
+    /// Numbers of capabilities in the row of the next pass.
     found: Vec<StepCell>,
-    /// What they show in the rows of the passes before an interruption, by pass.
+    /// Their numbers in the rows of the passes before an interruption, by pass.
     earlier: BTreeMap<usize, Vec<StepCell>>,
 }
 

@@ -114,7 +114,10 @@ pub(super) fn finish<C: Course>(
     watch: &dyn Watch,
     outputs: &mut [&mut dyn Output],
 ) -> Result<()> {
-    let step = course.report(&solved);
+    let mut step = course.report(&solved);
+    if let Some(cycle) = &mut step.cycle {
+        cycle.watch = watch;
+    }
     step.check()
         .and_then(|()| outputs.iter_mut().try_for_each(|output| output.step(&step)))
         .map_err(|error| error.if_of_step(|source| step.at(source)))?;

@@ -407,6 +407,7 @@ impl StagedLoading {
             mean_pressure: load / changed.pair.lower_grid().area(),
             pair: &changed.pair,
             pass: None,
+            watch: &(),
         })
     }
 

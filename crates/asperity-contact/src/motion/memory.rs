@@ -66,6 +66,12 @@ impl<'a> LoadCycle<'a> {
         Self::first(Contacts::AtRest(contacts))
     }
 
+    /// Lets the memories stop where this says so.
+    #[must_use]
+    pub fn until(self, stop: &'a (dyn Fn() -> bool + Sync)) -> Self {
+        Self { stop, ..self }
+    }
+
     fn first(contacts: Contacts<'a>) -> Self {
         Self { contacts, number: 1, plastic_volumes: &[], extrapolated: 1.0, stop: &|| false }
     }

@@ -82,7 +82,7 @@ pub use sweep::{Point, SweepState, sweep};
 pub use together::memory_together;
 pub use truncation::Truncation;
 pub use warm_start::{Guess, LoadedCells, WarmStart};
-pub use watch::{Progress, StepCell, Watch};
+pub use watch::{Progress, StepCell, StopsWith, Watch};
 
 use crate::error::{Error, Result};
 use crate::solver::{Bounds, Control, Friction, Sliding};

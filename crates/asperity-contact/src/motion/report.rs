@@ -7,6 +7,7 @@ use crate::motion::pair::Pair;
 use crate::motion::plastic_volume::PlasticVolume;
 use crate::motion::record::{PassRecord, StepRecord};
 use crate::motion::warm_start::WarmStart;
+use crate::motion::watch::Watch;
 use crate::plasticity::PlasticState;
 use crate::solver::Bounds;
 use crate::units::Pascal;
@@ -56,6 +57,14 @@ pub struct CycleReport<'a> {
     pub pair: &'a Pair,
     /// The pass; `None` for a cycle of a loading.
     pub pass: Option<PassReport<'a>>,
+    pub(super) watch: &'a dyn Watch,
+}
+
+impl CycleReport<'_> {
+    /// Whether the course is to stop. A long computation about the cycle then ends with [`Error::Interrupted`](crate::Error::Interrupted).
+    pub fn stop(&self) -> bool {
+        self.watch.stop()
+    }
 }
 
 impl<'a> PassReport<'a> {
@@ -69,6 +78,7 @@ impl<'a> PassReport<'a> {
             mean_pressure: self.record.mean_pressure,
             pair: self.pair,
             pass: Some(self),
+            watch: &(),
         }
     }
 }

@@ -75,6 +75,17 @@ impl Watch for () {
     }
 }
 
+/// Observes a motion on the side of another computation, and stops it with that one.
+pub struct StopsWith<'a>(pub &'a (dyn Fn() -> bool + Sync));
+
+impl Watch for StopsWith<'_> {
+    fn at(&self, _: &Progress) {}
+
+    fn stop(&self) -> bool {
+        self.0()
+    }
+}
+
 /// Observes one contact of many, which stops when the whole computation does.
 pub(super) struct OneOfMany<'a>(pub(super) &'a dyn Watch);
 

@@ -13,12 +13,12 @@ pub(super) struct KeptContacts {
 }
 
 impl KeptContacts {
-    /// Those of a course before its first step.
+    /// The choice before the first step of a course.
     pub(super) const fn new(every: usize) -> Self {
         Self { every, answering: None }
     }
 
-    /// Those after these steps, and a step whose fields may have been left when the course was interrupted.
+    /// The choice after these steps, and a step whose fields may have been left when the course was interrupted.
     pub(super) fn after<'a>(every: usize, done: impl Iterator<Item = StepRow<'a>>) -> (Self, Option<usize>) {
         let (mut kept, mut left) = (Self::new(every), None);
         for (index, row) in done.enumerate() {

@@ -166,7 +166,7 @@ impl StepWriter {
         }
     }
 
-    /// What a row of this kind describes, and the file of its fields.
+    /// Name of the contacts that rows of this kind describe, and the file of their fields.
     fn contact_file(&self, row: StepRow<'_>, number: usize) -> Option<(&'static str, PathBuf)> {
         match row {
             StepRow::Increment(_) => Some(("increment", self.results.increment_path(number))),

@@ -2,10 +2,12 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
+use asperity_base::Error;
 use asperity_contact::Field;
 use asperity_contact::fatigue::{Basquin, Fatigue, FatigueRecord, OnBody, advance_damage};
-use asperity_contact::motion::PassRecord;
+use asperity_contact::motion::{PassRecord, Progress, Watch};
 use asperity_contact::wear::WearRate;
 use asperity_contact::with::Capability;
 use asperity_study::{Case, Existing, Results, Summary, SurfaceInput};
@@ -244,6 +246,45 @@ layers = 6
 "#
     );
     Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap()
+}
+
+/// Counts how often it is asked whether to stop, and stops at one of these questions.
+struct StopAt {
+    asked: AtomicUsize,
+    at: usize,
+}
+
+impl Watch for StopAt {
+    fn at(&self, _: &Progress) {}
+
+    fn stop(&self) -> bool {
+        self.asked.fetch_add(1, Ordering::Relaxed) >= self.at
+    }
+}
+
+/// The pass of the smooth bodies is solved after that of the bodies, and asks to the end.
+#[test]
+fn the_pass_of_the_smooth_bodies_can_be_stopped() {
+    let folder = tempfile::tempdir().unwrap();
+    let ball = ball("20 nm", r#"sphere", radius = "5 mm"#);
+    let mut without_risk = ball.clone();
+    without_risk.lower.properties.fatigue.as_mut().unwrap().risk = false;
+    let asked = |case: &Case, at: usize| {
+        let out = tempfile::tempdir_in(folder.path()).unwrap();
+        let watch = StopAt { asked: AtomicUsize::new(0), at };
+        let ended = asperity_study::run(
+            case,
+            SurfaceInput::default(),
+            &out.path().join("out"),
+            Existing::Keep,
+            &watch,
+        );
+        (watch.asked.into_inner(), ended.map(|_| ()))
+    };
+    let [before, whole] = [&without_risk, &ball].map(|case| asked(case, usize::MAX).0);
+    assert!(whole > before + before / 4, "{before} {whole}");
+    let (_, ended) = asked(&ball, whole - (whole - before) / 4);
+    assert!(matches!(ended, Err(Error::Interrupted)), "{ended:?}");
 }
 
 #[test]

@@ -69,7 +69,7 @@ impl Conductance {
 
     /// Whether the flux is spread over all of the grid along its free axes: the variance of its places is at least a part of that of an even flux.
     fn fills_the_grid(&self) -> bool {
-        /// That of a disc a third as wide as the grid.
+        /// Variance of a disc a third as wide as the grid.
         const LEAST: f64 = 0.1;
         let Some(flux) = &self.flux else { return true };
         let total = flux.sum();

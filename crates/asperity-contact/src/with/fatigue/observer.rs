@@ -59,9 +59,12 @@ impl FatigueObserver {
         let pass = report.pass.as_ref();
         let plastic = pass.filter(|pass| pass.plastic_volumes.iter().any(|volume| volume.body == index));
         let life_ratio = match (&self.smooth, pass) {
-            (Some(smooth), Some(pass)) if limited.risk => {
-                smooth.life_ratio(&self.below, (index, limited), pass.motion, &of_cycle)?
-            }
+            (Some(smooth), Some(pass)) if limited.risk => smooth.life_ratio(
+                &self.below,
+                (index, limited),
+                (pass.motion, &|| report.stop()),
+                &of_cycle,
+            )?,
             _ => None,
         };
         let row = FatigueRecord {

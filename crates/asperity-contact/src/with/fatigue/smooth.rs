@@ -6,7 +6,7 @@ use super::below::{Below, Limited};
 use super::risk;
 use crate::error::Result;
 use crate::grid::Field;
-use crate::motion::{LoadCycle, Motion, Pair, Simulation};
+use crate::motion::{LoadCycle, Motion, Pair, Simulation, StopsWith};
 use crate::solver::{Control, Params};
 use crate::with::Given;
 use asperity_surface::{Level, Topography};
@@ -46,18 +46,18 @@ impl Smooth {
     /// each depth. `None` if the smooth bodies are flat, or if nothing is at risk.
     ///
     /// # Errors
-    /// The errors of the contact of the smooth bodies.
+    /// The errors of the contact of the smooth bodies; [`Error::Interrupted`](crate::Error::Interrupted).
     pub(super) fn life_ratio(
         &self,
         below: &Below,
         (index, limited): (usize, &Limited),
-        motion: &Motion,
+        (motion, stop): (&Motion, &(dyn Fn() -> bool + Sync)),
         over_limit: &[&Field],
     ) -> Result<Option<f64>> {
         let found = match self.found.get() {
             Some(found) => found,
             None => {
-                let found = self.solve(below, motion)?;
+                let found = self.solve(below, motion, stop)?;
                 self.found.get_or_init(|| found)
             }
         };
@@ -68,10 +68,16 @@ impl Smooth {
     }
 
     /// Solves a pass of the smooth bodies.
-    fn solve(&self, below: &Below, motion: &Motion) -> Result<Option<([f64; 2], f64)>> {
+    fn solve(
+        &self,
+        below: &Below,
+        motion: &Motion,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<([f64; 2], f64)>> {
         let Control::Load(_) = motion.control else { return Ok(None) };
         let motion = Motion { passes: 1, ..*motion };
-        let pass = Simulation::new(self.pair.clone(), below.boundary, motion, self.params)?.solve(&())?;
+        let simulation = Simulation::new(self.pair.clone(), below.boundary, motion, self.params)?;
+        let pass = simulation.solve(&StopsWith(stop))?;
         let widest = pass
             .steps()
             .iter()
@@ -87,7 +93,7 @@ impl Smooth {
         let across = touched.columns().into_iter().filter(|row| row.iter().any(|p| *p > 0.0)).count();
         let mut risks = [0.0; 2];
         for (index, limited) in below.limited() {
-            let cycle = LoadCycle::of_pass(pass.contacts(), &motion);
+            let cycle = LoadCycle::of_pass(pass.contacts(), &motion).until(stop);
             let found = below.seen((index, limited), &self.pair, &cycle)?;
             let over: Vec<Field> = found.iter().map(|at| &at.f / limited.criterion.limit()).collect();
             risks[index] = at_risk(below, limited, &over.iter().collect::<Vec<_>>());
