@@ -42,7 +42,7 @@ pub(super) fn scar(before: &Pair, after: &Pair, boundary: Boundary) -> Option<St
     let is_cut_off = rim > SHALLOW * most;
     (is_cut_off && Paraboloid::of(&before.initial_gap(&before.at_rest()), before.pitch()).is_some()).then(|| {
         format!(
-            "the scar reaches the rim of the grid along {}: the outermost cells have lost {}, the deepest {}, and what wears beyond the \
+            "the scar reaches the rim of the grid along {}: the outermost cells have lost {}, the deepest {}, and what is worn beyond the \
              grid is missing; take a larger `shape`, or let the bodies slide less far",
             ["x", "y"][axis],
             units::format(rim, Dimension::Length),

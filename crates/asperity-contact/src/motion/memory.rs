@@ -31,8 +31,8 @@ pub trait Memory: Send + Sync {
     /// Largest number of cycles, ≥ 1, over which the cycle may be extrapolated.
     fn most_cycles(&self, pair: &Pair) -> f64;
 
-    /// Changes its state by so many `cycles` like the last one, in which the lower and the upper body were worn by these depths, m; by wear alone
-    /// if there are 0. Returns the further height that each cell of the bodies loses, m. The caller lowers the heights.
+    /// Changes its state by so many `cycles` like the last one, in which the lower and the upper body lost these depths by laws, m; by these
+    /// alone if there are 0. Returns the further height that each cell of the bodies loses, m. The caller lowers the heights.
     fn advance(&self, pair: &mut Pair, cycles: f64, worn: &[Field; 2]) -> [Field; 2];
 }
 

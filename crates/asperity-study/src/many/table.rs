@@ -312,7 +312,7 @@ fn answers(columns: &mut [TableColumn]) -> Vec<usize> {
     for (n, column) in columns.iter_mut().enumerate() {
         let name = column.name.strip_prefix(SLIDING).unwrap_or(&column.name);
         let place = known.iter().position(|(known, _)| known == name);
-        // The wear of a single pass is no answer about all of them.
+        // A value of a single pass is no answer about all of them.
         let adds_up =
             declared(PassRecord::COLUMNS, name).is_none_or(|c| c.over_motion != OverMotion::MeanOfPass);
         if let Some(place) = place.filter(|_| column.answer.is_none() && (adds_up || !column.of_last_pass)) {

@@ -2,8 +2,7 @@
 
 use super::Read;
 use super::cells::{Line, has_decimal_commas, number};
-use super::head::Head;
-use super::titles::{Deformation, Quantity};
+use super::titles::{Deformation, Head, Quantity};
 use asperity_base::units::format_number;
 use asperity_contact::viscoelastic::MasterPoint;
 

@@ -3,14 +3,7 @@
 use super::Read;
 use super::cells::{Line, is_number};
 use super::columns::Columns;
-use super::titles::{Deformation, Quantity, Title, Unit};
-
-/// Titles of the columns.
-pub(super) struct Head {
-    /// Number of their line; of the last one if each title has a line.
-    pub(super) line: usize,
-    pub(super) titles: Vec<Title>,
-}
+use super::titles::{Deformation, Head, Quantity, Title, Unit};
 
 impl Head {
     /// Finds the titles, and the lines below them.
@@ -44,10 +37,6 @@ impl Head {
         lines[first..][..count.max(1)].iter().rev().find_map(head)
     }
 
-    pub(super) fn of(line: &Line) -> Self {
-        Self { line: line.number, titles: line.cells.iter().map(|cell| Title::of(cell)).collect() }
-    }
-
     /// Titles that name nothing else: units of frequency, storage modulus and loss modulus, in this order.
     fn by_position(line: &Line) -> Option<Self> {
         let mut head = Self::of(line);
@@ -56,11 +45,6 @@ impl Head {
             title.quantity = title.quantity.or(Some(quantity)).filter(|found| *found == quantity);
         }
         (head.titles.len() == 3 && head.titles.iter().all(|title| title.factor().is_some())).then_some(head)
-    }
-
-    pub(super) fn names_a_modulus(&self) -> bool {
-        let has = |is: fn(Quantity) -> bool| self.titles.iter().any(|title| title.quantity.is_some_and(is));
-        has(|quantity| quantity == Quantity::Frequency) && has(Quantity::is_modulus)
     }
 
     /// Takes units from the lines above the numbers, and returns the columns of the curve with the lines from the numbers on.

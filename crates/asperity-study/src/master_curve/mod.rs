@@ -16,8 +16,8 @@ use asperity_base::io::text;
 use asperity_contact::viscoelastic::MasterPoint;
 use cells::lines;
 use columns::Columns;
-use head::Head;
 use titles::Deformation;
+use titles::Head;
 
 /// A master curve with the digest of its file, hexadecimal.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::cells::Line;
 use asperity_base::units::{self, Dimension};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -201,6 +202,24 @@ fn quantity(words: &[&str], has: impl Fn(&[&str]) -> bool, is: impl Fn(&[&str]) 
         Some(Quantity::Frequency)
     } else {
         has(&["temp"]).then_some(Quantity::Temperature)
+    }
+}
+
+/// Titles of the columns.
+pub(super) struct Head {
+    /// Number of their line; of the last one if each title has a line.
+    pub(super) line: usize,
+    pub(super) titles: Vec<Title>,
+}
+
+impl Head {
+    pub(super) fn of(line: &Line) -> Self {
+        Self { line: line.number, titles: line.cells.iter().map(|cell| Title::of(cell)).collect() }
+    }
+
+    pub(super) fn names_a_modulus(&self) -> bool {
+        let has = |is: fn(Quantity) -> bool| self.titles.iter().any(|title| title.quantity.is_some_and(is));
+        has(|quantity| quantity == Quantity::Frequency) && has(Quantity::is_modulus)
     }
 }
 

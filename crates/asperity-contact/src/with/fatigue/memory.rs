@@ -41,7 +41,7 @@ impl Damage {
         let of_cycle: Vec<&Field> = (0..layers).map(|k| &body.state[&states::over_limit(k)].values).collect();
         let mut lost = Field::zeros(body.heights.raw_dim());
         let (mut column, mut each) = (vec![0.0; layers], vec![0.0; layers]);
-        // Wear between cycles is that of a single one without damage.
+        // Removal by laws between cycles counts as a cycle without damage.
         let (times, share) = (cycles.max(1.0), cycles.min(1.0));
         for (cell, lost) in lost.indexed_iter_mut() {
             for k in 0..layers {
