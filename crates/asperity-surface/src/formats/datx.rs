@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 use hdf5_pure::{AttrValue, File, Group};
 
-use super::hdf5::{Set, dataset, number, text};
+use super::data_sets::{Set, dataset, number, text};
 use super::words::{excerpt, unit_of_length};
 use super::{Decoded, Fault, LengthUnit, Scan, choose_among, finite, usable_pitch};
 use asperity_base::error::Defect;

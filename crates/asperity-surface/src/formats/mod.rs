@@ -19,6 +19,8 @@ mod asc;
 mod bcr;
 mod csv;
 #[cfg(feature = "hdf5")]
+mod data_sets;
+#[cfg(feature = "hdf5")]
 mod datx;
 mod frt;
 mod gsf;

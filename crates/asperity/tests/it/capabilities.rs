@@ -78,6 +78,8 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
             "asperity/src/lib.rs",
             // Limits without the table, and elasto-plastic bodies.
             "asperity-study/src/case/rules/bodies.rs",
+            // An example of cycles in time, which only it looks at.
+            "asperity-study/src/case/rules/viscoelastic.rs",
             // Its function in Python, and the rows of a run.
             "asperity-python/src/fatigue.rs",
             "asperity-python/src/lib.rs",
@@ -104,6 +106,8 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
             "asperity-study/src/case/rules/loading.rs",
             // Tables that viscoelastic bodies do not support.
             "asperity-study/src/case/rules/viscoelastic.rs",
+            // Bodies that pit in stages.
+            "asperity-study/src/case/rules/bodies.rs",
             // A case that shows it.
             "asperity-cli/src/example/kits.rs",
             // Its numbers in Python, its error, and the types that are made from its table.
