@@ -171,7 +171,7 @@ impl StagedLoading {
             ));
         }
         if self.pair.creep().is_some() && self.acceleration.max_jump > 1 {
-            return Err(Error::Unsupported("cycles of viscoelastic bodies in time are not extrapolated"));
+            return Err(Error::Unsupported("cycles of bodies that creep are not extrapolated"));
         }
         let (operators, _) = facing(&self.pair, self.boundary)?;
         let with = (&operators, self.boundary, self.params);

@@ -120,7 +120,7 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
     ),
     (
         "viscoelas",
-        &["src/viscoelastic/", "with/viscoelastic"],
+        &["src/viscoelastic/", "with/viscoelastic", "src/master_curve/"],
         &[
             // The list, and its names in both libraries.
             "asperity-contact/src/with/mod.rs",
