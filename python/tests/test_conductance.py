@@ -21,7 +21,9 @@ def test_a_round_spot_conducts_twice_its_radius():
     radius = math.sqrt(ROUND.sum() / math.pi) * 1e-6
     assert found.conductance == pytest.approx(2 * 46 * radius, rel=1e-2)
     assert found.resistance == pytest.approx(1 / found.conductance, rel=1e-12)
-    assert found.joint_conductance == pytest.approx(found.conductance / (64e-6) ** 2, rel=1e-12)
+    # The joint is what the spot adds to the resistance of the whole grid.
+    joint = found.resistance - found.full_resistance
+    assert found.joint_conductance == pytest.approx(1 / (joint * (64e-6) ** 2), rel=1e-12)
     assert found.holm_greenwood == pytest.approx(1 / (2 * 46 * radius), rel=1e-12)
     assert (found.spots, found.spot_share, found.gas_share, found.film_share) == (1, 1.0, 0.0, 0.0)
     assert found.median_cells == ROUND.sum()

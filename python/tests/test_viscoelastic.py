@@ -45,7 +45,7 @@ def test_a_master_curve_is_fitted(tmp_path: pathlib.Path) -> None:
     fitted = drag(file=str(file), terms_per_decade=3)
     assert fitted == pytest.approx(drag(moduli=[9e6], times=[1e-3]), rel=0.1)
     file.write_text("frequency,storage_Pa,loss_Pa\n1,2,3\n")
-    with pytest.raises(errors.CaseError, match="the frequency 'frequency' has no unit"):
+    with pytest.raises(errors.CaseError, match="the frequency `frequency` has no unit"):
         drag(file=str(file))
 
 
