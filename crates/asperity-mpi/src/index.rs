@@ -79,7 +79,7 @@ impl Index {
         identity: &str,
     ) -> Self {
         let Grid { shape, pitch } = slab.whole_grid();
-        let named = |field: &NamedField| Named { name: field.name.to_owned(), unit: field.unit.to_owned() };
+        let named = |field: &NamedField| Named { name: field.name.to_string(), unit: field.unit.to_string() };
         let part = |(rank, rows): (usize, Range<usize>)| Part {
             file: file_of(rank),
             first_row: rows.start,
@@ -171,7 +171,7 @@ impl Index {
         file.set("first_row", *first_row).set("rows", *rows).set("ranks", self.parts.len());
         let origin = [*first_row as f64 * self.pitch[0], 0.0];
         for NamedField { name, unit, values, .. } in fields.fields {
-            file.add_field(name, unit, &slab.grid(), origin, &values);
+            file.add_field(&name, &unit, &slab.grid(), origin, &values);
         }
         file.write()
     }
