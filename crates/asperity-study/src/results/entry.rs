@@ -173,7 +173,9 @@ fn resumable(results: &Results, case: &Value) -> Result<ExistingResults> {
             whole(&results.state_path(state), &identity, None)?;
             let mut has_interface = false;
             each_interface!(I => has_interface |= case.get(I::NAME).is_some_and(Value::is_object));
-            if first == 1 && has_interface {
+            let has_stages =
+                case.get("history").and_then(Value::as_array).is_some_and(|stages| !stages.is_empty());
+            if first == 1 && has_interface && has_stages {
                 let every = kept_every(case);
                 let increments = results.increments()?;
                 let rows = increments.iter().take(state).map(StepRow::Increment);

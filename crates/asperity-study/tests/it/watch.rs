@@ -37,6 +37,15 @@ fn what_was_interrupted_goes_on_from_the_rows_that_it_has_written_and_from_no_ot
         ),
         (
             ball(
+                "",
+                "[contact]\nload = 5e-3\n[friction]\ncoefficient = 0.3\nforce = 1e-3\nincrements = 4\ncoupling = \"none\"\n\
+                 [adhesion]\nwork = 0.1\nrange = \"grid\"\n",
+            ),
+            "fields/state-0002.h5",
+            "increments.csv",
+        ),
+        (
+            ball(
                 "wear = { coefficient = 1e-13 }\n",
                 "[contact]\nload = 5e-3\n[friction]\ncoefficient = 0.1\n[sliding]\ndistance = 0.01\nupdates = 4\n",
             ),
