@@ -16,7 +16,8 @@
 //! # Where to begin
 //!
 //! Start with [`motion::press`] for a static contact, [`motion::Simulation`] for a motion, or [`solver::solve_normal`] for a
-//! contact given only by its gap. Topographies are in [`asperity_surface`]; case files and results on disk are in `asperity-study`.
+//! contact given only by its gap. Materials, kernels, operators, solvers and closed forms are the modules of [`asperity_elastic`].
+//! Topographies are in [`asperity_surface`]; case files and results on disk are in `asperity-study`.
 //!
 //! | you have | use | you get |
 //! |---|---|---|
@@ -82,12 +83,6 @@
 
 // A module may use those above it, never those below: `tests/it/module_order.rs` holds it.
 mod math;
-pub mod stress;
-pub mod material;
-pub mod reference;
-pub mod kernel;
-pub mod operator;
-pub mod solver;
 pub mod subsurface;
 pub mod temperature;
 pub mod plasticity;
@@ -97,8 +92,9 @@ pub mod with;
 pub mod verification;
 
 pub use asperity_base::{choice, error, grid, ndarray, ranks, units};
+pub use asperity_elastic::solver::adhesion;
+pub use asperity_elastic::{kernel, material, operator, reference, solver, stress};
 pub use asperity_surface as surface;
-pub use solver::adhesion;
 pub use with::{conductance, fatigue, film, flow, wear};
 
 pub use choice::Choice;

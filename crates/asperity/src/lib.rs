@@ -81,8 +81,8 @@
 //!
 //! # Crates
 //!
-//! This crate re-exports four others, which can be used alone: [`asperity-surface`](surface) for topographies,
-//! `asperity-contact` for mechanics, `asperity-study` for case files and results, and `asperity-base` below them.
+//! This crate re-exports five others, which can be used alone: [`asperity-surface`](surface) for topographies, `asperity-elastic` for
+//! operators and solvers, `asperity-contact` for motion, `asperity-study` for case files and results, and `asperity-base` below them.
 //!
 //! Without them (`default-features = false`), generated surfaces, closed forms, operators, solvers, stress and motion
 //! remain.

@@ -1,12 +1,13 @@
 //! Summary of a contact at the end of a run: a line for each number.
 
 use asperity::motion::{PassRecord, PlasticRecord, StaticRecord, UpdateRecord};
-use asperity::solver::InterfaceRecord;
 use asperity::study::{Case, ClosedFormRecord, Outcome, SubsurfaceRecord, Summary, dimension_of_column};
 use asperity::units::{CELSIUS, Dimension, format, format_number};
 use asperity::with;
 use asperity::with::views::{Answer, Line};
-use asperity::with::{BodyLaw, BodyLaws, Capability, Listed, Observations, Reported, answering};
+use asperity::with::{
+    BodyLaw, BodyLaws, Capability, Listed, Observations, Reported, answering, interface_lines,
+};
 use asperity::{each_capability, each_law};
 
 use super::rows::planes;
@@ -157,7 +158,7 @@ fn static_table(case: &Case, record: &StaticRecord) -> String {
         ("mean gap", format(record.mean_gap, Dimension::Length)),
         ("elastic energy", format(record.elastic_energy, Dimension::Energy)),
     ];
-    let of_interface = record.interface.iter().flat_map(InterfaceRecord::lines).collect::<Vec<_>>();
+    let of_interface = record.interface.iter().flat_map(interface_lines).collect::<Vec<_>>();
     rows.extend(of_interface.iter().map(|line| (&*line.name, line.value.clone())));
     if record.plastic_cells > 0 {
         rows.push(("plastic cells", record.plastic_cells.to_string()));

@@ -3,11 +3,10 @@
 use std::collections::BTreeMap;
 
 use asperity::motion::{PassRecord, StepCell, SweepRecord};
-use asperity::solver::InterfacePassRecord;
 use asperity::study::Results;
 use asperity::study::case::{Case, Source};
 use asperity::with::views::{PassCell, RowCell};
-use asperity::with::{BodyLaw, Capability, Listed, Row};
+use asperity::with::{BodyLaw, Capability, Listed, Row, interface_cell, interface_cells};
 use asperity::{each_capability, each_law};
 
 use super::columns::{Cell, Columns};
@@ -84,8 +83,7 @@ impl Rows {
             let work = plastic.plastic_work_lower + plastic.plastic_work_upper;
             ranked.push((Rank::Always, Cell::of("work", "plastic_work_lower", work)));
         }
-        for RowCell { head, column, value, .. } in pass.interface.iter().flat_map(InterfacePassRecord::cells)
-        {
+        for RowCell { head, column, value, .. } in pass.interface.iter().flat_map(interface_cells) {
             ranked.push((Rank::Always, Cell::of(head, column, value)));
         }
         if let Some(drag) = &pass.drag {
@@ -209,7 +207,7 @@ impl Rows {
             }
             cells.push(match (&point.interface, point.steady) {
                 (Some(interface), _) => {
-                    let RowCell { head, column, value, .. } = interface.cell();
+                    let RowCell { head, column, value, .. } = interface_cell(interface);
                     Cell::of(head, column, value)
                 }
                 (None, Some(steady)) => Cell::of("drag/W", "drag_coefficient", steady.drag_coefficient),

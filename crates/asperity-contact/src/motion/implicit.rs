@@ -53,7 +53,7 @@ impl Solver<'_> {
             self.positions.iter().map(|position| self.motion.bounds(pair, position)).collect();
         let caps = Bounds::up_to(self.stacked_caps(pair, &bounds));
         let start = stacked(outcome.contacts.iter().map(|contact| contact.pressure_field(grid.shape[1])));
-        let params = Params { method: Method::PolonskyKeer, device: Device::Cpu, ..*params };
+        let params = params.with_method(Method::PolonskyKeer).with_device(Device::Cpu);
         let watch = OneOfMany(self.watch);
         let solution =
             solve_normal_watched(&mut operator, &gap, &caps, control, Some(&start), &params, &watch)?;

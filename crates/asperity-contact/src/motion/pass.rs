@@ -87,7 +87,7 @@ impl Solver<'_> {
     ) -> Result<Pass> {
         if residual > params.tolerance {
             let max_convolutions = MAX_ROUGH_CONVOLUTIONS.min(params.max_convolutions);
-            let rough = Params { tolerance: residual, max_convolutions, ..*params };
+            let rough = params.with_tolerance(residual).with_max_convolutions(max_convolutions);
             match self.solve(pair, control, &rough, earlier) {
                 Err(Error::AtPosition { source, .. }) if matches!(*source, Error::NotConverged { .. }) => {}
                 other => return other,

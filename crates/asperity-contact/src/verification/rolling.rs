@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::material::{Compliances, Material};
 use crate::operator::{Boundary, Operators};
-use crate::solver::{Bounds, Control, Creep, Friction, Params, Rolling, RollingSolution, solve_rolling};
+use crate::solver::{Bounds, Control, Creep, Friction, Rolling, RollingSolution, solve_rolling};
 
 /// A driven wheel on a periodic grid one cell wide. The shear is μ times the pressure of the contact minus that of a line
 /// of half width c at its leading edge, a distance d = a − c from the middle. Both are curved by their own images like the
@@ -138,7 +138,7 @@ fn creep_coefficients(ratio: f64, poisson: f64, n: usize) -> Result<[f64; 6]> {
     let mut operator =
         Operators::new(grid, Compliances::new(&body, &body)?, Boundary::FREE).coupled_on(grid.shape);
     let friction = Friction::coulomb(f64::INFINITY)?;
-    let params = Params { tolerance: 1e-6, ..PARAMS };
+    let params = PARAMS.with_tolerance(1e-6);
     let mut roll = |creepage, spin| -> Result<RollingSolution> {
         let rolling = Rolling { creep: Creep::Creepage(creepage), spin };
         let control = Control::Approach(1.0);

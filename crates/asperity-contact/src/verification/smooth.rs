@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::operator::{Boundary, Edge, FreeFamily, FreeFft, PeriodicFft};
 use crate::reference::{FlatPunch, HertzEllipse, HertzLine, HertzSphere};
-use crate::solver::{Bounds, Control, Method, Params, solve_normal};
+use crate::solver::{Bounds, Control, Method, solve_normal};
 use crate::surface::{Axis, Form};
 use crate::units::Metre;
 
@@ -118,7 +118,7 @@ fn line_alone() -> Result<Vec<Check>> {
         let load = Control::Load(load_per_length * grid.extent()[1]);
         let boundary = Boundary([Edge::Free, Edge::Periodic]);
         let mut operator = FreeFamily::new(&grid, MODULUS, boundary).operator(grid.shape);
-        let params = Params { method: Method::Direct, ..PARAMS };
+        let params = PARAMS.with_method(Method::Direct);
         let solution = solve_normal(&mut operator, &gap, &Bounds::ELASTIC, load, None, &params)?;
         let exact = gap.mapv(|h| hertz.pressure((2.0 * RADIUS * h).sqrt()));
         let width = solution.contact_cells() as f64 * grid.cell_area() / grid.extent()[1];

@@ -46,6 +46,7 @@ pub mod plasticity;
 pub mod viscoelastic;
 pub mod wear;
 
+pub use adhesion::views::{interface_cell, interface_cells, interface_lines};
 pub use capability::{
     BodyConstants, BodyField, Capability, Given, NamedField, Observer, Place, Reported, Row, Rule,
     Surroundings, answering, ordinal,

@@ -2,7 +2,6 @@
 
 mod adhesion;
 mod adhesive_friction;
-mod bounds;
 mod closed_forms;
 mod conductance;
 mod convergence;
@@ -20,13 +19,11 @@ mod loading;
 mod motion;
 mod moving_surfaces;
 mod random_motions;
-mod random_rolling;
 mod response;
 mod rolling;
 mod running_in;
 mod sliding;
 mod solver;
-mod steady_rolling;
 mod sweep;
 mod viscoelastic;
 mod viscoelastic_passes;

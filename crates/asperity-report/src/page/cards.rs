@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use asperity_base::units::{CELSIUS, Dimension, format, format_number};
 use asperity_contact::motion::{IncrementRecord, PassRecord, StaticRecord, SweepRecord};
-use asperity_contact::solver::InterfacePassRecord;
+use asperity_contact::with::interface_cells;
 use asperity_contact::with::views::{Answer, RowCell};
 use asperity_study::{Outcome, SubsurfaceRecord, column, dimension_of_column};
 
@@ -142,7 +142,7 @@ fn of_passes(found: &PageData, first: &PassRecord, last: &PassRecord) -> Vec<Car
     if let Some(stress) = found.summary.as_ref().and_then(|summary| summary.subsurface.last()) {
         cards.push(of_stress(stress));
     }
-    let of_interface = last.interface.iter().flat_map(InterfacePassRecord::cells);
+    let of_interface = last.interface.iter().flat_map(interface_cells);
     for RowCell { head, column, value, .. } in of_interface.filter(|cell| cell.is_answer) {
         let value = dimension_of_column(column)
             .map_or_else(|| format_number(value), |dimension| format(value, dimension));

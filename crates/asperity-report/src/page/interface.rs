@@ -3,7 +3,7 @@
 use asperity_contact::each_interface;
 use asperity_contact::motion::IncrementRecord;
 use asperity_contact::with::views::Line;
-use asperity_contact::with::{self, Listed};
+use asperity_contact::with::{self, Listed, interface_lines};
 use asperity_study::{Outcome, column};
 use serde_json::Value;
 
@@ -57,7 +57,7 @@ fn html(found: &PageData, name: &str, labels: &[(&str, &str)], charts: &mut Vec<
         && let Some(record) = &summary.interface.as_shown(record).interface
     {
         html += "<h3>At the end</h3>";
-        html += &facts(record.lines().into_iter().map(shown));
+        html += &facts(interface_lines(record).into_iter().map(shown));
     }
     Some(html + &jumps(&found.increments))
 }

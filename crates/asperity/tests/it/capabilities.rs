@@ -95,7 +95,7 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
         &["solver/adhesion", "with/adhesion"],
         &[
             // The lists, and its names in both libraries.
-            "asperity-contact/src/solver/mod.rs",
+            "asperity-elastic/src/solver/mod.rs",
             "asperity-contact/src/with/mod.rs",
             "asperity-contact/src/with/interface.rs",
             "asperity-contact/src/lib.rs",

@@ -6,8 +6,14 @@ use std::path::{Path, PathBuf};
 use crate::support::crates;
 
 /// Crates whose files may be in memory.
-const CRATES: [&str; 5] =
-    ["asperity-base", "asperity-contact", "asperity-report", "asperity-study", "asperity-surface"];
+const CRATES: [&str; 6] = [
+    "asperity-base",
+    "asperity-contact",
+    "asperity-elastic",
+    "asperity-report",
+    "asperity-study",
+    "asperity-surface",
+];
 
 /// Ways to the disk, which have a counterpart in `asperity_base::io::fs`.
 const WAYS: [&str; 5] = ["std::fs", "std::path::absolute", ".exists()", ".canonicalize()", "tempfile::"];

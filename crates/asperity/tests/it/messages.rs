@@ -21,8 +21,14 @@ const ARGUMENTS: [&str; 11] = [
     "--threads",
 ];
 /// Crates that know no command.
-const LIBRARIES: [&str; 5] =
-    ["asperity", "asperity-base", "asperity-surface", "asperity-contact", "asperity-study"];
+const LIBRARIES: [&str; 6] = [
+    "asperity",
+    "asperity-base",
+    "asperity-surface",
+    "asperity-elastic",
+    "asperity-contact",
+    "asperity-study",
+];
 const TABLES: [&str; 7] =
     ["[contact]", "[friction]", "[motion]", "[subsurface]", "[output]", "[[history]]", ".topography]"];
 const KEYS: [&str; 22] = [

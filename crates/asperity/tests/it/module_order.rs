@@ -14,7 +14,7 @@ fn no_module_uses_one_declared_below_it() {
 }
 
 /// Crates whose `lib.rs` declares the modules in their order. Others are held free of circles.
-const ORDERED: [&str; 2] = ["asperity-base", "asperity-contact"];
+const ORDERED: [&str; 3] = ["asperity-base", "asperity-elastic", "asperity-contact"];
 
 fn violations(source: &Path) -> Vec<String> {
     let lib = fs::read_to_string(source.join("lib.rs")).unwrap();

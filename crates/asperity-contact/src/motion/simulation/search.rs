@@ -12,7 +12,7 @@ use crate::motion::path::Position;
 use crate::motion::slip::SlipRegime;
 use crate::motion::warm_start::Guess;
 use crate::motion::watch::Watch;
-use crate::solver::{Control, Device, Params};
+use crate::solver::{Control, Device};
 use crate::units::{Metre, Newton};
 
 impl Simulation {
@@ -128,7 +128,7 @@ impl Simulation {
         let fullest = self.positions.iter().max_by_key(|p| p.columns).expect("a pass has positions");
         let share = fullest.columns as f64 / mean_columns(&self.positions);
         let limit = max_load(pair, &self.motion, fullest);
-        let params = Params { tolerance: 1e-3_f64.max(self.params.tolerance), ..self.params };
+        let params = self.params.with_tolerance(self.params.tolerance.max(1e-3));
         let solve = |load: Newton, start: Option<&Contact>| {
             let start = start.map(|c| c.pressure_field(pair.lower.width()));
             let control = Control::Load(load);

@@ -28,8 +28,7 @@ fn passes(strategy: Strategy, boundary: Boundary, together: bool) -> Vec<PassRec
         .with_stride(4)
         .with_load_tolerance(1e-6);
     let mut simulation =
-        Simulation::new(pair, boundary, motion, Params { method: Method::ActiveSet, ..Params::default() })
-            .unwrap();
+        Simulation::new(pair, boundary, motion, Params::new().with_method(Method::ActiveSet)).unwrap();
     assert!(simulation.together);
     simulation.together = together;
     let mut reports = Reports(Vec::new());
@@ -52,7 +51,7 @@ fn cells_that_never_yield_bear_what_those_that_do_leave_them() {
         .with_stride(3)
         .with_load_tolerance(1e-4);
     for method in [Method::Direct, Method::ActiveSet] {
-        let params = Params { method, ..Params::default() };
+        let params = Params::new().with_method(method);
         let mut simulation = Simulation::new(pair.clone(), Boundary::PERIODIC, motion, params).unwrap();
         let mut reports = Reports(Vec::new());
         simulation.run(&(), &mut [&mut reports]).unwrap();

@@ -8,7 +8,7 @@ mod rules;
 mod table;
 #[cfg(test)]
 mod tests;
-mod views;
+pub(super) mod views;
 
 pub(super) use doubts::{cut_off, depends_on_history, jumped};
 pub use record::AdhesionSummary;

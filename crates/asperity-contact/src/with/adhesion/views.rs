@@ -73,38 +73,34 @@ impl AdhesionSummary {
     }
 }
 
-impl AdhesionRecord {
-    /// Returns the numbers of a contact at rest.
-    pub fn lines(&self) -> Vec<Line> {
-        let energy = |value| format(value, Dimension::Energy);
-        let mut lines = vec![
-            Line::new("least pressure", format(self.min_pressure, Dimension::Pressure)),
-            Line::new("adhesive load", format(self.adhesive_load, Dimension::Force)),
-            Line::new("adhesion energy", energy(self.adhesion_energy)),
-        ];
-        if self.jumps > 0 {
-            let jumps = if self.jumps == 1 { "jump" } else { "jumps" };
-            let lost = format!("{} in {} {jumps}", energy(self.energy_lost), self.jumps);
-            lines.push(Line::new("energy lost", lost));
-        }
-        lines
+/// Returns the numbers of the interface of a contact at rest.
+pub fn interface_lines(record: &AdhesionRecord) -> Vec<Line> {
+    let energy = |value| format(value, Dimension::Energy);
+    let mut lines = vec![
+        Line::new("least pressure", format(record.min_pressure, Dimension::Pressure)),
+        Line::new("adhesive load", format(record.adhesive_load, Dimension::Force)),
+        Line::new("adhesion energy", energy(record.adhesion_energy)),
+    ];
+    if record.jumps > 0 {
+        let jumps = if record.jumps == 1 { "jump" } else { "jumps" };
+        let lost = format!("{} in {} {jumps}", energy(record.energy_lost), record.jumps);
+        lines.push(Line::new("energy lost", lost));
     }
-
-    /// Returns its number in the row of a point of a sweep on the terminal.
-    pub fn cell(&self) -> RowCell {
-        RowCell { head: "adhesive", column: "adhesive_load", value: self.adhesive_load, is_answer: false }
-    }
+    lines
 }
 
-impl AdhesionPassRecord {
-    /// Returns its numbers in the row of a pass on the terminal.
-    pub fn cells(&self) -> Vec<RowCell> {
-        let (head, column) = ("adhesive", "mean_adhesive_load");
-        let load = RowCell { head, column, value: self.mean_adhesive_load, is_answer: false };
-        let (head, column) = ("drag", "adhesive_drag");
-        let drag = RowCell { head, column, value: self.adhesive_drag, is_answer: true };
-        [load].into_iter().chain((self.adhesive_drag > 0.0).then_some(drag)).collect()
-    }
+/// Returns the number of the interface in the row of a point of a sweep on the terminal.
+pub fn interface_cell(record: &AdhesionRecord) -> RowCell {
+    RowCell { head: "adhesive", column: "adhesive_load", value: record.adhesive_load, is_answer: false }
+}
+
+/// Returns the numbers of the interface in the row of a pass on the terminal.
+pub fn interface_cells(record: &AdhesionPassRecord) -> Vec<RowCell> {
+    let (head, column) = ("adhesive", "mean_adhesive_load");
+    let load = RowCell { head, column, value: record.mean_adhesive_load, is_answer: false };
+    let (head, column) = ("drag", "adhesive_drag");
+    let drag = RowCell { head, column, value: record.adhesive_drag, is_answer: true };
+    [load].into_iter().chain((record.adhesive_drag > 0.0).then_some(drag)).collect()
 }
 
 /// Returns the jumps of a loading, one by one.

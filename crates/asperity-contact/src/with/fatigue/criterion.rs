@@ -2,7 +2,6 @@
 
 use super::ball::Point;
 use crate::error::{Result, check_in};
-use crate::stress::Stress;
 use crate::units::{Dimension, Pascal};
 
 /// Limits of a material under alternating loads, above which it fails in the end.
@@ -42,13 +41,6 @@ impl DangVan {
     }
 }
 
-/// Returns the deviator of a stress in an orthonormal basis, and its hydrostatic part.
-pub(super) fn split([xx, yy, zz, yz, xz, xy]: [Pascal; 6]) -> (Point, Pascal) {
-    const ROOT: f64 = std::f64::consts::SQRT_2;
-    let mean = (xx + yy + zz) / 3.0;
-    ([(xx - yy) / ROOT, 1.5f64.sqrt() * (zz - mean), ROOT * xy, ROOT * yz, ROOT * xz], mean)
-}
-
 /// Returns half the difference of the extreme principal values of a deviator.
 pub(super) fn max_shear(deviator: &Point) -> Pascal {
     const ROOT: f64 = std::f64::consts::SQRT_2;
@@ -67,17 +59,10 @@ pub(super) fn max_shear(deviator: &Point) -> Pascal {
     3f64.sqrt() * radius * (theta + std::f64::consts::FRAC_PI_3).sin()
 }
 
-impl Stress {
-    /// Returns the deviator in an orthonormal basis of five, (σxx − σyy)/√2, √(3/2) s_zz, √2 σxy, √2 σyz, √2 σxz, and the
-    /// hydrostatic stress, a third of the trace.
-    pub fn split(&self) -> ([Pascal; 5], Pascal) {
-        split(self.components())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::stress::Stress;
 
     #[test]
     fn the_largest_shear_of_a_deviator_is_that_of_its_principal_stresses() {

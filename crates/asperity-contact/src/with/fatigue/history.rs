@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::ball::{Point, RIM, less, smallest_ball, squared};
-use super::criterion::{DangVan, max_shear, split};
+use super::criterion::{DangVan, max_shear};
 use crate::error::{Error, Result, check, check_in};
 use crate::grid::{Field, Grid};
 use crate::operator::Boundary;
@@ -93,7 +93,7 @@ impl Grown {
 
     /// Looks at a contact.
     fn see(&mut self, stress: [Pascal; 6], weight: f64, rounding: Pascal) {
-        let (deviator, mean) = split(stress);
+        let (deviator, mean) = Stress::from_components(stress).split();
         let shear = stress[4];
         self.shear = [self.shear[0].min(shear), self.shear[1].max(shear)];
         let deviator = less(&deviator, &self.origin);
@@ -195,7 +195,9 @@ impl<'a, F: Fn(usize) -> Tractions + Sync> StressHistory<'a, F> {
                 let of_cell = |cell: usize| components.map(|component| component[cell]);
                 if cells.is_empty() {
                     let first = (0..self.grid.cells()).map(of_cell);
-                    cells.extend(first.map(|stress| Grown::new(split(stress).0, stress[4])));
+                    cells.extend(
+                        first.map(|stress| Grown::new(Stress::from_components(stress).split().0, stress[4])),
+                    );
                 }
                 let left = cells.par_iter_mut().enumerate().filter(|(_, cell)| !cell.done);
                 left.for_each(|(index, cell)| cell.see(of_cell(index), weight, ROUNDING * largest));
