@@ -31,6 +31,8 @@ pub(super) struct Rows {
     found: Vec<StepCell>,
     /// Their numbers in the rows of the passes before an interruption, by pass.
     earlier: BTreeMap<usize, Vec<StepCell>>,
+    /// The heads of these columns: those that have a number in the first row.
+    heads: Option<Vec<&'static str>>,
 }
 
 impl Rows {
@@ -56,6 +58,7 @@ impl Rows {
             laws,
             found,
             earlier: BTreeMap::new(),
+            heads: None,
         }
     }
 
@@ -93,7 +96,10 @@ impl Rows {
         ranked
             .push((Rank::UpperRoughness, Cell::of("Sq upper", "sq_upper_interior", pass.sq_upper_interior)));
         ranked.extend(self.of_laws(pass));
-        for StepCell { head, column, value } in self.earlier.get(&pass.pass).unwrap_or(&self.found).clone() {
+        let found = self.earlier.get(&pass.pass).unwrap_or(&self.found).clone();
+        let known = || found.iter().filter(|cell| cell.value.is_some()).map(|cell| cell.head).collect();
+        let heads = self.heads.get_or_insert_with(known);
+        for StepCell { head, column, value } in found.into_iter().filter(|cell| heads.contains(&cell.head)) {
             let cell =
                 column.map_or_else(|| Cell::share(head, value), |column| Cell::of(head, column, value));
             ranked.push((Rank::Always, cell));
