@@ -428,9 +428,8 @@ class Flow(_RequiredFlow, total=False):
     density : float or str
         Density of a liquid, by which its leakage is also told as a mass; density > 0. Without it: unknown.
     width : float or str
-        Width of the face of a seal, from one side of it to the other along the flow, for which the leakage of a metre
-        of seal is told. A face of n times the length of the map leaks 1/n of what the map leaks; length > 0. Without
-        it: the length of the map along the flow.
+        Width of the face of a seal along the flow, for which the leakage of a metre of seal is told. This leakage is
+        inversely proportional to the width; length > 0. Without it: the length of the map along the flow.
     every : int
         Interval of the positions of a pass, or of the increments, updates or points, whose flow is computed; 0: once a
         pass, where the left edges are flush, or for the last contact alone; whole number ≥ 0. By default `1`.

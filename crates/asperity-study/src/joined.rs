@@ -1,5 +1,8 @@
 //! The steps of a run, each with everything that was found in it: the rows of `results.csv` and of the table of a study.
 
+use std::collections::BTreeMap;
+use std::slice;
+
 use serde::Serialize;
 use serde_json::Value;
 
@@ -77,7 +80,7 @@ pub(super) fn of_run(results: &Results, summary: &Summary) -> Result<Vec<Vec<Cel
         Outcome::Static(record) => {
             let (updates, increments) = (results.updates()?, results.increments()?);
             match (&updates[..], &increments[..]) {
-                ([], []) => of_steps(std::slice::from_ref(&**record), |_| 1, &found),
+                ([], []) => of_steps(slice::from_ref(&**record), |_| 1, &found),
                 ([], increments) => of_steps(increments, |increment| increment.increment, &found),
                 (updates, _) => of_steps(updates, |update| update.update, &found),
             }
@@ -91,12 +94,10 @@ pub(super) fn of_run(results: &Results, summary: &Summary) -> Result<Vec<Vec<Cel
 
 /// The rows of the steps of a contact, which have these numbers.
 fn of_steps<T: Record>(steps: &[T], number: fn(&T) -> usize, found: &Observations) -> Vec<Vec<Cell>> {
-    let row = |step: &T| {
-        let mut row = cells("", step, T::COLUMNS);
-        add_found(&mut row, found, |_, of_step| of_step == Some(number(step) as u64));
-        row
-    };
-    steps.iter().map(row).collect()
+    let mut rows: Vec<_> = steps.iter().map(|step| cells("", step, T::COLUMNS)).collect();
+    let places: BTreeMap<usize, usize> = steps.iter().map(number).zip(0..).collect();
+    add_found(&mut rows, found, |_, step| places.get(&step?).copied());
+    rows
 }
 
 /// The rows of passes. A capability that looks at several positions of a pass has their mean.
@@ -110,13 +111,16 @@ fn of_passes(
         let means = of_passes.flat_map(C::summary).collect();
         C::add(&mut found, means);
     });
-    let row = |pass: &PassRecord| {
-        let mut row = cells("", pass, PassRecord::COLUMNS);
-        add_stress(&mut row, stresses.iter().find(|stress| stress.pass == Some(pass.pass)));
-        add_found(&mut row, &found, |of_pass, _| of_pass == Some(pass.pass));
-        row
-    };
-    passes.iter().map(row).collect()
+    let places: BTreeMap<usize, usize> = passes.iter().map(|pass| pass.pass).zip(0..).collect();
+    let place = |pass: Option<usize>| places.get(&pass?).copied();
+    let mut rows: Vec<_> = passes.iter().map(|pass| cells("", pass, PassRecord::COLUMNS)).collect();
+    for stress in stresses {
+        if let Some(place) = place(stress.pass) {
+            add_stress(&mut rows[place], Some(stress));
+        }
+    }
+    add_found(&mut rows, &found, |pass, _| place(pass));
+    rows
 }
 
 /// Returns the values of a whole motion, from the rows of its passes.
@@ -182,17 +186,17 @@ pub(super) fn add_stress(row: &mut Vec<Cell>, stress: Option<&SubsurfaceRecord>)
     row.extend(stress.filter(|cell| !is_place(&cell.name[PREFIX.len()..])));
 }
 
-/// Adds what the capabilities have found, in the rows that belong to this one by their pass and step.
+/// Adds what the capabilities have found to the rows, each to that at the place of its pass and step.
 pub(super) fn add_found(
-    row: &mut Vec<Cell>,
+    rows: &mut [Vec<Cell>],
     found: &Observations,
-    belongs: impl Fn(Option<usize>, Option<u64>) -> bool,
+    place: impl Fn(Option<usize>, Option<usize>) -> Option<usize>,
 ) {
     each_capability!(C => for found in C::rows(found) {
         let cells = cells("", found, <<C as Capability>::Row as Record>::COLUMNS);
         let step = cells.iter().find(|cell| cell.name == "step").and_then(|cell| cell.value.as_u64());
-        if belongs(found.pass(), step) {
-            add_beside::<C>(row, found, cells);
+        if let Some(place) = place(found.pass(), step.map(|step| step as usize)) {
+            add_beside::<C>(&mut rows[place], found, cells);
         }
     });
 }

@@ -96,10 +96,11 @@ pub(super) fn run_with(
         found: observe::summary(&found),
     };
     let summary = conclude(case, &writer, began, computed, warnings)?;
-    // A resumed sweep solves its last point again, from where it started.
-    let starts = matches!(&summary.outcome, Outcome::Sweep(points) if points.iter().any(|point| point.steady.is_some()));
-    if !starts {
-        writer.results().remove_state()?;
-    }
+    // A resumed sweep of speeds solves its last point again, from the state after the one before.
+    let kept = match &summary.outcome {
+        Outcome::Sweep(points) => points.last().and_then(|last| last.steady.map(|_| last.point - 1)),
+        Outcome::Static(_) | Outcome::Passes(_) => None,
+    };
+    writer.results().remove_states(kept)?;
     Ok((summary, writer))
 }

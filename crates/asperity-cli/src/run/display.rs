@@ -52,15 +52,16 @@ impl Display {
         let style = ProgressStyle::with_template("{bar:24.cyan/dim} {msg}").expect("a valid template");
         let bar = ProgressBar::with_draw_target(None, target).with_style(style);
         let step = case.course(1.0).step();
-        let rows = match Results::open(directory) {
-            Ok(results) if existing == Existing::Resume => Rows::new(case).continued(case, &results),
-            _ => Rows::new(case),
+        let earlier = (existing == Existing::Resume).then(|| Results::open(directory).ok()).flatten();
+        let rows = Rows::new(case);
+        let rows = match &earlier {
+            Some(results) => rows.continued(case, results),
+            None => rows,
         };
         let table = Table { rows, printed: Ok(()), began: Instant::now(), finished: None };
         let (directory, page) = (directory.to_owned(), Mutex::new(LivePage::begin()));
         let warned = Mutex::default();
-        let continues =
-            (existing == Existing::Resume && !quiet).then(|| continued(case, &directory)).flatten();
+        let continues = earlier.filter(|_| !quiet).and_then(|results| continued(case, &results));
         let continues = Mutex::new(continues);
         Self { bar, quiet, step, stop, table: Mutex::new(table), directory, page, warned, continues }
     }
@@ -122,9 +123,8 @@ impl Display {
     }
 }
 
-/// Describes the finished steps in a directory from which a run continues; `None` if there are none.
-fn continued(case: &Case, directory: &Path) -> Option<String> {
-    let results = Results::open(directory).ok()?;
+/// Describes the finished steps in the results from which a run continues; `None` if there are none.
+fn continued(case: &Case, results: &Results) -> Option<String> {
     let course = case.course(1.0);
     let done = match &course {
         Course::Passes(_) => results.passes().ok()?.iter().map(PassRecord::represents).sum(),

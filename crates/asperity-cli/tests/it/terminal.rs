@@ -65,4 +65,8 @@ fn rows_of_passes_have_what_capabilities_found() {
     fs::write(folder.path().join("case.toml"), case(3)).unwrap();
     let resumed = ok(&asperity(&folder, "run case.toml --out two --resume"));
     assert_eq!(rows(&resumed), rows(&whole));
+    // Bodies that do not pit have no column of pits.
+    fs::write(folder.path().join("case.toml"), case(1).replace(", pit_depth = \"0.5 um\"", "")).unwrap();
+    let without = ok(&asperity(&folder, "run case.toml --out without"));
+    assert!(without.contains("f/b   damage") && !without.contains("pitted"), "{without}");
 }

@@ -297,7 +297,8 @@ impl ChangedBodies {
             cycle_work: from.number("cycle_work")?,
             error: from.number(HEIGHT_ERROR)?,
             cycles: from.number("cycles_done")? as usize,
-            computed: from.number("cycles_computed")? as usize,
+            computed: restore_if(from, "cycles_computed", || from.number("cycles_computed"))?
+                .unwrap_or_default() as usize,
             contacts: contacts.take_while(|name| from.holds(name)).map(tractions).collect::<Result<_>>()?,
         })
     }

@@ -185,6 +185,17 @@ pub struct NamedField {
     pub values: Field,
 }
 
+impl NamedField {
+    /// Creates a field.
+    pub fn new(
+        name: impl Into<Cow<'static, str>>,
+        unit: impl Into<Cow<'static, str>>,
+        values: Field,
+    ) -> Self {
+        Self { name: name.into(), unit: unit.into(), values }
+    }
+}
+
 /// A field of a body, with its name in files.
 #[derive(Debug, Clone)]
 pub struct BodyField {
@@ -265,6 +276,12 @@ pub fn ordinal(number: usize) -> String {
         _ => "th",
     };
     format!("{number}{ending}")
+}
+
+/// Returns the rows of the last pass or cycle; all rows if they belong to none.
+pub fn of_last<R: Row>(rows: &[R]) -> impl Iterator<Item = &R> {
+    let last = rows.last().map(|row| (row.pass(), row.cycle()));
+    rows.iter().filter(move |row| Some((row.pass(), row.cycle())) == last)
 }
 
 /// Everything that a capability gets before the first contact.

@@ -49,7 +49,7 @@ pub mod wear;
 pub use adhesion::views::{interface_cell, interface_cells, interface_lines};
 pub use capability::{
     BodyConstants, BodyField, Capability, Given, NamedField, Observer, Place, Reported, Row, Rule,
-    Surroundings, answering, ordinal,
+    Surroundings, answering, of_last, ordinal,
 };
 pub use interface::InterfaceNumbers;
 pub use law::{BodyLaw, ChangedSurfaces, Circumstances, LawRule, Slip, Timeless};

@@ -6,7 +6,7 @@ use asperity_contact::each_capability;
 use asperity_contact::with::views::{
     Curve, Map as MapOf, OverPressure, Scale, Series as SeriesOf, closing, exponent, over_pressure,
 };
-use asperity_contact::with::{Capability, Listed, Row};
+use asperity_contact::with::{Capability, Listed, Row, of_last};
 use asperity_study::Results;
 use asperity_study::io::fields::Fields;
 
@@ -46,12 +46,6 @@ pub(super) fn draw(results: &Results, done: &[usize], of: &str, of_all: &str, sh
 pub(crate) fn load_cycle<C: Capability>(rows: &[C::Row]) -> Option<usize> {
     let last = rows.last().filter(|_| C::OF_LOAD_CYCLES)?;
     last.pass().or(last.cycle().map(|[increment, _]| increment))
-}
-
-/// Returns the rows of the last pass or cycle; all rows if they belong to none.
-pub(crate) fn of_last<R: Row>(rows: &[R]) -> impl Iterator<Item = &R> {
-    let last = rows.last().map(|row| (row.pass(), row.cycle()));
-    rows.iter().filter(move |row| Some((row.pass(), row.cycle())) == last)
 }
 
 /// The maps of the last contact, whose `rows` there are.

@@ -34,7 +34,7 @@ use crate::error::{Error, Result};
 use crate::words::captions;
 
 pub use capability::field_map;
-pub(crate) use capability::{curves as curves_of_capability, load_cycle, logarithmic, of_last};
+pub(crate) use capability::{curves as curves_of_capability, load_cycle, logarithmic};
 pub(crate) use course::{OVER_POSITIONS, curves as of_motion, done, has_new_upper};
 pub(crate) use force_distance::curves as of_force_distance;
 pub(crate) use friction::stick;

@@ -1,7 +1,7 @@
 //! The sections of the capabilities: the numbers, maps and curves that each declares.
 
 use asperity_contact::each_capability;
-use asperity_contact::with::{Capability, Listed};
+use asperity_contact::with::{Capability, Listed, of_last};
 use asperity_study::io::fields::Fields;
 use serde_json::Value;
 
@@ -34,7 +34,7 @@ fn section<C: Capability>(
 ) -> String {
     let rows = found.kept(found.results.rows::<C>()).unwrap_or_default();
     let done = figures::done(&found.kept(found.results.passes()).unwrap_or_default());
-    let last: Vec<C::Row> = figures::of_last(&C::summary(&rows)).cloned().collect();
+    let last: Vec<C::Row> = of_last(&C::summary(&rows)).cloned().collect();
     let numbers = last.iter().flat_map(|row| asked.numbers(row));
     let numbers: Vec<_> = numbers.map(|line| (line.name.into_owned(), escaped(&line.value))).collect();
     let html = curves::first(figures::curves_of_capability::<C>(&rows, &done), charts);

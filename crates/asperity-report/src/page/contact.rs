@@ -359,9 +359,7 @@ fn of_sweep(found: &mut PageData) -> Vec<Frame> {
 /// The steps that have room on a page, evenly chosen, with the one that ranks highest.
 fn chosen<'a, T>(kept: &[&'a T], rank: impl Fn(&T) -> Option<f64>) -> Vec<&'a T> {
     let mut chosen = evenly(kept.len(), MAX_BYTES >> 16);
-    let ranked = (0..kept.len()).filter_map(|index| Some((index, rank(kept[index])?)));
-    let highest = ranked.max_by(|one, other| one.1.total_cmp(&other.1));
-    chosen.extend(highest.map(|(index, _)| index));
+    chosen.extend(highest(kept.iter().map(|step| rank(step))));
     chosen.sort_unstable();
     chosen.dedup();
     chosen.into_iter().map(|index| kept[index]).collect()
@@ -369,9 +367,13 @@ fn chosen<'a, T>(kept: &[&'a T], rank: impl Fn(&T) -> Option<f64>) -> Vec<&'a T>
 
 /// The frame that the answers describe: that of the highest rank, or the last one.
 fn answering(frames: &[Frame]) -> usize {
-    let ranked = frames.iter().enumerate().filter_map(|(index, frame)| Some((index, frame.rank?)));
-    let highest = ranked.max_by(|one, other| one.1.total_cmp(&other.1));
-    highest.map_or(frames.len().saturating_sub(1), |(index, _)| index)
+    highest(frames.iter().map(|frame| frame.rank)).unwrap_or(frames.len().saturating_sub(1))
+}
+
+/// The index of the highest of some ranks.
+fn highest(ranks: impl Iterator<Item = Option<f64>>) -> Option<usize> {
+    let ranked = ranks.enumerate().filter_map(|(index, rank)| Some((index, rank?)));
+    ranked.max_by(|one, other| one.1.total_cmp(&other.1)).map(|(index, _)| index)
 }
 
 /// The increments that are kept of bodies that are no hard walls to each other, each with its place on the force–distance curve; `None` if none is.

@@ -138,7 +138,7 @@ impl<'a> Overview<'a> {
             "" => String::new(),
             remark => format!("<p class=\"remark\">{remark}</p>"),
         };
-        html += "<div class=\"scroll whole\" tabindex=\"0\" role=\"region\" aria-label=\"answers\"><table><thead><tr>";
+        html += "<div class=\"scroll whole\" tabindex=\"0\" role=\"region\" aria-label=\"table of answers\"><table><thead><tr>";
         for [head, unit] in self.heads() {
             let unit = if unit.is_empty() { unit } else { format!("<br>{unit}") };
             let _ = write!(html, "<th scope=\"col\">{}{unit}</th>", escaped(&head));

@@ -16,10 +16,9 @@ impl Case {
     /// The errors of the library, and of the capabilities.
     pub(crate) fn running(&self, simulation: Simulation, params: Params) -> Result<Simulation> {
         let laws = self.laws(simulation.pair())?;
-        let mut simulation = simulation.with_laws(laws);
-        for memory in self.memories(simulation.pair(), params)? {
-            simulation = simulation.with_memory(memory);
-        }
+        let simulation = simulation.with_laws(laws);
+        let memories = self.memories(simulation.pair(), params)?;
+        let mut simulation = memories.into_iter().fold(simulation, Simulation::with_memory);
         if let (Some(thermal), Some(temperature)) = (self.heated(), self.temperature) {
             simulation = simulation.with_heat(thermal, temperature.every())?;
         }
@@ -48,10 +47,9 @@ impl Case {
     /// The errors of the library, and of the capabilities.
     pub(crate) fn fretting(&self, loading: StagedLoading, params: Params) -> Result<StagedLoading> {
         let laws = self.laws(loading.pair())?;
-        let mut loading = loading.with_laws(laws);
-        for memory in self.memories(loading.pair(), params)? {
-            loading = loading.with_memory(memory);
-        }
+        let loading = loading.with_laws(laws);
+        let memories = self.memories(loading.pair(), params)?;
+        let mut loading = memories.into_iter().fold(loading, StagedLoading::with_memory);
         if let Some(temperature) = self.temperature {
             loading = loading.with_bulk(temperature.bulk);
         }

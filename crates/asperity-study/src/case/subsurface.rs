@@ -10,9 +10,10 @@ use asperity_base::table::{Bounds, Key, Kind, Value, list, two};
 use asperity_base::units::{Dimension, Metre};
 use asperity_derive::Table;
 
-/// Requested output of the stress under the surface. Positions x and y are relative to the corner of the body, depths to
+/// Depths and places within a body.
 const INSIDE: Beside = Beside::least(Scale::Cell, 0.1, "a part of a cell makes no difference");
 
+/// Requested output of the stress under the surface. Positions x and y are relative to the corner of the body, depths to
 /// its surface.
 #[derive(Table, Debug, Clone, PartialEq, Serialize)]
 #[table("subsurface")]

@@ -2,7 +2,6 @@
 
 use super::plausible::{GivenValue, far, given};
 use super::{Estimate, STRENGTH};
-use crate::case::schema::tables::declaration;
 use crate::case::{Body, Case, Course, Hardness, Layer, Source, TopographySpec};
 use crate::prepare::Bodies;
 use asperity_base::beside::{Beside, Scale};
@@ -16,8 +15,9 @@ use asperity_contact::with::{BodyLaw, Listed};
 
 /// Warns of values in `case` far from their scales. A gap that is not `curved` is flat or rough.
 pub(super) fn out_of_scale(case: &Case, bodies: &Bodies, estimate: &Estimate, curved: bool) -> Vec<String> {
-    let scales = Scales { case, bodies, estimate, curved };
-    given(case)
+    let given = given(case);
+    let scales = Scales { case, given: &given, bodies, estimate, curved };
+    given
         .iter()
         .flat_map(|value| value.key.beside.iter().filter_map(|beside| scales.judge(value, beside)))
         .collect()
@@ -41,9 +41,11 @@ pub(super) fn lost(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<Str
         Course::Rolling(_) | Course::Sweep(_) => 0.0,
     };
     let friction = case.friction.as_ref().map_or(0.0, |friction| friction.law.coefficient);
-    let heights = bodies.lower.topography.sq().hypot(bodies.upper.topography.sq());
-    let side = grid.extent()[0].max(grid.extent()[1]);
-    let most = if heights > 0.0 { (MOST[0] * heights).min(MOST[1] * side) } else { MOST[1] * side };
+    let most = || {
+        let heights = bodies.lower.topography.sq().hypot(bodies.upper.topography.sq());
+        let side = grid.extent()[0].max(grid.extent()[1]);
+        if heights > 0.0 { (MOST[0] * heights).min(MOST[1] * side) } else { MOST[1] * side }
+    };
     let pressure = estimate.hardness.min(STRENGTH * estimate.modulus);
     let length = |value| units::format(value, Dimension::Length);
     let mut warnings = Vec::new();
@@ -51,7 +53,7 @@ pub(super) fn lost(case: &Case, bodies: &Bodies, estimate: &Estimate) -> Vec<Str
         each_law!(L => if let Some(law) = L::of(&body.laws) {
             let loss = law.per_pressure(friction) * distance;
             let (mean, deepest) = (loss * load / estimate.apparent_area, loss * pressure);
-            let told = match (mean > most, deepest > 0.0 && deepest < NOTHING) {
+            let told = match (mean > most(), deepest > 0.0 && deepest < NOTHING) {
                 (true, _) => Some(format!("{} deep in the mean, and no surface lasts so long", length(mean))),
                 (_, true) => Some(format!("at most {} deep, which is nothing", length(deepest))),
                 _ => None,
@@ -83,6 +85,7 @@ fn shifted(stages: &[Stage]) -> Metre {
 /// The quantities of a case beside which values are judged.
 struct Scales<'a> {
     case: &'a Case,
+    given: &'a [GivenValue],
     bodies: &'a Bodies,
     estimate: &'a Estimate,
     curved: bool,
@@ -163,9 +166,8 @@ impl Scales<'_> {
             }
             Scale::Key(key) => {
                 let beside = format!("{}.{key}", path.rsplit_once('.')?.0);
-                let dimension = declaration(&beside)?.kind.dimension();
-                let value = given(case).into_iter().find(|value| value.path == beside)?;
-                one(value.numbers.first()?.0).filter(|_| dimension.is_some())
+                let value = self.given.iter().find(|value| value.path == beside)?;
+                one(value.numbers.first()?.0).filter(|_| value.key.kind.dimension().is_some())
             }
         }
     }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{self, ErrorKind};
 use std::path::Path;
+use std::slice;
 
 use rayon::prelude::*;
 
@@ -22,7 +23,7 @@ use asperity_base::error::{Error, Result};
 use asperity_base::record::OverMotion;
 use asperity_contact::each_capability;
 use asperity_contact::motion::{PassRecord, PlasticRecord, StaticRecord, UpdateRecord};
-use asperity_contact::with::{self, Reported, Row as _};
+use asperity_contact::with::{self, Reported};
 
 /// The finished and failed cases of a study.
 ///
@@ -354,12 +355,10 @@ fn whole(summary: &Summary) -> Vec<Cell> {
     // A motion has the mean of each pass, of which the last one counts.
     let mut last = summary.found.clone();
     each_capability!(C => {
-        let rows = C::rows(&last);
-        let of_last = rows.iter().filter(|row| row.pass() == rows.last().and_then(|last| last.pass()));
-        let of_last = of_last.cloned().collect();
+        let of_last = with::of_last(C::rows(&last)).cloned().collect();
         C::add(&mut last, of_last);
     });
-    joined::add_found(&mut row, &last, |_, _| true);
+    joined::add_found(slice::from_mut(&mut row), &last, |_, _| Some(0));
     row
 }
 

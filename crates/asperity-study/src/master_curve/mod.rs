@@ -16,8 +16,7 @@ use asperity_base::io::text;
 use asperity_contact::viscoelastic::MasterPoint;
 use cells::lines;
 use columns::Columns;
-use titles::Deformation;
-use titles::Head;
+use titles::{Deformation, Head};
 
 /// A master curve with the digest of its file, hexadecimal.
 #[derive(Debug, Clone, PartialEq)]

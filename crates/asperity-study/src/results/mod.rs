@@ -516,11 +516,12 @@ impl Results {
         }
     }
 
-    /// Removes the state of a finished static contact, and its folder if it is then empty.
-    pub(super) fn remove_state(&self) -> Result<()> {
+    /// Removes the states of a finished static contact but that after the step `kept`, and their folder if it is then empty.
+    pub(super) fn remove_states(&self, kept: Option<usize>) -> Result<()> {
         let Ok(entries) = fs::read_dir(self.fields_folder()) else { return Ok(()) };
         let states = entries.filter_map(|entry| Some(entry.ok()?.path()));
-        for path in states.filter(|path| is_state(path)) {
+        let kept = kept.map(|step| self.state_path(step));
+        for path in states.filter(|path| is_state(path) && Some(path) != kept.as_ref()) {
             self.remove(&path)?;
         }
         let _ = fs::remove_dir(self.fields_folder());

@@ -131,11 +131,7 @@ impl Observer for ConductanceObserver {
             },
         };
         let unit = flux_unit(joint.kind);
-        let flux = found.flux.map(|flux| NamedField {
-            name: "flux".into(),
-            unit: unit.into(),
-            values: flux * joint.drop,
-        });
+        let flux = found.flux.map(|flux| NamedField::new("flux", unit, flux * joint.drop));
         Ok((vec![record], flux.into_iter().collect()))
     }
 }

@@ -54,7 +54,7 @@ pub use table::{Fatigue, FatigueLimits};
 use crate::error::Result;
 use crate::motion::{Memory, StepCell};
 use crate::with::views::{Answer, Curve, Line, Map};
-use crate::with::{Capability, Given, Rule, Surroundings};
+use crate::with::{Capability, Given, Rule, Surroundings, of_last};
 
 /// Work of the stress of a contact at a depth over that of a convolution.
 const EFFORT: f64 = 40.0;
@@ -92,7 +92,7 @@ impl Capability for Fatigue {
     }
 
     fn summary(rows: &[FatigueRecord]) -> Vec<FatigueRecord> {
-        views::of_last(rows).cloned().collect()
+        of_last(rows).cloned().collect()
     }
 
     fn describe(&self, surroundings: &Surroundings) -> String {

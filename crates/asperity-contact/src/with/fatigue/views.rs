@@ -4,8 +4,8 @@ use super::maps::{logarithmic, map};
 use super::{Fatigue, FatigueRecord, OnBody, critical};
 use crate::motion::StepCell;
 use crate::units::{Dimension, format, format_number};
-use crate::with::Surroundings;
 use crate::with::views::{Answer, Curve, Line, Map, OverPressure, Series, percent};
+use crate::with::{Surroundings, of_last};
 use asperity_base::Choice;
 
 /// f over its limit, damage, life and pits of both bodies.
@@ -116,13 +116,6 @@ pub(super) fn describe(fatigue: &Fatigue, surroundings: &Surroundings) -> String
     let depths =
         if fatigue.layers == 1 { "one depth".to_owned() } else { format!("{} depths", fatigue.layers) };
     format!("{}; {depths} to {to}, {often}", limits.collect::<Vec<_>>().join(", "))
-}
-
-/// Returns the rows of the last pass or cycle.
-pub(super) fn of_last(rows: &[FatigueRecord]) -> impl Iterator<Item = &FatigueRecord> {
-    let of = |row: &FatigueRecord| (row.pass, row.cycle);
-    let last = rows.last().map(of);
-    rows.iter().filter(move |row| Some(of(row)) == last)
 }
 
 /// The load cycle of a row, in a word.

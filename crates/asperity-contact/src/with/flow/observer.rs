@@ -28,8 +28,8 @@ impl FlowObserver {
         let fluid = self.leakage.fluid();
         let [pressure, rate] = FIELDS[axis];
         [
-            NamedField { name: pressure.into(), unit: "Pa".into(), values: along.pressure_of(&fluid) },
-            NamedField { name: rate.into(), unit: "m²/s".into(), values: along.rate_of(&fluid) },
+            NamedField::new(pressure, "Pa", along.pressure_of(&fluid)),
+            NamedField::new(rate, "m²/s", along.rate_of(&fluid)),
         ]
     }
 }

@@ -50,9 +50,9 @@ pub struct Leakage {
     #[key(quantity = Density, range = AboveZero, absent = "unknown", example = "\"870 kg/m3\"", exists = exists::DENSITY)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
-    /// Width of the face of a seal, from one side of it to the other along the flow, for which the leakage of a metre of seal is told. A face
-    /// of n times the length of the map leaks 1/n of what the map leaks.
-    #[key(quantity = Length, range = AboveZero, absent = "the length of the map along the flow", example = "\"2 mm\"", exists = FACE)]
+    /// Width of the face of a seal along the flow, for which the leakage of a metre of seal is told. This leakage is inversely proportional to
+    /// the width.
+    #[key(quantity = Length, range = AboveZero, absent = "the length of the map along the flow", example = "\"2 mm\"", exists = FACE, beside = [NARROW])]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<Metre>,
     /// Interval of the positions of a pass, or of the increments, updates or points, whose flow is computed; 0: once a pass, where the left
@@ -78,6 +78,7 @@ const FACE: Exists =
 /// Pressures of gases that are ideal.
 const OUTLET: Exists =
     Exists::Within { least: 1e-3, most: 3e7, of: "vacuum pumps to gas cylinders", slips: &["bar", "mbar"] };
+const NARROW: Beside = Beside::least(Scale::Side, 0.5, "the map is wider than the face");
 const LIFTS: Beside = Beside::most(Scale::MeanPressure, 1.0, "the fluid lifts the bodies, which is left out");
 
 impl Leakage {
