@@ -12,7 +12,7 @@ use crate::summary::{Outcome, RunningIn, Summary};
 use crate::viscoelastic;
 use asperity_base::error::Result;
 use asperity_base::units::Metre;
-use asperity_contact::motion::{Pair, PlasticRecord, UpdateRecord};
+use asperity_contact::motion::{Pair, PlasticRecord, SweepRecord, UpdateRecord};
 use asperity_contact::solver::{Control, Params};
 use asperity_contact::with::{InterfaceNumbers, Observations};
 
@@ -96,7 +96,11 @@ pub fn closed_form(case: &Case, extent: [Metre; 2], outcome: &Outcome) -> Option
             let yields = record.plastic.as_ref().is_some_and(|plastic| plastic.max_plastic_strain > 0.0);
             (record.plastic_cells == 0 && !yields).then(|| (&**record).into())
         }
-        Outcome::Sweep(points) => points.last().filter(|point| point.plastic_area == 0.0).map(Into::into),
+        Outcome::Sweep(points) => {
+            let yields =
+                |point: &SweepRecord| point.plastic.is_some_and(|flow| flow.max_plastic_strain > 0.0);
+            points.last().filter(|point| point.plastic_area == 0.0 && !yields(point)).map(Into::into)
+        }
         Outcome::Passes(_) => None,
     }?;
     let is_plain = case.sliding.is_none() && !case.relaxes() && case.interface.is_empty() && !case.runs_in();

@@ -18,9 +18,10 @@ use crate::tables;
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::{CellValues, Field, check_finite};
 use asperity_contact::motion::{
-    Body, ChangedBodies, ElastoPlasticContact, IncrementRecord, LoadedContact, Output, Pair, PlasticResult,
-    PlasticVolume, Point, Slide, SlidingContact, SlidingOutcome, SlidingState, SlipRegime, Stage,
-    StagedLoading, State, StaticRecord, UpdateRecord, Watch, press, press_elasto_plastic, sweep,
+    Body, ChangedBodies, IncrementRecord, LoadedContact, Output, Pair, PlasticResult, PlasticVolume, Point,
+    Slide, SlidingContact, SlidingOutcome, SlidingState, SlipRegime, Stage, StagedLoading, State,
+    StaticRecord, UpdateRecord, Watch, YieldingBodies, press, press_elasto_plastic, sweep,
+    sweep_elasto_plastic,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Equilibrium, Friction, Params, Solution};
@@ -204,12 +205,22 @@ impl StaticProblem<'_> {
         let last = state.records.last().map(|last| last.point);
         let (mut observers, mut limits) = (self.observers(last)?, self.limits(last)?);
         let (boundary, outputs) = (self.boundary(), &mut outputs(&mut observers, &mut limits, &mut kept));
-        let (points, contact) =
-            sweep(&self.pair, boundary, points, &self.params, state, self.watch, outputs)?;
-        let warnings = [limits.all(), review::sweep(&points, &contact)].concat();
-        let LoadedContact { solution, plastic, slip, .. } = contact;
-        let fields = fields(self.pair, solution, plastic, slip);
-        StaticResult { warnings, ..StaticResult::of(Outcome::Sweep(points), fields) }.seen_by(case, observers)
+        let (pair, params, watch) = (&self.pair, &self.params, self.watch);
+        let (points, contact) = match &case.plasticity {
+            None => sweep(pair, boundary, points, params, state, watch, outputs)?,
+            Some(region) => {
+                let virgin = || elasto_plastic::bodies(case, region, pair);
+                let increments = region.increments.unwrap_or(1);
+                let bodies = YieldingBodies { virgin: &virgin, increments, plastic: region.params() };
+                sweep_elasto_plastic(pair, boundary, points, bodies, params, state, watch, outputs)?
+            }
+        };
+        let of_bodies = review::elasto_plastic(case, pair, &contact);
+        let warnings = [limits.all(), of_bodies, review::sweep(&points, &contact)].concat();
+        let LoadedContact { solution, plastic, slip, plastic_result, .. } = contact;
+        let fields = fields(displaced(self.pair, plastic_result.as_ref()), solution, plastic, slip);
+        let result = StaticResult::of(Outcome::Sweep(points), fields);
+        StaticResult { plastic_result, warnings, ..result }.seen_by(case, observers)
     }
 
     /// Solves sliding in place.
@@ -251,13 +262,10 @@ impl StaticProblem<'_> {
         let of_answer = self.review(contact.solution.normal());
         let of_bodies = review::elasto_plastic(self.case, &self.pair, &contact);
         let warnings = [limits.all(), of_bodies, of_answer].concat();
-        let ElastoPlasticContact { record, solution, slip, plastic_result, .. } = contact;
-        let nothing = self.pair.lower_grid().zeros();
-        let fields = fields(plastic_result.displaced(self.pair), solution, nothing, slip);
-        let increments = plastic_result.increments.clone();
+        let LoadedContact { record, increments, solution, plastic, slip, plastic_result, .. } = contact;
+        let fields = fields(displaced(self.pair, plastic_result.as_ref()), solution, plastic, slip);
         let result = StaticResult::of(record, fields);
-        StaticResult { increments, plastic_result: Some(plastic_result), warnings, ..result }
-            .seen_by(case, observers)
+        StaticResult { increments, plastic_result, warnings, ..result }.seen_by(case, observers)
     }
 
     /// Creates the result from the end of a loading, or of rolling, with the warnings of `broken` limits.
@@ -345,9 +353,8 @@ fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field
     drop(normal.initial_gap);
     let gap = pair.initial_gap(&pair.at_rest()) + &normal.displacement - normal.approach;
     let mut fields = states(&pair);
-    let mut add = |name: &'static str, unit: &'static str, values| {
-        fields.push(NamedField { name: name.into(), unit: unit.into(), values });
-    };
+    let mut add =
+        |name: &'static str, unit: &'static str, values| fields.push(NamedField::new(name, unit, values));
     add("pressure", "Pa", normal.pressure);
     if let Some(contact) = contact {
         add("contact", "1", contact);
@@ -377,14 +384,20 @@ fn fields(pair: Pair, solution: Equilibrium, plastic: Field, slip: Option<[Field
     RestFields { grid, approach: normal.approach, hardness, fields }
 }
 
+/// Returns a `pair` whose surfaces plastic strain has displaced, if there is any.
+fn displaced(pair: Pair, plastic: Option<&PlasticResult>) -> Pair {
+    match plastic {
+        None => pair,
+        Some(plastic) => plastic.displaced(pair),
+    }
+}
+
 /// Returns what laws and memories keep with both bodies.
 fn states(pair: &Pair) -> Vec<NamedField> {
     let of_body = |(body, state): (&'static str, &Body)| {
         let states = state.state.iter();
-        let named = move |(name, State { unit, values }): (&String, &State)| NamedField {
-            name: state_name(name, body).into(),
-            unit: unit.clone().into(),
-            values: values.clone(),
+        let named = move |(name, State { unit, values }): (&String, &State)| {
+            NamedField::new(state_name(name, body), unit.clone(), values.clone())
         };
         states.map(named).collect::<Vec<_>>()
     };
@@ -398,9 +411,8 @@ fn worn_fields(contact: SlidingOutcome, friction: Option<Friction>) -> RestField
     let (grid, approach, hardness) = (pair.lower_grid(), solution.approach, pair.min_hardness());
     let (gap, plastic) = (solution.gap(), solution.plastic_interference());
     let mut fields = states(&pair);
-    let mut add = |name: &'static str, unit: &'static str, values| {
-        fields.push(NamedField { name: name.into(), unit: unit.into(), values });
-    };
+    let mut add =
+        |name: &'static str, unit: &'static str, values| fields.push(NamedField::new(name, unit, values));
     let shear = friction.map(|friction| solution.pressure.mapv(|p| friction.shear_limit(p)));
     add("pressure", "Pa", solution.pressure);
     add("displacement", "m", solution.displacement);

@@ -8,8 +8,8 @@ use asperity_base::grid::Field;
 use asperity_base::units::{self, Dimension, Joule, Metre, SquareMetre};
 use asperity_contact::each_law;
 use asperity_contact::motion::{
-    ElastoPlasticContact, IncrementRecord, Interior, LoadedContact, Pair, Paraboloid, PassPlasticRecord,
-    PassRecord, PlasticVolume, ShearRecord, StaticRecord, StepRecord, SweepRecord,
+    IncrementRecord, Interior, LoadedContact, Pair, Paraboloid, PassPlasticRecord, PassRecord, PlasticVolume,
+    ShearRecord, StaticRecord, StepRecord, SweepRecord,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::with::{self, BodyLaw};
@@ -112,16 +112,18 @@ fn inaccurate(error: Joule, shear: &ShearRecord) -> Option<String> {
 }
 
 /// Returns the warnings of a static contact of elasto-plastic bodies.
-pub(super) fn elasto_plastic(case: &Case, pair: &Pair, contact: &ElastoPlasticContact) -> Vec<String> {
+pub(super) fn elasto_plastic(case: &Case, pair: &Pair, contact: &LoadedContact) -> Vec<String> {
     /// Step of the load, relative to the load reached, above which the loading path is resolved only roughly.
     const STEP: f64 = 0.15;
-    let ElastoPlasticContact { record, plastic_result, .. } = contact;
+    let LoadedContact { record, plastic_result: Some(plastic_result), .. } = contact else {
+        return Vec::new();
+    };
     let mut warnings = volumes(case.contact.boundary, &plastic_result.volumes);
     let Some(plastic) = &record.plastic else { return warnings };
     let spot = spot_width(record, pair.cell_area());
     warnings.extend(thick_layers(&plastic_result.volumes, plastic.max_plastic_strain, spot));
     let mut before = 0.0;
-    let coarse = plastic_result.increments.iter().any(|increment| {
+    let coarse = contact.increments.iter().any(|increment| {
         let step = increment.load - std::mem::replace(&mut before, increment.load);
         let flows = increment.plastic.is_some_and(|plastic| plastic.yielded_cells > 0);
         flows && increment.increment > 1 && step.abs() > STEP * record.load.max(increment.load)

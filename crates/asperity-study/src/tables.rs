@@ -382,6 +382,7 @@ mod tests {
             residual: 1e-7,
             interface: None,
             steady: None,
+            plastic: None,
         }
     }
 

@@ -217,7 +217,10 @@ impl Rows {
                     Cell::of(head, column, value)
                 }
                 (None, Some(steady)) => Cell::of("drag/W", "drag_coefficient", steady.drag_coefficient),
-                (None, None) => Cell::of("stiff", "stiffness", point.stiffness),
+                (None, None) => match point.plastic {
+                    Some(flow) => Cell::share("strain", flow.max_plastic_strain),
+                    None => Cell::of("stiff", "stiffness", point.stiffness),
+                },
             });
         }
         let above = match (first, self.slides) {

@@ -6,7 +6,6 @@ use crate::math::parallel;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
-use crate::motion::record::LostVolume;
 use crate::motion::watch::OneOfMany;
 use crate::solver::{Bounds, Control, Params, Solution, Stats, solve_batch};
 
@@ -66,13 +65,6 @@ impl Solver<'_> {
 
     fn pass(&self, pair: &Pair, solutions: &[Solution]) -> Pass {
         let contact = |(index, solution): (usize, &Solution)| self.contact(index, solution);
-        Pass {
-            contacts: parallel::tasks(solutions.iter().enumerate(), contact),
-            pair: pair.clone(),
-            lost: self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect(),
-            has_changed: false,
-            plastic_pass: None,
-            drag: None,
-        }
+        Pass::new(parallel::tasks(solutions.iter().enumerate(), contact), pair.clone(), self.laws)
     }
 }

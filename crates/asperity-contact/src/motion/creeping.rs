@@ -4,12 +4,11 @@ use crate::error::{Error, Result, check_in};
 use crate::grid::{Field, Placement};
 use crate::motion::body::{Body, State};
 use crate::motion::contact::Contact;
+use crate::motion::kinematics::{Motion, Strategy};
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Drag, Pass, Solver, first_guess};
 use crate::motion::path::Stroke;
-use crate::motion::record::LostVolume;
 use crate::motion::watch::{OneOfMany, Progress};
-use crate::motion::{Motion, Strategy};
 use crate::operator::{Boundary, Operator, Operators};
 use crate::solver::{ContactProblem, Control, Equilibrium, Params};
 use crate::units::{Dimension, Joule, Newton, Pascal, PerPascal, Second, SquareMetre};
@@ -311,14 +310,7 @@ impl Solver<'_> {
                 remembering.keep(body);
             }
         }
-        let lost = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
-        Ok(Pass {
-            contacts,
-            pair: after,
-            lost,
-            has_changed: false,
-            plastic_pass: None,
-            drag: Some(Drag { positions: drags, cells, leaving }),
-        })
+        let drag = Some(Drag { positions: drags, cells, leaving });
+        Ok(Pass { drag, ..Pass::new(contacts, after, self.laws) })
     }
 }

@@ -5,52 +5,17 @@ use crate::grid::Field;
 use crate::motion::contact::facing;
 use crate::motion::course::{self, Course, Output, Step, StepRow};
 use crate::motion::pair::Pair;
-use crate::motion::plastic_volume::{self, PlasticSums, PlasticVolume};
+use crate::motion::plastic_volume::{PlasticResult, PlasticSums, PlasticVolume};
 use crate::motion::press::{shear_record, static_record};
 use crate::motion::record::{IncrementRecord, PlasticRecord, PlasticStepRecord, StaticRecord};
 use crate::motion::slip::SlipRegime;
 use crate::motion::stage::{Origin, Stage};
+use crate::motion::state::LoadedContact;
 use crate::motion::watch::{StaticWatch, Watch};
 use crate::operator::Boundary;
 use crate::plasticity::{PlasticBody, PlasticContact, PlasticParams, RelativePosition};
 use crate::solver::{Control, Equilibrium, Friction, Loading, Params, Tangential};
 use crate::units::Joule;
-
-/// Result of a static contact of elasto-plastic bodies.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct ElastoPlasticContact {
-    /// The record of the contact under its last load.
-    pub record: StaticRecord,
-    /// The contact under its last load. Its gap includes the plastic displacement of the surfaces.
-    pub solution: Equilibrium,
-    /// Sum of the slip of all increments along x and y up to the last load, m; `None` without friction.
-    pub slip: Option<[Field; 2]>,
-    /// Bound on the error of the frictional energy in the record: see
-    /// [`FrictionalSolution::dissipation_error`](crate::solver::FrictionalSolution::dissipation_error).
-    pub dissipation_error: Joule,
-    /// The plastic state and its history.
-    pub plastic_result: PlasticResult,
-}
-
-/// Plastic state below the surfaces of a static contact, and its history.
-#[derive(Debug, Clone, Default)]
-#[non_exhaustive]
-pub struct PlasticResult {
-    /// The increments, unloading included.
-    pub increments: Vec<IncrementRecord>,
-    /// The plastic state of each elasto-plastic body under the last load.
-    pub volumes: Vec<PlasticVolume>,
-    /// The plastic state after unloading; empty if the load stays.
-    pub residual: Vec<PlasticVolume>,
-}
-
-impl PlasticResult {
-    /// Returns a `pair` with its surfaces displaced by the plastic strain under the last load.
-    pub fn displaced(&self, pair: Pair) -> Pair {
-        plastic_volume::displaced(pair, &self.volumes, 1.0)
-    }
-}
 
 /// Loading path of elasto-plastic bodies.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,7 +54,7 @@ impl PlasticPath {
 }
 
 /// Presses a pair at full overlap along a `path`. The given `bodies`, lower one first, are elasto-plastic. Under `friction`
-/// they stick or slip.
+/// they stick or slip. The increments include the unloading; record and solution are those under the last load.
 ///
 /// # Errors
 /// [`Error::AtIncrement`] with the cause, [`Error::Interrupted`], [`Error::Unsupported`] for a path that ends without
@@ -107,15 +72,19 @@ pub fn press_elasto_plastic(
     params: &Params,
     watch: &dyn Watch,
     outputs: &mut [&mut dyn Output],
-) -> Result<ElastoPlasticContact> {
+) -> Result<LoadedContact> {
     pair.interface().check_combined()?;
     pair.check_elastic()?;
+    pair.check_flow(&bodies)?;
     let (operators, initial_gap) = facing(pair, boundary)?;
     let regime = SlipRegime::from(friction.copied());
     let solver = regime.solver(pair, &operators, pair.lower_grid().shape, params.device)?;
-    let facing = RelativePosition { solver, initial_gap, placements: pair.placements(&pair.at_rest()) };
+    let at_rest = pair.at_rest();
+    let (bounds, placements) = (pair.bounds(&at_rest), pair.placements(&at_rest));
+    let facing = RelativePosition { solver, initial_gap, bounds, placements };
     let contact = PlasticContact::new(facing, bodies, path.plastic, *params);
     let mut yielding = ElastoPlasticLoading {
+        flattened: contact.grid().zeros(),
         contact,
         path,
         increments: Vec::new(),
@@ -132,6 +101,8 @@ pub fn press_elasto_plastic(
 /// A contact of elasto-plastic bodies on its loading path.
 struct ElastoPlasticLoading<'a> {
     contact: PlasticContact,
+    /// The plastic interference at a hardness so far.
+    flattened: Field,
     path: &'a PlasticPath,
     increments: Vec<IncrementRecord>,
     sums: PlasticSums,
@@ -146,6 +117,7 @@ struct ElastoPlasticLoading<'a> {
 /// A contact under its last load.
 struct LastLoad {
     solution: Equilibrium,
+    flattened: Field,
     slip: Option<[Field; 2]>,
     dissipation: Joule,
     dissipation_error: Joule,
@@ -219,6 +191,7 @@ impl ElastoPlasticLoading<'_> {
         let volumes = PlasticVolume::loaded(&mut self.contact);
         Ok(LastLoad {
             solution,
+            flattened: self.flattened.clone(),
             slip: self.slip.take(),
             dissipation: self.increments.iter().map(|increment| increment.dissipation).sum(),
             dissipation_error: self.dissipation_error,
@@ -237,6 +210,7 @@ impl ElastoPlasticLoading<'_> {
         let contact = &mut self.contact;
         let before = contact.equilibrium().cloned();
         let increment = contact.load(loading, watch)?;
+        self.flattened += &contact.flatten();
         self.sums.add(&increment);
         let plastic = PlasticStepRecord::of(std::slice::from_ref(&increment), contact);
         let apart = || IncrementRecord { approach: f64::NAN, ..IncrementRecord::default() };
@@ -251,13 +225,15 @@ impl ElastoPlasticLoading<'_> {
             });
         }
         let increment = self.increments.len() + 1;
-        Ok(IncrementRecord { increment, stage, dissipation, plastic: Some(plastic), ..record })
+        let plastic_volume = contact.grid().cell_area() * self.flattened.sum();
+        let plastic = Some(plastic);
+        Ok(IncrementRecord { increment, stage, plastic_volume, dissipation, plastic, ..record })
     }
 
     /// Returns the contact at the end of its path.
-    fn finish(mut self) -> Result<ElastoPlasticContact> {
+    fn finish(mut self) -> Result<LoadedContact> {
         let loaded = self.loaded.take().expect("the end of the path");
-        let LastLoad { solution, slip, dissipation, dissipation_error, volumes, plastic } = loaded;
+        let LastLoad { solution, flattened, slip, dissipation, dissipation_error, volumes, plastic } = loaded;
         let (residual, left) = match self.path.unloading {
             None => (Vec::new(), None),
             Some(_) => {
@@ -269,10 +245,21 @@ impl ElastoPlasticLoading<'_> {
         let PlasticSums { products, mismatch, .. } = self.sums;
         let plastic = PlasticRecord { products, mismatch, residual: left, ..plastic };
         let shear = shear_record(&solution, dissipation);
-        let interference = Field::zeros(solution.normal().pressure.raw_dim());
-        let record =
-            StaticRecord { plastic: Some(plastic), shear, ..static_record(&solution, &interference) };
-        let plastic_result = PlasticResult { increments: self.increments, volumes, residual };
-        Ok(ElastoPlasticContact { record, solution, slip, dissipation_error, plastic_result })
+        let record = static_record(&solution, &flattened);
+        // Below 0 by all of the plastic interference, as for other bodies.
+        let mean = |field: &Field| field.mean().unwrap_or(0.0);
+        let opened = mean(&flattened) - mean(&solution.normal().plastic_interference());
+        let mean_gap = record.mean_gap - opened;
+        let record = StaticRecord { plastic: Some(plastic), shear, mean_gap, ..record };
+        Ok(LoadedContact {
+            record,
+            increments: self.increments,
+            solution,
+            plastic: flattened,
+            slip,
+            dissipation_error,
+            changed: None,
+            plastic_result: Some(PlasticResult { volumes, residual }),
+        })
     }
 }

@@ -8,12 +8,13 @@
 use crate::error::Result;
 use crate::grid::{CellValues, Field};
 use crate::motion::extrapolation::{self, Acceleration, Bounds, GridCompliance, LastExtrapolation};
+use crate::motion::kinematics::Strategy;
 use crate::motion::law::{self, CyclicSlip, Law, Sums};
 use crate::motion::memory::{self, LoadCycle, Memory};
 use crate::motion::pair::Pair;
-use crate::motion::record::{FrettingRecord, LawsInCycles, LostVolume};
+use crate::motion::record::{FrettingRecord, LawsInCycles};
 use crate::motion::rim::Interior;
-use crate::motion::{Strategy, worn_away};
+use crate::motion::worn_away;
 use crate::operator::{Boundary, Compliant, Operator, Operators};
 use crate::solver::{Control, Equilibrium, FrictionalSolution, Params, Solution, solve_normal};
 use crate::subsurface::Tractions;
@@ -309,7 +310,7 @@ impl Changes {
 
     /// Lets the laws act for their `sums` over so many `times`, and the memories go on by so many `cycles`.
     fn act(&self, bodies: &mut ChangedBodies, sums: &[Sums], times: usize, cycles: usize) {
-        let mut lost: Vec<_> = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
+        let mut lost = law::nothing_lost(&self.laws);
         let pair = &mut bodies.pair;
         let taken = law::advance(&self.laws, pair, sums, times as f64, &self.interiors, &mut lost);
         let worn = law::uncovered(&self.laws, &taken);

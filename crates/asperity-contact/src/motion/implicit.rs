@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::control::LoadControl;
 use crate::error::{Error, Result};
 use crate::grid::{CellValues, Field, Grid};
-use crate::motion::LoadControl;
 use crate::motion::contact::Contact;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};

@@ -4,9 +4,10 @@ use crate::error::Result;
 use crate::grid::{CellValues, Field, Placement};
 use crate::math::gathered;
 use crate::motion::contact::Contact;
+use crate::motion::kinematics::Motion;
 use crate::motion::pair::Pair;
-use crate::motion::path::Position;
-use crate::motion::record::{HeatRecord, LawsInCycles, LawsInPass, LawsInUpdate, LostVolume};
+use crate::motion::path::{Position, Stroke};
+use crate::motion::record::{LawsInCycles, LawsInPass, LawsInUpdate, LostVolume};
 use crate::motion::rim::Interior;
 use crate::solver::{FrictionalSolution, Sliding};
 use crate::units::{Kelvin, Metre, Pascal, PerPascal, Second, WattPerSquareMetre};
@@ -184,6 +185,19 @@ pub(super) struct PositionData {
     pub(super) bulk: [Kelvin; 2],
 }
 
+impl PositionData {
+    /// Returns the data of a position of a `motion` of a `pair`.
+    pub(super) fn of(motion: &Motion, pair: &Pair) -> Self {
+        let (cells, pitch) = (motion.cells_of_position(pair.lower.columns()), pair.pitch()[0]);
+        Self {
+            sliding: motion.sliding(Stroke::Forth),
+            distance: motion.sliding_distance_of(cells, pitch),
+            time: motion.time_of(cells, pitch),
+            bulk: motion.bulk.unwrap_or([f64::NAN; 2]),
+        }
+    }
+}
+
 /// Sums of a law over a pass, on the lower and on the upper body.
 pub type Sums = [Vec<Field>; 2];
 
@@ -192,11 +206,9 @@ pub type Sums = [Vec<Field>; 2];
 pub(super) type Heat<'a> =
     dyn FnMut([&[u32]; 2], &Position, &[WattPerSquareMetre]) -> Result<Vec<Kelvin>> + 'a;
 
-/// The heat of friction at a position.
-pub(super) struct FrictionHeat {
-    pub(super) record: HeatRecord,
-    /// Surface temperature of each cell in contact.
-    pub(super) temperature: Vec<Kelvin>,
+/// Returns how many of the `laws`, the first ones, act once per computed pass. The others also act in the extrapolated passes.
+pub(super) fn once(laws: &[Box<dyn Law>]) -> usize {
+    laws.iter().take_while(|law| !law.repeats()).count()
 }
 
 /// Creates zero sums for `laws` on a `pair`.
@@ -205,15 +217,26 @@ pub(super) fn nothing(laws: &[Box<dyn Law>], pair: &Pair) -> Vec<Sums> {
     laws.iter().map(|law| shapes.map(|shape| vec![Field::zeros(shape); law.sums()])).collect()
 }
 
+/// Depths that `laws` take from no cell of a `pair`.
+pub(super) fn untouched(laws: &[Box<dyn Law>], pair: &Pair) -> Vec<[Field; 2]> {
+    let shapes = [pair.lower.heights.raw_dim(), pair.upper.heights.raw_dim()];
+    laws.iter().map(|_| shapes.map(Field::zeros)).collect()
+}
+
+/// Volumes of `laws` that have removed nothing.
+pub(super) fn nothing_lost(laws: &[Box<dyn Law>]) -> Vec<LostVolume> {
+    laws.iter().map(|law| LostVolume::nothing(law.name())).collect()
+}
+
 /// Sums `laws` over contacts on frozen bodies. `heat` computes the temperatures at each contact; without it the surfaces
-/// have the temperatures of the bodies.
+/// have the temperatures of the bodies. Returns the sums, and with `heat` the temperature of the cells of each contact.
 pub(super) fn sums(
     laws: &[Box<dyn Law>],
     pair: &Pair,
     contacts: &[Contact],
     position_data: &PositionData,
     mut heat: Option<&mut Heat<'_>>,
-) -> Result<(Vec<Sums>, Vec<FrictionHeat>)> {
+) -> Result<(Vec<Sums>, Vec<Vec<Kelvin>>)> {
     let mut sums = nothing(laws, pair);
     let mut warm = Vec::new();
     for contact in contacts {
@@ -234,13 +257,8 @@ pub(super) fn sums(
             let speed = position_data.distance / position_data.time;
             let flux: Vec<f64> = shear.iter().map(|q| q * speed).collect();
             let of_cells = heat([&lower, &upper], &contact.position, &flux)?;
-            let warmest = of_cells.iter().copied().reduce(f64::max);
-            let record = HeatRecord {
-                friction_power: contact.tangential_force.abs() * speed,
-                max_flash_temperature: warmest.unwrap_or(position_data.bulk[0].max(position_data.bulk[1])),
-            };
             temperature = [of_cells.clone(), of_cells.clone()];
-            warm.push(FrictionHeat { record, temperature: of_cells });
+            warm.push(of_cells);
         }
         let contact_cells = ContactCells {
             position: &contact.position,

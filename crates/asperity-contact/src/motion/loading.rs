@@ -440,7 +440,17 @@ impl StagedLoading {
             fretting,
             ..static_record(&solution, &plastic)
         };
-        LoadedContact { record, increments, solution, plastic, slip, dissipation_error, changed }
+        let plastic_result = None;
+        LoadedContact {
+            record,
+            increments,
+            solution,
+            plastic,
+            slip,
+            dissipation_error,
+            changed,
+            plastic_result,
+        }
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::error::Result;
 use crate::grid::Field;
-use crate::motion::Motion;
 use crate::motion::contact::Contact;
+use crate::motion::kinematics::Motion;
 use crate::motion::law;
 use crate::motion::pair::Pair;
 use crate::motion::plastic_volume::PlasticVolume;
@@ -112,14 +112,14 @@ pub(super) fn most_cycles(memories: &[Box<dyn Memory>], pair: &Pair) -> usize {
 }
 
 /// Lets the `memories` go on by so many `cycles` in which laws that uncover material have taken the depth `worn` from both bodies, `None`
-/// without such laws. Returns the volumes that the bodies lose by it.
+/// without such laws. Returns the volumes that the bodies lose by it, and their depths.
 pub(super) fn advance(
     memories: &[Box<dyn Memory>],
     pair: &mut Pair,
     cycles: f64,
     worn: Option<[Field; 2]>,
     interiors: &[Interior; 2],
-) -> Vec<LostVolume> {
+) -> Vec<(LostVolume, [Field; 2])> {
     if memories.is_empty() {
         return Vec::new();
     }
@@ -131,7 +131,7 @@ pub(super) fn advance(
         if let Some(name) = memory.takes() {
             let mut volume = LostVolume::nothing(name);
             law::remove(pair, &depth, interiors, &mut volume);
-            lost.push(volume);
+            lost.push((volume, depth));
         }
     }
     lost

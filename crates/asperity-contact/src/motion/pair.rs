@@ -10,6 +10,7 @@ use crate::math::{Bands, parallel};
 use crate::motion::body::{Body, State};
 use crate::motion::path::Position;
 use crate::operator::{Boundary, Operators};
+use crate::plasticity::PlasticBody;
 use crate::solver::{Bounds, HardWall, Interface};
 use crate::surface::Topography;
 use crate::units::{Dimension, Metre, Pascal, SquareMetre, format_distinct};
@@ -236,6 +237,18 @@ impl Pair {
     /// Whether any cell of the pair can deform plastically.
     pub fn yields(&self) -> bool {
         self.lower.hardness.min().min(self.upper.hardness.min()).is_finite()
+    }
+
+    /// Checks that no elasto-plastic body, lower one first, has a hardness besides.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`].
+    pub(super) fn check_flow(&self, bodies: &[Option<PlasticBody>; 2]) -> Result<()> {
+        let mut hardness = [&self.lower, &self.upper].map(|body| body.hardness.min()).into_iter().zip(bodies);
+        match hardness.any(|(hardness, body)| body.is_some() && hardness.is_finite()) {
+            true => Err(Error::Unsupported("an elasto-plastic body does not take a hardness")),
+            false => Ok(()),
+        }
     }
 
     /// Largest pressure that any two opposing cells can carry; infinite if both are elastic.

@@ -6,9 +6,10 @@ use rayon::prelude::*;
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
-use crate::motion::Motion;
 use crate::motion::contact::Contact;
-use crate::motion::law::{self, Law};
+use crate::motion::heat::PassHeat;
+use crate::motion::kinematics::Motion;
+use crate::motion::law::{self, Heat, Law, PositionData};
 use crate::motion::pair::Pair;
 use crate::motion::path::Position;
 use crate::motion::plastic_volume::ElastoPlasticPass;
@@ -20,15 +21,15 @@ use crate::operator::Operators;
 use crate::solver::{Control, Equilibrium, Params, Solution};
 use crate::units::Newton;
 
-/// A pass at one prescribed load or approach: its contacts and the pair. The laws still have to change the pair, unless the
-/// positions have done so.
+/// A pass at one prescribed load or approach: its contacts and the pair. The laws still have to change the pair, unless they
+/// have done so position by position.
 pub(super) struct Pass {
     /// The contacts at the positions.
     pub(super) contacts: Vec<Contact>,
     /// The bodies, possibly changed by each position.
     pub(super) pair: Pair,
-    /// Whether the laws have changed the bodies position by position.
-    pub(super) has_changed: bool,
+    /// The depths that the laws that repeat have taken from both bodies, if all laws have changed the bodies position by position.
+    pub(super) taken: Option<Vec<[Field; 2]>>,
     /// Volumes removed from the bodies by each law.
     pub(super) lost: Vec<LostVolume>,
     /// Results for elasto-plastic bodies; `None` for others.
@@ -48,6 +49,12 @@ pub(super) struct Drag {
 }
 
 impl Pass {
+    /// Creates a pass of a `pair` that `laws` have not changed yet.
+    pub(super) fn new(contacts: Vec<Contact>, pair: Pair, laws: &[Box<dyn Law>]) -> Self {
+        let lost = law::nothing_lost(laws);
+        Self { contacts, pair, taken: None, lost, plastic_pass: None, drag: None }
+    }
+
     /// Mean load over the positions.
     pub(super) fn mean_load(&self) -> Newton {
         self.contacts.iter().map(|c| c.load).sum::<f64>() / self.contacts.len() as f64
@@ -61,6 +68,8 @@ pub(super) struct Solver<'a> {
     pub(super) motion: &'a Motion,
     pub(super) interiors: &'a [Interior; 2],
     pub(super) laws: &'a [Box<dyn Law>],
+    /// The flash temperature, with the number of computed passes before this one, if it is requested.
+    pub(super) heat: Option<(&'a PassHeat, usize)>,
     /// Whether the gap of each position is kept.
     pub(super) gaps: &'a [bool],
     /// The last contact of the pass before, if viscoelastic bodies go on from it.
@@ -195,27 +204,28 @@ impl Solver<'_> {
             Ok((contact, solution))
         };
         let mut after = pair.clone();
-        let mut lost: Vec<LostVolume> = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
-        let position_data = self.motion.position_data(pair);
         if !self.motion.is_frozen(pair.yields()) {
+            let position_data = PositionData::of(self.motion, pair);
+            let mut lost = law::nothing_lost(self.laws);
             let mut contacts = Vec::with_capacity(self.positions.len());
+            let once = law::once(self.laws);
+            let mut taken = law::untouched(&self.laws[once..], pair);
+            let mut heat = self.heat.map(|(heat, done)| heat.of_pass(done, pair, position_data.bulk));
             let mut last = None;
             for index in 0..self.positions.len() {
-                let (contact, solution) = solve(&after, index, last.as_ref())?;
+                let (mut contact, solution) = solve(&after, index, last.as_ref())?;
                 last = pair.interface().follows_path().then_some(solution);
-                let (sums, _) =
-                    law::sums(self.laws, &after, std::slice::from_ref(&contact), &position_data, None)?;
-                law::advance(self.laws, &mut after, &sums, 1.0, self.interiors, &mut lost);
+                let heat = heat.as_deref_mut().map(|heat| heat as &mut Heat);
+                let at = std::slice::from_ref(&contact);
+                let (sums, mut warm) = law::sums(self.laws, &after, at, &position_data, heat)?;
+                contact.temperature = warm.pop();
+                let depths = law::advance(self.laws, &mut after, &sums, 1.0, self.interiors, &mut lost);
+                for (taken, depth) in taken.iter_mut().flatten().zip(depths[once..].iter().flatten()) {
+                    *taken += depth;
+                }
                 contacts.push(contact);
             }
-            return Ok(Pass {
-                contacts,
-                pair: after,
-                lost,
-                has_changed: true,
-                plastic_pass: None,
-                drag: None,
-            });
+            return Ok(Pass { lost, taken: Some(taken), ..Pass::new(contacts, after, self.laws) });
         }
         let positions = 0..self.positions.len();
         let contacts: Vec<Contact> = if pair.interface().follows_path() {
@@ -231,7 +241,7 @@ impl Solver<'_> {
                 positions.into_par_iter().map(|index| solve(pair, index, None).map(|(contact, _)| contact));
             alone.collect::<Result<_>>()?
         };
-        Ok(Pass { contacts, pair: after, lost, has_changed: false, plastic_pass: None, drag: None })
+        Ok(Pass::new(contacts, after, self.laws))
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::grid::{Field, Grid};
 use crate::motion::pair::Pair;
 use crate::motion::record::{
-    PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Regime, StepRecord,
+    IncrementRecord, PassPlasticRecord, PassRecord, PlasticRecord, PlasticStepRecord, Regime, StepRecord,
 };
 use crate::motion::regime;
 use crate::plasticity::{Increment, PlasticBody, PlasticContact, PlasticState, TensorField};
@@ -32,6 +32,23 @@ pub struct PlasticVolume {
     pub yielded_volume: CubicMetre,
     /// Energy stored in the residual stress, −½ ∫ ε : K ε.
     pub stored_energy: Joule,
+}
+
+/// Plastic state below the surfaces of a static contact.
+#[derive(Debug, Clone, Default)]
+#[non_exhaustive]
+pub struct PlasticResult {
+    /// The plastic state of each elasto-plastic body under the last load.
+    pub volumes: Vec<PlasticVolume>,
+    /// The plastic state after unloading; empty if the load stays.
+    pub residual: Vec<PlasticVolume>,
+}
+
+impl PlasticResult {
+    /// Returns a `pair` with its surfaces displaced by the plastic strain under the last load.
+    pub fn displaced(&self, pair: Pair) -> Pair {
+        displaced(pair, &self.volumes, 1.0)
+    }
 }
 
 /// Results of a pass of elasto-plastic bodies.
@@ -183,6 +200,20 @@ impl PlasticStepRecord {
             products: sums.products,
             mismatch: sums.mismatch,
         }
+    }
+}
+
+impl PlasticStepRecord {
+    /// Sums the flow of all `increments` of a loading; `None` if none has any.
+    pub(super) fn up_to_last(increments: &[IncrementRecord]) -> Option<Self> {
+        let flow = increments.iter().filter_map(|increment| increment.plastic);
+        flow.reduce(|sum, more| Self {
+            yielded_cells: sum.yielded_cells.max(more.yielded_cells),
+            max_plastic_strain: sum.max_plastic_strain.max(more.max_plastic_strain),
+            plastic_work: sum.plastic_work + more.plastic_work,
+            products: sum.products + more.products,
+            mismatch: sum.mismatch.max(more.mismatch),
+        })
     }
 }
 

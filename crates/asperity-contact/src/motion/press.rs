@@ -56,6 +56,7 @@ impl LoadedContact {
             plastic,
             dissipation_error: 0.0,
             changed: None,
+            plastic_result: None,
         }
     }
 }

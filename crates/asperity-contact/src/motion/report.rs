@@ -1,8 +1,8 @@
 //! Reports of load cycles: of each pass of a motion, and of each computed cycle of a loading.
 
 use crate::grid::{CellValues, Field};
-use crate::motion::Motion;
 use crate::motion::contact::Contact;
+use crate::motion::kinematics::Motion;
 use crate::motion::pair::Pair;
 use crate::motion::plastic_volume::PlasticVolume;
 use crate::motion::record::{PassRecord, StepRecord};

@@ -5,7 +5,7 @@ use std::ops::Range;
 use ndarray::{ArrayView2, s};
 
 use crate::grid::Field;
-use crate::motion::Strategy;
+use crate::motion::kinematics::Strategy;
 use crate::operator::Boundary;
 
 /// Cells of a body farther than the rim from its free ends.

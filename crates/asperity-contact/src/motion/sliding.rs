@@ -2,20 +2,21 @@
 
 use crate::error::{Error, Result, check, check_in};
 use crate::grid::{CellValues, Field};
-use crate::motion::check_limit;
 use crate::motion::contact::{Contact, facing};
+use crate::motion::control::check_limit;
 use crate::motion::course::{self, Course, Output, Step, StepRow};
+use crate::motion::kinematics::Strategy;
 use crate::motion::law::{self, Heat, Law, PositionData, Sums};
 use crate::motion::pair::{Pair, opposing_values};
 use crate::motion::path::Position;
-use crate::motion::record::{LawsInUpdate, LostVolume, StaticRecord, UpdateRecord};
+use crate::motion::record::{LawsInUpdate, StaticRecord, UpdateRecord};
 use crate::motion::rim::Interior;
 use crate::motion::slip::SlipRegime;
 use crate::motion::spot::largest_spot;
 use crate::motion::state::SlidingState;
 use crate::motion::truncation::Truncation;
 use crate::motion::watch::{StaticWatch, Watch};
-use crate::motion::{Strategy, worn_away};
+use crate::motion::worn_away;
 use crate::operator::Boundary;
 use crate::solver::{
     ContactProblem, ContactSolver, Control, Friction, Guess, Loading, Params, Sliding, Solution, Stats,
@@ -282,7 +283,7 @@ impl SlidingContact {
         let record = UpdateRecord {
             distance: 0.0,
             time: self.slide.time(0.0),
-            lost: self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect(),
+            lost: law::nothing_lost(&self.laws),
             ..self.record(&pair, &contact, flash.as_ref())
         };
         let state = SlidingState { pressure: solution.pressure.clone(), updates: vec![record], pair };

@@ -8,6 +8,7 @@ use crate::motion::creeping;
 use crate::motion::extrapolation::LastExtrapolation;
 use crate::motion::fretting::{ChangedBodies, LastCycle};
 use crate::motion::pair::Pair;
+use crate::motion::plastic_volume::PlasticResult;
 use crate::motion::record::{HEIGHT_ERROR, IncrementRecord, StaticRecord, UpdateRecord};
 use crate::motion::stage::{Origin, Progress};
 use crate::motion::store::{
@@ -38,6 +39,8 @@ pub struct LoadedContact {
     pub dissipation_error: Joule,
     /// Bodies that laws have changed; `None` if none did.
     pub changed: Option<ChangedBodies>,
+    /// Plastic state below the surfaces; `None` for other than elasto-plastic bodies.
+    pub plastic_result: Option<PlasticResult>,
 }
 
 /// State of a loading: everything that its next increment depends on.

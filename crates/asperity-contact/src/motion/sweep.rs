@@ -4,14 +4,17 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::facing;
 use crate::motion::course::{self, Course, Output, Step, StepRow};
+use crate::motion::elasto_plastic::{PlasticPath, press_elasto_plastic};
 use crate::motion::pair::Pair;
-use crate::motion::record::{ShearRecord, StaticRecord, SweepRecord};
+use crate::motion::record::{PlasticStepRecord, ShearRecord, StaticRecord, SweepRecord};
 use crate::motion::slip::SlipRegime;
 use crate::motion::spot::largest_spot;
+use crate::motion::stage::Stage;
 use crate::motion::state::LoadedContact;
 use crate::motion::store::{CourseState, StateReader, StateWriter, restore_if};
-use crate::motion::watch::{StaticWatch, Watch};
+use crate::motion::watch::{StaticWatch, StopsWith, Watch};
 use crate::operator::{Boundary, Operators};
+use crate::plasticity::{PlasticBody, PlasticParams};
 use crate::solver::{
     ContactProblem, ContactSolver, Control, Loading, Params, Solution, Stats, normal_stiffness,
 };
@@ -60,11 +63,58 @@ pub fn sweep(
     watch: &dyn Watch,
     outputs: &mut [&mut dyn Output],
 ) -> Result<(Vec<SweepRecord>, LoadedContact)> {
+    run(pair, boundary, points, None, params, under_way, watch, outputs)
+}
+
+/// Elasto-plastic bodies of a sweep, and how each point loads them.
+#[derive(Clone, Copy)]
+pub struct YieldingBodies<'a> {
+    /// Creates the virgin bodies, lower one first; `None` for one that is not elasto-plastic.
+    pub virgin: &'a dyn Fn() -> Result<[Option<PlasticBody>; 2]>,
+    /// Number of equal steps in which a point is loaded, ≥ 1.
+    pub increments: usize,
+    /// Convergence criteria of a step.
+    pub plastic: PlasticParams,
+}
+
+/// Does a [`sweep`] of elasto-plastic bodies without friction. Each point has the bits of [`press_elasto_plastic`] in one stage, whose load
+/// stays.
+///
+/// # Errors
+/// The errors of [`sweep`] and of [`press_elasto_plastic`].
+///
+/// # Panics
+/// If the bodies have different shapes.
+#[expect(clippy::too_many_arguments, reason = "the contact, its bodies and points, and who looks on")]
+pub fn sweep_elasto_plastic(
+    pair: &Pair,
+    boundary: Boundary,
+    points: &[Point],
+    bodies: YieldingBodies<'_>,
+    params: &Params,
+    under_way: SweepState,
+    watch: &dyn Watch,
+    outputs: &mut [&mut dyn Output],
+) -> Result<(Vec<SweepRecord>, LoadedContact)> {
+    run(pair, boundary, points, Some(bodies), params, under_way, watch, outputs)
+}
+
+#[expect(clippy::too_many_arguments, reason = "the contact, its bodies and points, and who looks on")]
+fn run(
+    pair: &Pair,
+    boundary: Boundary,
+    points: &[Point],
+    yielding: Option<YieldingBodies<'_>>,
+    params: &Params,
+    mut state: SweepState,
+    watch: &dyn Watch,
+    outputs: &mut [&mut dyn Output],
+) -> Result<(Vec<SweepRecord>, LoadedContact)> {
     let (operators, gap) = facing(pair, boundary)?;
-    let mut state = under_way;
     state.records.truncate(points.len().saturating_sub(1));
     state.records.iter().for_each(|record| watch.point(record));
-    let mut sweep = Sweep { pair, boundary, points, params, operators, gap, solver: None, state, last: None };
+    let mut sweep =
+        Sweep { pair, boundary, points, yielding, params, operators, gap, solver: None, state, last: None };
     course::run(&mut sweep, watch, outputs)?;
     let last = sweep.last.ok_or(Error::Unsupported("a sweep needs at least one point"))?;
     Ok((sweep.state.records, last))
@@ -75,6 +125,7 @@ struct Sweep<'a> {
     pair: &'a Pair,
     boundary: Boundary,
     points: &'a [Point],
+    yielding: Option<YieldingBodies<'a>>,
     params: &'a Params,
     operators: Operators,
     gap: Field,
@@ -88,9 +139,28 @@ struct Sweep<'a> {
 
 impl Sweep<'_> {
     /// Solves a point. Returns its contact and its record.
-    fn contact(&mut self, number: usize, watch: &StaticWatch<'_>) -> Result<(LoadedContact, SweepRecord)> {
+    fn contact(&mut self, number: usize, watch: &dyn Watch) -> Result<(LoadedContact, SweepRecord)> {
         let Self { pair, boundary, params, gap, .. } = self;
         let Point { control, regime, speed } = self.points[number - 1];
+        if let Some(YieldingBodies { virgin, increments, plastic }) = self.yielding {
+            let stages = vec![Stage::new(Loading::pressing(control), increments)];
+            let path = PlasticPath::new(stages).with_plastic(plastic);
+            let stop = || watch.stop();
+            let contact = press_elasto_plastic(
+                pair,
+                *boundary,
+                None,
+                virgin()?,
+                &path,
+                params,
+                &StopsWith(&stop),
+                &mut [],
+            )?;
+            let plastic = PlasticStepRecord::up_to_last(&contact.increments);
+            let record = SweepRecord { plastic, ..record(*boundary, number, &contact) };
+            return Ok((contact, record));
+        }
+        let watch = &StaticWatch::new(watch, number - 1, self.points.len(), control);
         if let Some(speed) = speed {
             let start = self.state.start.as_ref();
             let (contact, steady) =
@@ -129,15 +199,16 @@ impl Course for Sweep<'_> {
 
     fn next(&mut self, watch: &dyn Watch) -> Result<Option<Self::Solved>> {
         let done = self.state.records.len();
-        let Some(point) = self.points.get(done) else { return Ok(None) };
+        if done == self.points.len() {
+            return Ok(None);
+        }
         if watch.stop() {
             return Err(Error::Interrupted);
         }
         let points = self.points.len();
         let at = |source| Error::AtPoint { point: done + 1, points, source };
-        let watch = StaticWatch::new(watch, done, points, point.control);
         let (contact, record) =
-            self.contact(done + 1, &watch).map_err(|error| error.unless_interrupted(at))?;
+            self.contact(done + 1, watch).map_err(|error| error.unless_interrupted(at))?;
         let start = match record.steady {
             Some(_) if done + 1 < points => Some(contact.solution.normal().pressure.clone()),
             _ => self.state.start.take(),
@@ -216,5 +287,6 @@ fn record(boundary: Boundary, point: usize, contact: &LoadedContact) -> SweepRec
         residual: contact.record.residual,
         interface: contact.record.interface,
         steady: None,
+        plastic: None,
     }
 }

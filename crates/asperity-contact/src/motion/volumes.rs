@@ -9,7 +9,7 @@ use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Position;
 use crate::motion::plastic_volume::{ElastoPlasticPass, PlasticVolume, displace};
-use crate::motion::record::{LostVolume, PassPlasticRecord, PlasticStepRecord};
+use crate::motion::record::{PassPlasticRecord, PlasticStepRecord};
 use crate::motion::slip::SlipRegime;
 use crate::motion::watch::{OneOfMany, Progress};
 use crate::operator::{Boundary, Operators};
@@ -71,6 +71,21 @@ impl Volumes {
         self.states = volumes.into_iter().map(|volume| volume.state).collect();
     }
 
+    /// Moves the plastic strain of these `volumes` up where the depth `worn` of the material above it has gone, and the surfaces of a `pair` with
+    /// its displacement.
+    pub(super) fn uncover(&self, volumes: &mut Vec<PlasticVolume>, pair: &mut Pair, worn: &[Field; 2]) {
+        if volumes.iter().all(|volume| worn[volume.body].iter().all(|depth| *depth <= 0.0)) {
+            return;
+        }
+        let states: Vec<PlasticState> =
+            volumes.iter().map(|volume| volume.state.uncovered(&volume.faces, &worn[volume.body])).collect();
+        let mut contact = self.contact.lock().unwrap_or_else(PoisonError::into_inner);
+        contact.restore(&states);
+        volumes.iter().for_each(|volume| displace(pair, volume.body, &volume.displacement, -1.0));
+        *volumes = PlasticVolume::unloaded(&mut contact);
+        volumes.iter().for_each(|volume| displace(pair, volume.body, &volume.displacement, 1.0));
+    }
+
     /// Returns the volumes after the finished passes.
     pub(super) fn volumes(&self) -> Vec<PlasticVolume> {
         PlasticVolume::unloaded(&mut self.begin())
@@ -128,9 +143,8 @@ impl Solver<'_> {
         after.iter().for_each(|volume| displace(&mut bodies, volume.body, &volume.displacement, 1.0));
         let Course { work, at_rim, steps, contacts } = course;
         let record = PassPlasticRecord::of(&after, volumes.states(), work, at_rim);
-        let lost = self.laws.iter().map(|law| LostVolume::nothing(law.name())).collect();
         let plastic_pass = Some(ElastoPlasticPass { volumes: after, steps, record, states_under_load });
-        Ok(Pass { contacts, pair: bodies, lost, has_changed: true, plastic_pass, drag: None })
+        Ok(Pass { plastic_pass, ..Pass::new(contacts, bodies, self.laws) })
     }
 
     /// Returns how the bodies of a `pair` are placed at a position.
@@ -166,6 +180,7 @@ fn facing(
     Ok(RelativePosition {
         solver: regime.solver(pair, operators, shape, params.device)?,
         initial_gap: pair.initial_gap(position),
+        bounds: pair.bounds(position),
         placements: pair.placements(position),
     })
 }

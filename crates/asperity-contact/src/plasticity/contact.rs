@@ -39,6 +39,8 @@ pub struct RelativePosition {
     pub solver: Box<dyn ContactSolver>,
     /// Gap h of the undeformed bodies, m.
     pub initial_gap: Field,
+    /// Bounds on the pressures: the hardness of a body that is not elasto-plastic.
+    pub bounds: Bounds,
     /// Placement of the contact on the lower and on the upper body.
     pub placements: [Placement; 2],
 }
@@ -213,6 +215,14 @@ impl PlasticContact {
         self.with_residual(self.facing.initial_gap.clone()).iter().copied().fold(f64::INFINITY, f64::min)
     }
 
+    /// Opens the gap by the plastic interference at the hardness in the last increment, which stays. Returns it, m.
+    pub fn flatten(&mut self) -> Field {
+        let zeros = || self.facing.solver.grid().zeros();
+        let interference = self.solution().map_or_else(zeros, Solution::plastic_interference);
+        self.facing.initial_gap += &interference;
+        interference
+    }
+
     /// The elasto-plastic bodies.
     pub fn bodies(&mut self) -> &mut [PlasticBody] {
         &mut self.bodies
@@ -323,7 +333,7 @@ impl ElasticStep<'_> {
             before: self.before,
             guess: latest.map(Guess::Contact).or(pressure.map(Guess::Pressure)),
             drift: drift.as_ref(),
-            ..ContactProblem::new(gap, &Bounds::ELASTIC, self.loading, params, watch)
+            ..ContactProblem::new(gap, &self.facing.bounds, self.loading, params, watch)
         };
         // Cost of this increment so far.
         let spent = latest.map_or(0.0, |latest| latest.normal().stats.convolutions);

@@ -47,6 +47,7 @@ mod j2;
 mod lanes;
 mod layers;
 mod sweep;
+mod uncovered;
 mod volume;
 mod waves;
 

@@ -14,7 +14,7 @@ use crate::plasticity::{
     Action, Hardening, J2, Layers, Loading, PlasticBody, PlasticContact, PlasticParams, RelativePosition,
     SurfaceDisplacement, TensorField, Volume, advance,
 };
-use crate::solver::{Control, Frictionless, HardWall};
+use crate::solver::{Bounds, Control, Frictionless, HardWall};
 use crate::stress::Stress;
 use crate::subsurface::Tractions;
 
@@ -53,8 +53,12 @@ impl Sphere {
             Box::new(FreeFft::new(grid, modulus))
         };
         let solver = Box::new(Frictionless::new(operator, Arc::new(HardWall)));
-        let facing =
-            RelativePosition { solver, initial_gap: gap, placements: [Placement::flush(grid.shape); 2] };
+        let facing = RelativePosition {
+            solver,
+            initial_gap: gap,
+            bounds: Bounds::ELASTIC,
+            placements: [Placement::flush(grid.shape); 2],
+        };
         let body = PlasticBody::new(volume, Arc::new(law));
         Ok(PlasticContact::new(facing, [Some(body), None], flow, PARAMS))
     }

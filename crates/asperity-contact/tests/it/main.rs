@@ -28,4 +28,5 @@ mod sweep;
 mod viscoelastic;
 mod viscoelastic_passes;
 mod watch;
+mod worn_plastic;
 mod support;

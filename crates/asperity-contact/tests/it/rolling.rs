@@ -318,7 +318,7 @@ fn what_bodies_that_flow_do_not_have_is_refused() {
     };
     let periodic = Boundary::PERIODIC;
     assert!(
-        refused(simulation(&hard, periodic, shift(0.0, 1.0)), periodic).contains("do not take a hardness")
+        refused(simulation(&hard, periodic, shift(0.0, 1.0)), periodic).contains("does not take a hardness")
     );
     let free = simulation(&steel(), Boundary::FREE, shift(0.0, 1.0));
     assert!(refused(free, Boundary::FREE).contains("needs a periodic boundary"));

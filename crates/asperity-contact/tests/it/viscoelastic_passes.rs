@@ -359,7 +359,7 @@ fn rubber_wears_in_passes_by_what_its_pressures_say_and_not_by_more_than_they_be
     let sunk = -simulation.pair().lower.heights.sum() * grid.cell_area();
     assert!((sunk / wanted - 1.0).abs() < 1e-9, "{sunk}, expected {wanted}");
     let error = worn(1e-7).solve(&()).err().unwrap().to_string();
-    assert!(error.contains("so much from viscoelastic bodies"), "{error}");
+    assert!(error.contains("so much from bodies that creep"), "{error}");
 }
 
 #[test]

@@ -74,8 +74,10 @@ fn read(table: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     let mut friction = root.friction;
     let gives_increments =
         table.table("friction")?.is_some_and(|friction| friction.get("increments").is_some());
-    let plasticity =
-        root.plasticity.map(|region| plasticity(region, &mut motion, &mut friction, gives_increments));
+    let sweeps = !root.contact.sweep().is_empty();
+    let plasticity = root
+        .plasticity
+        .map(|region| plasticity(region, &mut motion, &mut friction, [gives_increments, sweeps]));
     // Later stages of elasto-plastic bodies have as many steps as the first one.
     let steps = match (&plasticity, &friction) {
         (None, _) => 1,

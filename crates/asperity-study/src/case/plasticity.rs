@@ -4,12 +4,13 @@ use super::{FrictionSpec, MotionSpec};
 use asperity_contact::motion::PlasticUpdate;
 use asperity_contact::with::plasticity::{INCREMENTS, Keep, PlasticRegion};
 
-/// Returns `[plasticity]` with its effect on the `motion` of the bodies and on their `friction`, whose table may give the increments.
+/// Returns `[plasticity]` with its effect on the `motion` of the bodies and on their `friction`, whose table may give the increments. The points
+/// of a case that `sweeps` stay loaded.
 pub(super) fn plasticity(
     mut region: PlasticRegion,
     motion: &mut Option<MotionSpec>,
     friction: &mut Option<FrictionSpec>,
-    gives_increments: bool,
+    [gives_increments, sweeps]: [bool; 2],
 ) -> PlasticRegion {
     let at_rest = motion.is_none();
     let increments = region.increments.unwrap_or(INCREMENTS);
@@ -21,7 +22,7 @@ pub(super) fn plasticity(
         friction.increments = increments;
     }
     region.increments = (at_rest && friction.is_none()).then_some(increments);
-    region.unload = at_rest.then_some(region.unload.unwrap_or(true));
+    region.unload = (at_rest && !sweeps).then_some(region.unload.unwrap_or(true));
     region.keep = (!at_rest).then_some(region.keep.unwrap_or(Keep::Last));
     region
 }

@@ -327,7 +327,8 @@ impl Sizes<'_> {
                 let unloading = if plasticity.unload == Some(true) { unloading } else { 0.0 };
                 let friction = self.case.friction.as_ref().map_or(1, |friction| friction.increments);
                 let first = plasticity.increments.unwrap_or(friction) as f64;
-                flowing * (first + later as f64) + unloading * first
+                let points = self.case.contact.sweep().len().max(1) as f64;
+                flowing * (points * first + later as f64) + unloading * first
             }
         };
         let product = |(cells, periodic)| cells * if periodic { 250.0 } else { 1000.0 };

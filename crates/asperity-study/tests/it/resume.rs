@@ -110,6 +110,52 @@ motion = {{ passes = {passes}, {keys} }}
     }
 }
 
+/// Elasto-plastic bodies that wear, warm up, break out and meet a body with a hardness; and a hardness at each position beside wear
+/// and heat.
+#[test]
+fn yielding_bodies_that_wear_and_warm_up_go_on_with_the_same_bits() {
+    let heat = r#"conductivity = "46 W/(m K)", heat_capacity = "460 J/(kg K)", density = "7850 kg/m3""#;
+    let wear = r#"wear = { coefficient = 1e-14 }"#;
+    let flows = format!(r#"{heat}, {wear}, plasticity = {{ yield_stress = "1.5 GPa" }}"#);
+    let pits = r#", fatigue = { torsion = "80 MPa", tension = "110 MPa", pit_depth = "6 um" }"#;
+    let volume = "plasticity = { depth = \"40 um\", layers = 6 }\nfatigue = { to = \"12 um\" }\n";
+    let cases = [
+        (format!("{flows}{pits}"), heat.to_owned(), "", volume.to_owned()),
+        (flows, format!("{heat}, hardness = \"3 GPa\""), "", volume.replace("fatigue", "#")),
+        (
+            format!("{heat}, {wear}, hardness = \"3 GPa\""),
+            heat.to_owned(),
+            ", plastic_update = \"step\"",
+            String::new(),
+        ),
+    ];
+    for (lower, upper, keys, tables) in cases {
+        let case = |passes: usize| {
+            format!(
+                r#"
+lower = {{ young = "210 GPa", poisson = 0.3, {lower}, topography = {{ form = "flat", shape = [24, 12], pitch = "5 um" }} }}
+upper = {{ young = "210 GPa", poisson = 0.3, {upper}, topography = {{ form = "sphere", radius = "0.5 mm" }} }}
+contact = {{ load = "5 N", boundary = "periodic" }}
+friction = {{ coefficient = 0.1 }}
+temperature = {{ bulk = "20 °C" }}
+motion = {{ strategy = "shift", passes = {passes}, stride = 3, speed_upper = "1 m/s"{keys} }}
+{tables}"#
+            )
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let whole = run(&folder, &case(3), "whole", Existing::Keep);
+        run(&folder, &case(1), "parts", Existing::Keep);
+        run(&folder, &case(2), "parts", Existing::Resume);
+        let parts = on_threads(1, || run(&folder, &case(3), "parts", Existing::Resume));
+        assert_same(&parts, &whole, &lower);
+        let running = whole.passes().unwrap()[2].running.unwrap();
+        assert!(
+            running.max_flash_temperature > 300.0 && running.laws.deepest_wear_lower > 1e-9,
+            "{running:?}"
+        );
+    }
+}
+
 #[test]
 fn dissimilar_bodies_slide_alike_on_any_number_of_threads_and_after_a_break() {
     let case = |passes| {

@@ -121,15 +121,15 @@ columns! {
 }
 
 columns! {
-    /// Plastic flow in a step or an increment: further columns of its row.
+    /// Plastic flow in a step or an increment, or up to a point of a sweep: further columns of its row.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     pub struct PlasticStepRecord {
-        /// Cells in all layers of both bodies that have yielded in the step or increment.
+        /// Cells in all layers of both bodies that have yielded in the step or increment; of a point, in the increment with the most.
         pub yielded_cells: usize,
-        /// Largest accumulated plastic strain at the end of the step or increment.
+        /// Largest accumulated plastic strain at the end.
         pub max_plastic_strain: f64,
-        /// Plastic work in the step or increment.
+        /// Plastic work.
         pub plastic_work: Joule,
         /// Applications of the operator of the residual stress.
         pub products: usize,

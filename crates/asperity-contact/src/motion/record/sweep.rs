@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::plastic::PlasticStepRecord;
 use super::steady::SteadyRecord;
 use crate::solver::InterfaceRecord;
 use crate::units::{CubicMetre, Joule, Metre, Newton, NewtonPerMetre, Pascal, SquareMetre};
@@ -67,6 +68,9 @@ columns! {
         /// Steady sliding of viscoelastic bodies; none for others.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub steady: Option<SteadyRecord>,
+        /// Plastic flow below the surfaces up to the load of the point; none for other than elasto-plastic bodies.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub plastic: Option<PlasticStepRecord>,
     }
 }
 

@@ -1,16 +1,19 @@
 //! Changes of the bodies by the laws after a pass.
 
+use std::ops::Range;
+
 use super::Simulation;
 use crate::error::{Error, Result};
 use crate::grid::Field;
+use crate::motion::contact::Contact;
 use crate::motion::extrapolation::{
     self, Acceleration, Bounds, Extrapolation, GridCompliance, LastExtrapolation, Removed,
 };
 use crate::motion::heat::PassHeat;
-use crate::motion::law::{self, FrictionHeat, Heat, Law, Sums};
+use crate::motion::law::{self, Heat, Law, PositionData, Sums};
 use crate::motion::memory::{self, Memory};
 use crate::motion::pass::Pass;
-use crate::motion::record::{LawsInPass, RunningRecord, StepRecord};
+use crate::motion::record::{HeatRecord, LawsInPass, RunningRecord, StepRecord};
 use crate::motion::truncation::Truncation;
 use crate::motion::watch::Watch;
 use crate::motion::worn_away;
@@ -49,7 +52,7 @@ impl Changes {
             self.laws.push(law);
         } else {
             // Laws that act once per computed pass come first, because the extrapolation depends on their results.
-            self.laws.insert(self.once(), law);
+            self.laws.insert(law::once(&self.laws), law);
         }
     }
 
@@ -62,20 +65,15 @@ impl Changes {
         self.compliance_of_grid.get_or_insert_with(compliance_of_grid);
         self.memories.push(memory);
     }
-
-    /// Number of laws, the first ones, that act once per computed pass. The others also act in the extrapolated passes.
-    fn once(&self) -> usize {
-        self.laws.iter().take_while(|law| !law.repeats()).count()
-    }
 }
 
 /// Message for a pass whose removal is beyond what can be solved with it.
 const DEEP_REMOVAL: &str = "a single pass removes more than the width of a cell from a whole body, far beyond the model: check its coefficient, \
      a volume over load and distance, or give a shorter pass";
 
-/// Message for a pass that removes more from viscoelastic bodies than explicit steps allow.
-const FAST_REMOVAL: &str = "a single pass removes so much from viscoelastic bodies that their pressures change with it: check the coefficient, a \
-     volume over load and distance, or give a shorter pass";
+/// Message for a pass that removes more than explicit steps allow from bodies that remember their contacts.
+const FAST_REMOVAL: &str = "a single pass removes so much from bodies that creep or yield in it that their pressures change with it: check the \
+     coefficient, a volume over load and distance, or give a shorter pass";
 
 /// Removal in a pass by the laws that repeat.
 pub(super) struct PassRemoval {
@@ -94,28 +92,25 @@ impl Simulation {
         outcome: &mut Pass,
         watch: &dyn Watch,
     ) -> Result<Option<PassRemoval>> {
-        let Some(compliance_of_grid) = self.changes.compliance_of_grid.filter(|_| !outcome.has_changed)
-        else {
-            return Ok(None);
-        };
-        let position_data = self.motion.position_data(&self.pair);
+        let Some(compliance_of_grid) = self.changes.compliance_of_grid else { return Ok(None) };
+        let position_data = PositionData::of(&self.motion, &self.pair);
         let friction = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
-        let laws = &self.changes.laws[self.changes.once()..];
+        let laws = &self.changes.laws[law::once(&self.changes.laws)..];
         if laws.is_empty() {
             return Ok(Some(PassRemoval { compliance_of_grid, stable: f64::INFINITY, explicit: None }));
         }
-        let relaxation = extrapolation::relaxation(
-            &outcome.pair,
-            &outcome.contacts,
-            laws,
-            friction,
-            position_data.distance,
-        );
+        // Laws that act at each position remove the depth of one at once.
+        let together = match outcome.taken {
+            Some(_) => &outcome.contacts[fullest(&outcome.contacts)],
+            None => &outcome.contacts[..],
+        };
+        let distance = position_data.distance;
+        let relaxation = extrapolation::relaxation(&outcome.pair, together, laws, friction, distance);
         let stable = compliance_of_grid.checkerboard / relaxation;
         if stable > 0.5 {
             return Ok(Some(PassRemoval { compliance_of_grid, stable, explicit: None }));
         }
-        if outcome.pair.creep().is_some() {
+        if outcome.pair.creep().is_some() || outcome.taken.is_some() || self.volumes.is_some() {
             let source = Box::new(Error::Unsupported(FAST_REMOVAL));
             return Err(Error::AtPass { pass: self.passes_done + 1, source });
         }
@@ -142,7 +137,18 @@ impl Simulation {
         steps: &mut [StepRecord],
         removal: Option<&PassRemoval>,
     ) -> Result<(Option<RunningRecord>, Option<LastExtrapolation>)> {
-        let position_data = self.motion.position_data(&self.pair);
+        let position_data = PositionData::of(&self.motion, &self.pair);
+        let once = law::once(&self.changes.laws);
+        let (flow, laws) = self.changes.laws.split_at(once);
+        let jumps = self.changes.acceleration.max_jump > 1;
+        let is_simple = laws.is_empty() && self.changes.heat.is_none() && !jumps;
+        if let Some(taken) = pass.taken.take() {
+            self.warm(pass, steps, &position_data);
+            worn_away::check_cells(&pass.pair, laws)?;
+            self.remember(pass, 1, law::uncovered(laws, &taken));
+            let running = (!is_simple).then(|| self.running(pass, steps, &taken, Extrapolation::ONE));
+            return Ok((running, None));
+        }
         let mut heat = self
             .changes
             .heat
@@ -152,28 +158,20 @@ impl Simulation {
         let (mut sums, warm) =
             law::sums(&self.changes.laws, &pass.pair, &pass.contacts, &position_data, step)?;
         drop(heat);
-        for ((step, contact), FrictionHeat { record, temperature }) in
-            steps.iter_mut().zip(&mut pass.contacts).zip(warm)
-        {
-            step.heat = Some(record);
+        for (contact, temperature) in pass.contacts.iter_mut().zip(warm) {
             contact.temperature = Some(temperature);
         }
-        if let Some(heat) = &self.changes.heat {
-            heat.store_in_bodies(self.passes_done, &mut pass.pair, &pass.contacts, position_data.bulk);
-        }
-        let once = self.changes.once();
-        let (flow, laws) = self.changes.laws.split_at(once);
+        self.warm(pass, steps, &position_data);
         let repeated = sums.split_off(once);
         let mut lost = std::mem::take(&mut pass.lost);
         law::advance(flow, &mut pass.pair, &sums, 1.0, &self.interiors, &mut lost[..once]);
-        let jumps = self.changes.acceleration.max_jump > 1;
-        if laws.is_empty() && self.changes.heat.is_none() && !jumps {
+        if is_simple {
             pass.lost = lost;
             self.remember(pass, 1, None);
             return Ok((None, None));
         }
         let flown = lost.iter().flat_map(|lost| lost.whole).sum();
-        let Extrapolation { passes, mean, error } = match removal {
+        let mut extrapolation = match removal {
             // Implicit and explicit Euler steps have equal errors of opposite sign.
             Some(PassRemoval { explicit: Some(explicit), .. }) => {
                 let taken = law::tried(laws, &pass.pair, &repeated, 1);
@@ -182,18 +180,59 @@ impl Simulation {
             Some(removal) => self.extrapolate(pass, laws, &repeated, flown, removal),
             None => Extrapolation::ONE,
         };
+        let (passes, mean) = (extrapolation.passes, extrapolation.mean.take());
         let mean = mean.as_deref().unwrap_or(&repeated);
         let taken =
             law::advance(laws, &mut pass.pair, mean, passes as f64, &self.interiors, &mut lost[once..]);
         pass.lost = lost;
         worn_away::check_cells(&pass.pair, laws)?;
-        self.remember(pass, passes, law::uncovered(laws, &taken));
+        let worn = law::uncovered(laws, &taken);
+        if let Some(worn) = &worn {
+            self.uncover(pass, worn);
+        }
+        self.remember(pass, passes, worn);
+        let running = self.running(pass, steps, &taken, extrapolation);
+        let extrapolation = jumps.then_some(LastExtrapolation { passes, sums: repeated });
+        Ok((Some(running), extrapolation))
+    }
+
+    /// Moves the plastic strain below the surfaces up where the depth `worn` of the material above it has gone.
+    pub(super) fn uncover(&self, pass: &mut Pass, worn: &[Field; 2]) {
+        if let (Some(volumes), Some(plastic)) = (&self.volumes, &mut pass.plastic_pass) {
+            volumes.uncover(&mut plastic.volumes, &mut pass.pair, worn);
+        }
+    }
+
+    /// Adds the heat of friction at each position to the `steps`, and to the bodies the temperature for passes without their own computation.
+    fn warm(&self, pass: &mut Pass, steps: &mut [StepRecord], position_data: &PositionData) {
+        let Some(heat) = &self.changes.heat else { return };
+        let PositionData { distance, time, bulk, .. } = *position_data;
+        for (step, contact) in steps.iter_mut().zip(&pass.contacts) {
+            let warmest = contact.temperature.iter().flatten().copied().reduce(f64::max);
+            step.heat = Some(HeatRecord {
+                friction_power: contact.tangential_force.abs() * (distance / time),
+                max_flash_temperature: warmest.unwrap_or(bulk[0].max(bulk[1])),
+            });
+        }
+        heat.store_in_bodies(self.passes_done, &mut pass.pair, &pass.contacts, bulk);
+    }
+
+    /// Describes a pass and its extrapolation, in which the laws that repeat have `taken` these depths.
+    fn running(
+        &self,
+        pass: &Pass,
+        steps: &[StepRecord],
+        taken: &[[Field; 2]],
+        Extrapolation { passes, error, .. }: Extrapolation,
+    ) -> RunningRecord {
+        let position_data = PositionData::of(&self.motion, &self.pair);
+        let laws = &self.changes.laws[law::once(&self.changes.laws)..];
         let mut of_laws = LawsInPass::default();
-        laws.iter().zip(&taken).for_each(|(law, taken)| law.record_pass(&pass.pair, taken, &mut of_laws));
+        laws.iter().zip(taken).for_each(|(law, taken)| law.record_pass(&pass.pair, taken, &mut of_laws));
         let positions = self.positions.len() as f64;
         let done = (self.represented() + passes) as f64;
         let rubbed = pass.contacts.iter().map(|contact| contact.tangential_force.abs()).sum::<f64>();
-        let running = RunningRecord {
+        RunningRecord {
             represents: passes,
             time: done * positions * position_data.time,
             distance: done * positions * position_data.distance,
@@ -209,17 +248,17 @@ impl Simulation {
                 None => position_data.bulk[0].max(position_data.bulk[1]),
             },
             error_estimate: error,
-        };
-        let extrapolation =
-            (self.changes.acceleration.max_jump > 1).then_some(LastExtrapolation { passes, sums: repeated });
-        Ok((Some(running), extrapolation))
+        }
     }
 
     /// Lets the memories go on by a number of passes in which laws that uncover material have taken the depth `worn` from both bodies, `None`
     /// without such laws.
     pub(super) fn remember(&self, pass: &mut Pass, passes: usize, worn: Option<[Field; 2]>) {
         let memories = &self.changes.memories;
-        pass.lost.extend(memory::advance(memories, &mut pass.pair, passes as f64, worn, &self.interiors));
+        for (lost, depth) in memory::advance(memories, &mut pass.pair, passes as f64, worn, &self.interiors) {
+            pass.lost.push(lost);
+            self.uncover(pass, &depth);
+        }
     }
 
     /// Chooses the number of passes of the extrapolation from the sums of the `laws` and from the plastic volume.
@@ -272,4 +311,10 @@ impl Simulation {
         }
         Extrapolation::ONE
     }
+}
+
+/// The range of the contact with the most cells.
+fn fullest(contacts: &[Contact]) -> Range<usize> {
+    let most = (0..contacts.len()).max_by_key(|index| contacts[*index].pressure.len());
+    most.map_or(0..0, |index| index..index + 1)
 }

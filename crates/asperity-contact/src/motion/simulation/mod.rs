@@ -12,11 +12,13 @@ use web_time::Instant;
 use crate::error::{Error, Result, check, check_in};
 use crate::motion::body::Body;
 use crate::motion::contact::Contact;
+use crate::motion::control::check_limit;
 use crate::motion::course::{self, Course, Output, Step};
 use crate::motion::creeping;
 use crate::motion::extrapolation::{Acceleration, GridCompliance, Removed};
 use crate::motion::heat::PassHeat;
-use crate::motion::law::Law;
+use crate::motion::kinematics::{Motion, Strategy};
+use crate::motion::law::{Law, PositionData};
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::{OffsetY, Position, Stroke};
@@ -27,7 +29,6 @@ use crate::motion::together::memory_together;
 use crate::motion::volumes::Volumes;
 use crate::motion::warm_start::WarmStart;
 use crate::motion::watch::{Progress, Watch};
-use crate::motion::{Motion, Strategy, check_limit};
 use crate::operator::{Boundary, Operators};
 use crate::plasticity::{PlasticBody, PlasticParams, PlasticState};
 use crate::solver::{Control, Coupling, Device, Params};
@@ -250,11 +251,12 @@ impl Simulation {
     }
 
     /// Adds plastic flow below the surfaces of the given `bodies`, lower one first. Plastic strain moves with the material
-    /// from position to position, and each pass ends with unloading. No other law changes such bodies. [`Simulation::pair`]
-    /// has their surfaces with the plastic displacement.
+    /// from position to position, and each pass ends with unloading. [`Simulation::pair`] has their surfaces with the plastic
+    /// displacement. Laws change such bodies after each pass: plastic strain moves up with the material where some above it has gone, and a
+    /// hardness of the other body flattens it after the pass.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for bodies with a hardness, heat, extrapolation over passes, an elasto-plastic upper body
+    /// [`Error::Unsupported`] for an elasto-plastic body with a hardness, extrapolation over passes, an elasto-plastic upper body
     /// that differs from pass to pass, and a shift under a boundary that is free along x.
     ///
     /// # Panics
@@ -262,15 +264,8 @@ impl Simulation {
     pub fn with_plastic(self, bodies: [Option<PlasticBody>; 2], plastic: PlasticParams) -> Result<Self> {
         self.pair.interface().check_combined()?;
         self.pair.check_elastic()?;
-        let refused = if self.pair.yields() {
-            "elasto-plastic bodies do not take a hardness"
-        } else if self.changes.laws.len() > 1 {
-            "elasto-plastic bodies do not support laws that change them yet"
-        } else if self.changes.memories.iter().any(|memory| memory.takes().is_some()) {
-            "nothing breaks out of elasto-plastic bodies"
-        } else if self.changes.heat.is_some() {
-            "elasto-plastic bodies do not support a flash temperature yet"
-        } else if self.changes.acceleration.max_jump > 1 {
+        self.pair.check_flow(&bodies)?;
+        let refused = if self.changes.acceleration.max_jump > 1 {
             "elasto-plastic bodies do not support extrapolation over passes"
         } else if self.counter.is_some() && bodies[1].is_some() {
             "a fresh counter-body does not keep its plastic state"
@@ -329,11 +324,6 @@ impl Simulation {
             ));
         };
         self.pair.check_elastic()?;
-        if self.changes_at_every_step() {
-            return Err(Error::Unsupported(
-                "a flash temperature needs plastic deformation that is applied after each pass",
-            ));
-        }
         if self.motion.strategy != Strategy::Overlap && !self.boundary.repeats(0) {
             return Err(Error::Unsupported(
                 "a flash temperature in a shift needs a boundary that is periodic along x",
@@ -392,9 +382,6 @@ impl Simulation {
     fn solve_next(&self, watch: &dyn Watch) -> Result<SolvedPass> {
         let began = Instant::now();
         let pass = self.passes_done + 1;
-        if self.volumes.is_some() && self.changes.laws.len() > 1 {
-            return Err(Error::Unsupported("elasto-plastic bodies do not support laws that change them yet"));
-        }
         let before = self.next_pair()?;
         let (mut outcome, guess, trials) = self.solve_pass(&before, watch)?;
         let hardness = [&before.lower, &before.upper].map(|body| body.hardness.clone());
@@ -418,17 +405,11 @@ impl Simulation {
                 .for_each(|(step, plastic)| step.plastic = Some(*plastic));
         }
         self.look(&mut outcome, watch)?;
-        let (running, extrapolation) = match outcome.has_changed {
-            true => {
-                self.remember(&mut outcome, 1, None);
-                (None, None)
-            }
-            false => self.advance(&mut outcome, &mut steps, removal.as_ref())?,
-        };
+        let (running, extrapolation) = self.advance(&mut outcome, &mut steps, removal.as_ref())?;
         let represented = self.represented() + running.map_or(1, |running: RunningRecord| running.represents);
         let interiors = self.interiors.clone();
         let wall_time = began.elapsed().as_secs_f64();
-        let distance = self.motion.position_data(&self.pair).distance * steps.len() as f64;
+        let distance = PositionData::of(&self.motion, &self.pair).distance * steps.len() as f64;
         Ok(SolvedPass {
             outcome,
             hardness,
@@ -449,7 +430,7 @@ impl Simulation {
     /// Returns how much the loads of a pass depend on the position before; 0 if they do not, or if they follow it.
     fn history_difference(&self, outcome: &Pass, watch: &dyn Watch) -> Result<f64> {
         let interface = self.pair.interface();
-        if interface.is_hard() || interface.follows_path() || outcome.has_changed {
+        if interface.is_hard() || interface.follows_path() || outcome.taken.is_some() {
             return Ok(0.0);
         }
         self.solver(watch).history_difference(outcome, &self.params)
@@ -479,6 +460,9 @@ impl Simulation {
     /// Returns a solved pass with the state that it leaves to the next one.
     fn finished(&self, mut pass: SolvedPass) -> FinishedPass {
         let (before, passes) = (self.warm.removed.as_ref(), self.warm.extrapolated_passes());
+        if let Some(depth) = &pass.removed {
+            self.uncover(&mut pass.outcome, depth);
+        }
         let removed = pass.removed.take().map(|depth| Removed::after(depth, before, passes));
         if let (Some(running), Some(removed)) = (&mut pass.running, &removed) {
             running.error_estimate += removed.error(running.represents);
@@ -516,6 +500,7 @@ impl Simulation {
             motion: &self.motion,
             interiors: &self.interiors,
             laws: &self.changes.laws,
+            heat: self.changes.heat.as_ref().map(|heat| (heat, self.passes_done)),
             gaps: &self.gaps,
             watch,
             progress,

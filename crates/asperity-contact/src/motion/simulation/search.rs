@@ -3,9 +3,9 @@
 use super::{Simulation, max_load};
 use crate::error::{Error, LoadLimit, Result};
 use crate::grid::Field;
-use crate::motion::LoadControl;
 use crate::motion::approach::{Limit, MAX_RESIDUAL, Search};
 use crate::motion::contact::Contact;
+use crate::motion::control::LoadControl;
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::Position;

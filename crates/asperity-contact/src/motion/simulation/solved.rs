@@ -1,9 +1,9 @@
 //! A solved pass.
 
 use crate::grid::{CellValues, Field};
-use crate::motion::Motion;
 use crate::motion::contact::Contact;
 use crate::motion::extrapolation::LastExtrapolation;
+use crate::motion::kinematics::Motion;
 use crate::motion::law;
 use crate::motion::pair::Pair;
 use crate::motion::pass::Pass;

@@ -52,7 +52,7 @@ fn facing(operator: PeriodicFft, initial_gap: Field, first: [[usize; 2]; 2]) -> 
     let placements =
         first.map(|first| Placement::new([initial_gap.nrows(), initial_gap.ncols()], first, 0.0));
     let solver = Box::new(Frictionless::new(Box::new(operator), Arc::new(HardWall)));
-    RelativePosition { solver, initial_gap, placements }
+    RelativePosition { solver, initial_gap, bounds: Bounds::ELASTIC, placements }
 }
 
 fn sphere(n: usize, layers: usize) -> PlasticContact {
@@ -342,8 +342,12 @@ fn the_work_of_pressure_and_friction_is_stored_and_spent() {
             Some(PlasticBody::new(Volume::new(grid, layers, boundary, material).unwrap(), Arc::new(law)))
         };
         let solver = Box::new(StickSlip::new(operators.coupled_on(grid.shape), Arc::new(HardWall), friction));
-        let facing =
-            RelativePosition { solver, initial_gap: gap(n), placements: [Placement::flush(grid.shape); 2] };
+        let facing = RelativePosition {
+            solver,
+            initial_gap: gap(n),
+            bounds: Bounds::ELASTIC,
+            placements: [Placement::flush(grid.shape); 2],
+        };
         let params = Params::default().with_tolerance(1e-9);
         let flow = PlasticParams::new().with_tolerance(1e-6);
         let mut contact =
@@ -402,8 +406,12 @@ fn friction_without_flow_is_that_of_elastic_bodies() {
     let volume = Volume::new(grid, layers, Boundary::FREE, &steel()).unwrap();
     let strong = PlasticBody::new(volume, Arc::new(J2::new(Hardening::perfect(1.0).unwrap())));
     let solver = Box::new(StickSlip::new(operators.coupled_on(grid.shape), Arc::new(HardWall), friction));
-    let facing =
-        RelativePosition { solver, initial_gap: gap(n), placements: [Placement::flush(grid.shape); 2] };
+    let facing = RelativePosition {
+        solver,
+        initial_gap: gap(n),
+        bounds: Bounds::ELASTIC,
+        placements: [Placement::flush(grid.shape); 2],
+    };
     let params = Params::default();
     let mut contact = PlasticContact::new(facing, [Some(strong), None], PlasticParams::new(), params);
     let mut before = None;

@@ -2,7 +2,6 @@
 
 use super::super::{Body, Case};
 use super::Rule;
-use super::examples::{FLOWS, MOVES, VOLUME};
 
 pub(super) const RULES: &[Rule] = &[
     Rule {
@@ -16,21 +15,6 @@ pub(super) const RULES: &[Rule] = &[
             let limited = tables.of_body("fatigue", |body| body.properties.fatigue.is_some());
             limited.filter(|_| tables.case.with.fatigue.is_none())
         },
-    },
-    Rule {
-        this: "`pit_depth`",
-        with: "[plasticity]",
-        message: "pits are not broken out of elasto-plastic bodies",
-        hint: "leave 'pit_depth' out; `fatigue.csv` has the damage without it",
-        at: "lower.fatigue.pit_depth",
-        example: &[
-            r#"lower.fatigue = { torsion = "350 MPa", tension = "600 MPa", pit_depth = "2 um" }"#,
-            FLOWS,
-            VOLUME,
-            MOVES,
-            r#"fatigue = { to = "8 um" }"#,
-        ],
-        broken: |tables| tables.at("plasticity").and(tables.of_body("fatigue.pit_depth", pits)),
     },
     Rule {
         this: "`risk`",

@@ -2,9 +2,7 @@
 
 use super::super::CounterBody;
 use super::Rule;
-use super::examples::{
-    AT_ANY_SPEED, CHANGES, COATED, FLOWS, GENERATED, LINE, MOVES, ROLLS, SWEEP, VOLUME, WARM,
-};
+use super::examples::{AT_ANY_SPEED, CHANGES, COATED, FLOWS, GENERATED, LINE, ROLLS, SLIDES, SWEEP, VOLUME};
 
 pub(super) const RULES: &[Rule] = &[
     Rule {
@@ -47,15 +45,6 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "a body's plasticity",
-        with: "`hardness` of the other body",
-        message: "a body with a 'hardness' cannot meet an elasto-plastic body",
-        hint: "give this body a plasticity in place of the hardness",
-        at: "upper.hardness",
-        example: &[FLOWS, r#"upper.hardness = "4 GPa""#, VOLUME],
-        broken: |tables| tables.of_body("hardness", |body| body.hardness.yields()).filter(|_| tables.flows()),
-    },
-    Rule {
-        this: "a body's plasticity",
         with: "its coating",
         message: "a coated body cannot be elasto-plastic yet",
         hint: "leave the coating or the plasticity out",
@@ -77,31 +66,22 @@ pub(super) const RULES: &[Rule] = &[
         broken: |tables| tables.of_body("coating", |_| true).filter(|_| tables.flows()),
     },
     Rule {
-        this: "a body's plasticity",
-        with: "{a law}",
-        message: "elasto-plastic bodies do not support {key} yet",
+        this: "a body's plasticity with {a law}",
+        with: "[[history]], [sliding]",
+        message: "elasto-plastic bodies take {key} in a [motion] only",
         hint: "leave the plasticity out, and give the bodies a `hardness`",
         at: "lower.{law}",
-        example: &[FLOWS, CHANGES, VOLUME, MOVES],
-        broken: |tables| tables.law().filter(|_| tables.flows()),
+        example: &[FLOWS, CHANGES, VOLUME, SLIDES],
+        broken: |tables| tables.law().filter(|_| tables.flows() && tables.case.motion.is_none()),
     },
     Rule {
-        this: "a body's plasticity",
-        with: "[temperature]",
-        message: "elasto-plastic bodies do not support a flash temperature yet",
-        hint: "leave [temperature] or the plasticity out",
-        at: "temperature",
-        example: &[FLOWS, VOLUME, MOVES, WARM],
-        broken: |tables| tables.at("temperature").filter(|_| tables.flows()),
-    },
-    Rule {
-        this: "a body's plasticity",
+        this: "`unload` in [plasticity]",
         with: "a sweep",
-        message: "elasto-plastic bodies do not take '{key}'",
-        hint: "give stages in a [[history]]",
-        at: "contact.loads",
-        example: &[FLOWS, VOLUME, SWEEP],
-        broken: |tables| tables.sweep().filter(|_| tables.flows()),
+        message: "'unload' applies to a single load",
+        hint: "leave it out: each point of a sweep ends under its load",
+        at: "plasticity.unload",
+        example: &[FLOWS, r#"plasticity = { depth = "20 um", layers = 16, unload = true }"#, SWEEP],
+        broken: |tables| tables.sweep().and(tables.at("plasticity.unload")),
     },
     Rule {
         this: "a body's plasticity",

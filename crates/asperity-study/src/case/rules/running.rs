@@ -2,7 +2,7 @@
 
 use super::super::CounterBody;
 use super::Rule;
-use super::examples::{CHANGES, GENERATED, JUMPS, LINE, MOVES, RUBS};
+use super::examples::{CHANGES, FLOWS, GENERATED, JUMPS, LINE, MOVES, RUBS, VOLUME};
 use asperity_contact::motion::{OffsetY, PlasticUpdate};
 
 pub(super) const RULES: &[Rule] = &[
@@ -16,18 +16,6 @@ pub(super) const RULES: &[Rule] = &[
         broken: |tables| {
             tables.motion().filter(|motion| motion.strategy().direction() == 0.0)?;
             tables.at("friction")
-        },
-    },
-    Rule {
-        this: "{a law}",
-        with: "`plastic_update = \"step\"`",
-        message: "'plastic_update' is {value}, expected \"pass\" with {a law}",
-        hint: "",
-        at: "motion.plastic_update",
-        example: &[CHANGES, r#"motion = { speed = "0.5 m/s", plastic_update = "step" }"#],
-        broken: |tables| {
-            let step = tables.motion().is_some_and(|motion| motion.plastic_update == PlasticUpdate::Step);
-            tables.at("motion.plastic_update").filter(|_| step && tables.case.runs_in())
         },
     },
     Rule {
@@ -49,6 +37,32 @@ pub(super) const RULES: &[Rule] = &[
         broken: |tables| {
             tables.motion().filter(|motion| motion.counter == CounterBody::Fresh && tables.jumps())?;
             tables.at("acceleration")
+        },
+    },
+    Rule {
+        this: "`max_jump` above 1",
+        with: "a body's plasticity",
+        message: "extrapolation needs bodies that do not remember each position: plastic strain follows the path",
+        hint: "set `max_jump = 1`, or give the bodies a `hardness`",
+        at: "acceleration",
+        example: &[CHANGES, FLOWS, VOLUME, MOVES, JUMPS],
+        broken: |tables| tables.at("acceleration").filter(|_| tables.flows() && tables.jumps()),
+    },
+    Rule {
+        this: "`max_jump` above 1",
+        with: "`plastic_update = \"step\"`",
+        message: "extrapolation needs plastic deformation that is applied after each pass",
+        hint: "set `max_jump = 1`, or `plastic_update = \"pass\"`",
+        at: "acceleration",
+        example: &[
+            CHANGES,
+            r#"lower.hardness = "4 GPa""#,
+            r#"motion = { speed = "0.5 m/s", plastic_update = "step" }"#,
+            JUMPS,
+        ],
+        broken: |tables| {
+            let step = tables.motion().is_some_and(|motion| motion.plastic_update == PlasticUpdate::Step);
+            tables.at("acceleration").filter(|_| step && tables.jumps() && tables.yields())
         },
     },
     Rule {

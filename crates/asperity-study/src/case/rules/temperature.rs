@@ -5,7 +5,6 @@ use super::Rule;
 use super::examples::{
     AT_ANY_SPEED, CHANGES, CONDUCTS, GENERATED, LINE, MOVES, RUBS, SLIDES, UPPER_CONDUCTS, WARM,
 };
-use asperity_contact::motion::PlasticUpdate;
 use asperity_contact::with::uses;
 
 pub(super) const RULES: &[Rule] = &[
@@ -164,24 +163,6 @@ pub(super) const RULES: &[Rule] = &[
         ],
         broken: |tables| {
             tables.shift().filter(|_| !tables.case.contact.boundary.repeats(0))?;
-            tables.flash()
-        },
-    },
-    Rule {
-        this: "a flash temperature",
-        with: "`plastic_update = \"step\"`",
-        message: "a flash temperature needs plastic_update = \"pass\"",
-        hint: "set `plastic_update = \"pass\"`",
-        at: "temperature",
-        example: &[
-            CONDUCTS,
-            UPPER_CONDUCTS,
-            RUBS,
-            r#"motion = { speed = "0.5 m/s", plastic_update = "step" }"#,
-            WARM,
-        ],
-        broken: |tables| {
-            tables.motion().filter(|motion| motion.plastic_update == PlasticUpdate::Step)?;
             tables.flash()
         },
     },
