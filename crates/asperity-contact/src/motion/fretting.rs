@@ -16,7 +16,7 @@ use crate::motion::record::{FrettingRecord, LawsInCycles};
 use crate::motion::rim::Interior;
 use crate::motion::worn_away;
 use crate::operator::{Boundary, Compliant, Operator, Operators};
-use crate::solver::{Control, Equilibrium, FrictionalSolution, Params, Solution, solve_normal};
+use crate::solver::{Before, Control, Equilibrium, FrictionalSolution, NormalProblem, Params, Solution};
 use crate::subsurface::Tractions;
 use crate::units::{Joule, Kelvin, Metre, Second};
 
@@ -252,10 +252,20 @@ impl Changes {
         // The gap under the shear, whose contact without removal is the present one.
         let mut of_pressure = Field::zeros(normal.pressure.raw_dim());
         self.operator.apply(&normal.pressure, &mut of_pressure);
-        let gap = gap + &normal.displacement - of_pressure + half * depth;
+        let gap = gap + &normal.displacement - &of_pressure + half * depth;
         let mut operator = Compliant::new(self.operator.as_mut(), CellValues::Field(compliance))?;
-        let start = Some(&normal.pressure);
-        let worn = solve_normal(&mut operator, &gap, &normal.bounds, control, start, &self.params)?;
+        let before = Solution { initial_gap: gap.clone(), displacement: of_pressure, ..normal.clone() };
+        let worn = bodies.pair.interface().solve(
+            &mut operator,
+            &NormalProblem {
+                gap: &gap,
+                bounds: &normal.bounds,
+                control,
+                before: Before::Contact(&before),
+                params: &self.params,
+                watch: &(),
+            },
+        )?;
         for (sums, _) in sums.iter_mut().zip(&self.laws).filter(|(_, law)| follows_pressure(law.as_ref())) {
             for of_body in sums.iter_mut() {
                 ndarray::Zip::from(&mut of_body[0]).and(&worn.pressure).and(&normal.pressure).for_each(

@@ -175,13 +175,7 @@ impl StagedLoading {
         }
         let (operators, _) = facing(&self.pair, self.boundary)?;
         let with = (&operators, self.boundary, self.params);
-        let changes = Changes::new(&mut self.pair, laws, memories, self.acceleration, self.bulk, with)?;
-        if changes.remove() && !self.pair.interface().is_hard() {
-            return Err(Error::Unsupported(
-                "the bodies of a loading lose material only between hard walls without attraction",
-            ));
-        }
-        Ok(Some(changes))
+        Changes::new(&mut self.pair, laws, memories, self.acceleration, self.bulk, with).map(Some)
     }
 }
 
@@ -280,6 +274,11 @@ impl Increments {
         let (pair, gap) = match &changed {
             None => (&*pair, Cow::Borrowed(&*gap)),
             Some(ChangedBodies { pair, .. }) => (pair, Cow::Owned(pair.initial_gap(&pair.at_rest()))),
+        };
+        // Bodies that attract each other come from their last contact on the surfaces as they are now.
+        let last = match &changed {
+            Some(_) if !pair.interface().is_hard() => last.map(|last| last.over(&flattening.open(&gap))),
+            _ => last,
         };
         let duration = stages[next.stage].duration(next.step, share);
         let bounds = pair.bounds(&pair.at_rest());

@@ -6,12 +6,14 @@ use std::sync::Arc;
 use asperity_base::{Error, Field, Grid};
 use asperity_contact::adhesion::{Adhesion, Potential};
 use asperity_contact::material::Material;
-use asperity_contact::motion::{LoadedContact, Pair, SlipRegime, Stage, load_in_stages, press};
+use asperity_contact::motion::{
+    Acceleration, Cycles, LoadedContact, Pair, SlipRegime, Stage, StagedLoading, load_in_stages, press,
+};
 use asperity_contact::operator::{Boundary, CoupledOperator, CoupledSum};
 use asperity_contact::reference::cattaneo::tangential_modulus;
 use asperity_contact::reference::{CattaneoMindlin, HertzSphere};
 use asperity_contact::solver::{
-    Control, Coupling, Creep, Friction, FrictionalSolution, Loading, Params, Rolling, Tangential,
+    Control, Coupling, Creep, Friction, FrictionalSolution, HardWall, Loading, Params, Rolling, Tangential,
 };
 use asperity_contact::wear::{Wear, WearCoefficient};
 use asperity_surface::{Amplitude, SelfAffine, Topography};
@@ -187,15 +189,70 @@ fn shear_that_changes_the_pressures_needs_hard_walls() {
     let error = load(friction()).map(|_| ()).unwrap_err();
     assert!(matches!(error, Error::Unsupported(words) if words.contains("hard walls")), "{error}");
     assert!(load(friction().with_coupling(Coupling::Goodman)).is_ok());
+}
+
+/// Loaded, and pushed to and fro for some cycles, with Archard's wear of the lower body.
+fn fretted(attraction: f64, wear: f64, cycles: usize, acceleration: Acceleration) -> LoadedContact {
     let pair = rough([&body(), &body()]);
-    let wear = Wear::new([Some(WearCoefficient::archard(1e-3).unwrap()), None], [None, None]).unwrap();
-    let loading = asperity_contact::motion::StagedLoading::new(
-        pair,
-        Boundary::FREE,
-        Some(friction()),
-        vec![stage],
-        PARAMS,
-    );
-    let worn = loading.unwrap().with_law(wear).run(None, &(), &mut []);
-    assert!(matches!(worn.map(|_| ()), Err(Error::Unsupported(words)) if words.contains("hard walls")));
+    let pair = match attraction {
+        0.0 => pair.with_interface(Arc::new(HardWall)),
+        share => pair.with_interface(Arc::new(Adhesion::new(share * 0.004, 0.12).unwrap())),
+    };
+    let unit = 2e-3 * pair.lower_grid().area();
+    let stage = |force: f64| {
+        let tangential = Tangential::Force([force * unit, 0.0]);
+        Stage::new(Loading { normal: Control::Load(unit), tangential }, 2)
+    };
+    let stages = vec![stage(0.3), stage(-0.3).with_cycles(Some(Cycles { count: cycles, period: None }))];
+    let law = Wear::new([Some(WearCoefficient::archard(wear).unwrap()), None], [None, None]).unwrap();
+    StagedLoading::new(pair, Boundary::FREE, Some(friction()), stages, PARAMS)
+        .unwrap()
+        .with_law(law)
+        .with_acceleration(acceleration)
+        .run(None, &(), &mut [])
+        .unwrap()
+}
+
+/// Each volume is that of the friction work: wear counts the pressures that press, as friction does, and not the tensions that pull.
+#[test]
+fn bodies_that_attract_each_other_fret_off_what_their_friction_takes() {
+    let of_work = |attraction: f64, wear: f64, cycles: usize| {
+        let worn = fretted(attraction, wear, cycles, Acceleration::NONE).record.fretting.unwrap();
+        assert!(worn.laws.worn_volume_lower > 0.0);
+        worn.laws.worn_volume_lower * COEFFICIENT / (wear * worn.friction_work)
+    };
+    // By little wear exactly, and by more with the order of an implicit step.
+    for attraction in [1.0, 0.0] {
+        assert!((of_work(attraction, 1e-7, 3) - 1.0).abs() < 1e-5);
+        let errors = [4e-2, 2e-2].map(|wear| (of_work(attraction, wear, 1) - 1.0).abs());
+        assert!(errors[0] < 0.05, "{errors:?}");
+    }
+}
+
+#[test]
+fn a_faint_attraction_frets_as_hard_walls_do() {
+    let before = rough([&body(), &body()]).lower.heights;
+    let worn = |attraction: f64| {
+        let contact = fretted(attraction, 1e-2, 3, Acceleration::NONE);
+        &before - &contact.changed.unwrap().pair.lower.heights
+    };
+    let hard = worn(0.0);
+    let most = |depth: &Field| depth.iter().fold(0.0_f64, |most, depth| most.max(depth.abs()));
+    let [faint, fainter] = [1e-3, 1e-5].map(|attraction| most(&(&hard - &worn(attraction))) / most(&hard));
+    assert!(faint < 0.02 && (90.0..110.0).contains(&(faint / fainter)), "{faint:e} {fainter:e}");
+    // The attraction presses what touches together: more of it sticks under the same push, and less is worn.
+    assert!(worn(1.0).sum() < 0.2 * hard.sum());
+}
+
+/// Cycles that stand for several, beside all of them.
+#[test]
+fn cycles_of_bodies_that_attract_each_other_are_extrapolated() {
+    let acceleration = Acceleration::default().with_max_jump(8).with_max_wear(1.0).with_tolerance(0.05);
+    let all = fretted(1.0, 1e-3, 30, Acceleration::NONE);
+    let few = fretted(1.0, 1e-3, 30, acceleration);
+    assert!(few.increments.len() < all.increments.len() / 2, "{}", few.increments.len());
+    let [all, few] = [&all, &few].map(|contact| contact.record.fretting.unwrap());
+    assert_eq!((all.cycles, few.cycles), (30, 30));
+    let ratio = few.laws.worn_volume_lower / all.laws.worn_volume_lower;
+    assert!((ratio - 1.0).abs() < 5e-3, "{ratio}");
 }

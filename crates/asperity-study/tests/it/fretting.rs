@@ -71,10 +71,10 @@ impl Watch for Stop {
     }
 }
 
-#[test]
-fn rough_bodies_fret_and_go_on_after_interruptions_with_the_same_bits_on_any_number_of_threads() {
+/// Runs a case as a whole on one thread, and with interruptions on two; both have the same bits.
+fn goes_on_to_the_same_bits(text: &str) {
     let folder = tempfile::tempdir().unwrap();
-    let case = case(ROUGH);
+    let case = case(text);
     let run = |name: &str, existing, watch: &dyn Watch| {
         asperity_study::run(&case, SurfaceInput::default(), &folder.path().join(name), existing, watch)
     };
@@ -95,6 +95,19 @@ fn rough_bodies_fret_and_go_on_after_interruptions_with_the_same_bits_on_any_num
         let read = |name: &str| std::fs::read(folder.path().join(name).join(file)).unwrap();
         assert!(read("whole") == read("broken"), "{file}");
     }
+}
+
+#[test]
+fn bodies_that_attract_each_other_fret_and_go_on_after_interruptions_with_the_same_bits() {
+    let attracting = ROUGH.replace("young = \"70 GPa\", poisson = 0.2", "young = \"210 GPa\", poisson = 0.3");
+    let attracting = attracting
+        .replace("temperature =", "adhesion = { work = \"1 J/m2\", range = \"2 nm\" }\ntemperature =");
+    goes_on_to_the_same_bits(&attracting.replace("cycles = 400", "cycles = 30"));
+}
+
+#[test]
+fn rough_bodies_fret_and_go_on_after_interruptions_with_the_same_bits_on_any_number_of_threads() {
+    goes_on_to_the_same_bits(ROUGH);
     let result = solved(ROUGH);
     let last = result.increments.last().unwrap();
     let fretting = last.fretting.unwrap();

@@ -33,23 +33,6 @@ pub(super) const RULES: &[Rule] = &[
         },
     },
     Rule {
-        this: "`pit_depth` in stages",
-        with: "[adhesion]",
-        message: "pits are not broken out of bodies with [adhesion] in stages",
-        hint: "leave 'pit_depth' out; `fatigue.csv` has the damage without it",
-        at: "lower.fatigue.pit_depth",
-        example: &[
-            r#"lower.fatigue = { torsion = "350 MPa", tension = "600 MPa", pit_depth = "2 um" }"#,
-            r#"fatigue = { to = "8 um" }"#,
-            r#"adhesion = { work = "50 mJ/m2", range = "2 nm" }"#,
-            r#"history = [{ load = "1 N", cycles = 10 }]"#,
-        ],
-        broken: |tables| {
-            let pits = tables.of_body("fatigue.pit_depth", pits);
-            pits.filter(|_| !tables.case.course(1.0).stages().is_empty() && !tables.case.interface.is_empty())
-        },
-    },
-    Rule {
         this: "`young = inf`",
         with: "`young = inf` of the other body",
         message: "both bodies are rigid",
@@ -64,8 +47,3 @@ pub(super) const RULES: &[Rule] = &[
         },
     },
 ];
-
-/// Whether material breaks out of a body.
-fn pits(body: &Body) -> bool {
-    body.properties.fatigue.is_some_and(|limits| limits.pit_depth > 0.0)
-}

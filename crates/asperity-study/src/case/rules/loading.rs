@@ -2,7 +2,7 @@
 
 use super::super::{Boundary, Prescribed};
 use super::Rule;
-use super::examples::{AT_ANY_SPEED, CHANGES, FLOWS, LINE, ROLLS, RUBS, SWEEP, VOLUME};
+use super::examples::{AT_ANY_SPEED, FLOWS, LINE, ROLLS, RUBS, SWEEP, VOLUME};
 
 pub(super) const RULES: &[Rule] = &[
     Rule {
@@ -163,15 +163,6 @@ pub(super) const RULES: &[Rule] = &[
         at: "history",
         example: &[r#"history = [{ load = "1 N" }]"#, AT_ANY_SPEED],
         broken: |tables| tables.stages().into_iter().next().filter(|_| tables.case.motion.is_some()),
-    },
-    Rule {
-        this: "{a law} in stages",
-        with: "[adhesion]",
-        message: "{key} in stages applies to bodies without [adhesion] only",
-        hint: "leave [adhesion] out, or the laws that change the bodies",
-        at: "lower.{law}",
-        example: &[CHANGES, RUBS, r#"adhesion = { work = "50 mJ/m2", range = "2 nm" }"#],
-        broken: |tables| tables.law().filter(|_| tables.frets() && !tables.case.interface.is_empty()),
     },
     Rule {
         this: "[[history]]",
