@@ -237,7 +237,7 @@ impl StaticProblem<'_> {
         let from = left.as_ref().map_or(&self.pair, |left| &left.pair).clone();
         let contact =
             self.case.running_in_place(SlidingContact::new(from, self.boundary(), slide, self.params)?)?;
-        let state = left.map(|left| SlidingState::resumed(&contact, left.updates, left.pressure));
+        let state = left.map(|left| left.resumed(&contact));
         let worn = contact.run(state, self.watch, &mut outputs(&mut observers, &mut limits, &mut kept))?;
         let (record, updates) = (worn.record.clone(), worn.state.updates.clone());
         let of_answer = review::static_contact(&worn.state.pair, self.boundary(), &worn.solution.pressure);
@@ -414,6 +414,9 @@ fn worn_fields(contact: SlidingOutcome, friction: Option<Friction>) -> RestField
     let mut add =
         |name: &'static str, unit: &'static str, values| fields.push(NamedField::new(name, unit, values));
     let shear = friction.map(|friction| solution.pressure.mapv(|p| friction.shear_limit(p)));
+    if !pair.interface().is_hard() {
+        add("contact", "1", solution.contact_field());
+    }
     add("pressure", "Pa", solution.pressure);
     add("displacement", "m", solution.displacement);
     add("gap", "m", gap);

@@ -1,16 +1,17 @@
 //! Viscoelastic bodies in stages and in passes, in which their memory moves with them.
 
 use crate::error::{Error, Result, check_in};
-use crate::grid::{Field, Placement};
+use crate::grid::{CellValues, Field, Placement};
 use crate::motion::body::{Body, State};
 use crate::motion::contact::Contact;
 use crate::motion::kinematics::{Motion, Strategy};
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Drag, Pass, Solver, first_guess};
 use crate::motion::path::Stroke;
+use crate::motion::slip::SlipRegime;
 use crate::motion::watch::{OneOfMany, Progress};
-use crate::operator::{Boundary, Operator, Operators};
-use crate::solver::{ContactProblem, Control, Equilibrium, Params};
+use crate::operator::{Boundary, Compliant, Operator, Operators};
+use crate::solver::{ContactProblem, Control, Device, Equilibrium, Params, Solution};
 use crate::units::{Dimension, Joule, Newton, Pascal, PerPascal, Second, SquareMetre};
 use crate::viscoelastic::memory::solve_step;
 use crate::viscoelastic::{Creep, CreepMemory, solve_in_time};
@@ -32,6 +33,49 @@ pub(super) fn load(
     let start = before.map(|before| &before.normal().pressure);
     solve_in_time(operator, modulus, memory, gap, loading.normal, duration, start, params, watch)
         .map(|solution| Equilibrium::Frictionless(Box::new(solution)))
+}
+
+/// Solves the contact at the end of a step in time of bodies with a composite `modulus` and this `memory`, which lose height in it by the
+/// compliance of the problem. Returns it with the displacement by which the memory advances.
+pub(super) fn load_removing(
+    operator: &mut dyn Operator,
+    modulus: Pascal,
+    memory: &CreepMemory,
+    problem: &ContactProblem<'_>,
+    duration: Second,
+) -> Result<(Solution, Field)> {
+    let ContactProblem { gap, loading, guess, compliance: removal, params, watch, .. } = *problem;
+    let (creep, history) = (memory.compliance(duration), memory.history(duration));
+    let start = guess.and_then(|guess| guess.pressure());
+    // A step is solved as an elastic contact, whose pressures are these times its compliance over that of the bodies.
+    let depth =
+        removal.map_or(CellValues::Uniform(0.0), |removal| removal.map(|depth| depth / (creep * modulus)));
+    let mut operator = Compliant::new(operator, depth.clone())?;
+    let (solution, mut elastic) =
+        solve_step(&mut operator, modulus, (creep, &history), gap, loading.normal, start, params, watch)?;
+    let pressures = solution.pressure.iter().enumerate();
+    elastic
+        .iter_mut()
+        .zip(pressures)
+        .for_each(|(elastic, (cell, p))| *elastic -= depth.at(cell) * modulus * p);
+    Ok((solution, elastic))
+}
+
+/// Checks what viscoelastic bodies need to slide in place.
+pub(super) fn check_in_place(pair: &Pair, regime: SlipRegime, has_speed: bool, device: Device) -> Result<()> {
+    let Some([lower, _]) = pair.creep() else { return Ok(()) };
+    pair.check_creep()?;
+    device.only_processor("a device does not solve contacts of viscoelastic bodies")?;
+    let refused = if !lower.terms.is_empty() {
+        "the contact moves over the lower body of sliding in place: a viscoelastic body must be the upper one"
+    } else if !has_speed {
+        "viscoelastic bodies need the speed of their motion"
+    } else if regime.displaces_normally(pair) {
+        "viscoelastic bodies are not solved together with shear that displaces them normally"
+    } else {
+        return Ok(());
+    };
+    Err(Error::Unsupported(refused))
 }
 
 /// Checks what viscoelastic bodies need to pass over each other.

@@ -5,6 +5,7 @@ use crate::grid::{CellValues, Field};
 use crate::motion::contact::{Contact, facing};
 use crate::motion::control::check_limit;
 use crate::motion::course::{self, Course, Output, Step, StepRow};
+use crate::motion::creeping;
 use crate::motion::kinematics::Strategy;
 use crate::motion::law::{self, Heat, Law, PositionData, Sums};
 use crate::motion::pair::{Pair, opposing_values};
@@ -19,7 +20,8 @@ use crate::motion::watch::{StaticWatch, Watch};
 use crate::motion::worn_away;
 use crate::operator::Boundary;
 use crate::solver::{
-    ContactProblem, ContactSolver, Control, Friction, Guess, Loading, Params, Sliding, Solution, Stats,
+    ContactProblem, ContactSolver, Control, Equilibrium, Friction, Guess, InterfaceRecord, Loading, Params,
+    Sliding, Solution, Stats,
 };
 use crate::temperature::{FlashStep, SteadyTemperature, Thermal};
 use crate::units::{Dimension, Kelvin, Metre, MetrePerSecond, Second};
@@ -125,9 +127,26 @@ impl Slide {
 }
 
 impl SlidingState {
-    /// Creates the state of a `contact` with these bodies after these `updates`; the last one ended with this `pressure`.
-    pub fn resumed(contact: &SlidingContact, updates: Vec<UpdateRecord>, pressure: Field) -> Self {
-        Self { pair: contact.pair.clone(), updates, pressure }
+    /// Returns the state with the bodies of a `contact`, on which its laws are prepared.
+    #[must_use]
+    pub fn resumed(self, contact: &SlidingContact) -> Self {
+        Self { pair: contact.pair.clone(), ..self }
+    }
+}
+
+impl SlidingState {
+    /// Returns the state after an update of this `time` with its `record`.
+    fn after(mut self, pressed: Pressed, record: UpdateRecord, time: Second) -> Updated {
+        let Pressed { solution, elastic, .. } = pressed;
+        self.pressure.assign(&solution.pressure);
+        self.updates.push(record);
+        if !self.pair.interface().is_hard() {
+            self.contact = Some(solution.clone());
+        }
+        if let (Some(memory), Some(elastic)) = (&mut self.memory, elastic) {
+            memory.advance(elastic, time);
+        }
+        Updated { state: self, solution }
     }
 }
 
@@ -151,7 +170,7 @@ pub struct SlidingOutcome {
 /// is the contact problem with [`Compliant`](crate::operator::Compliant) cells, κ = Σ k |Δs| over both bodies, cell by cell. Pressures therefore stay
 /// smooth for any length of an update, and the worn volume is k W |Δs| to round-off. The coefficient of a cell under a film
 /// is evaluated at the mean film thickness of the update, found together with the contact. Film growth and plastic
-/// deformation use the bodies at the beginning of the update.
+/// deformation use the bodies at the beginning of the update. A viscoelastic upper body creeps meanwhile, by the pressures on its own cells.
 pub struct SlidingContact {
     slide: Slide,
     boundary: Boundary,
@@ -180,8 +199,7 @@ impl SlidingContact {
     /// If the bodies have different shapes.
     pub fn new(pair: Pair, boundary: Boundary, slide: Slide, params: Params) -> Result<Self> {
         let slide = slide.checked()?;
-        pair.interface().check_combined()?;
-        pair.check_elastic()?;
+        creeping::check_in_place(&pair, slide.regime(), slide.speed.is_some(), params.device)?;
         let (operators, _) = facing(&pair, boundary)?;
         let shape = pair.lower_grid().shape;
         let bounds = slide.regime().sheared(pair.bounds(&pair.at_rest()));
@@ -264,62 +282,73 @@ impl SlidingContact {
 
     /// Solves the contact of the bodies after the last update.
     fn end(mut self, state: SlidingState, watch: &dyn Watch) -> Result<SlidingOutcome> {
-        let (solution, contact) =
-            self.press(&state.pair, Some(&state.pressure), 0.0.into(), self.slide.ends.len(), watch)?;
+        let Pressed { solution, contact, .. } =
+            self.press(&state, 0.0.into(), 0.0, self.slide.ends.len(), watch)?;
         let flash = self.flash(&contact)?;
         // Without contact no cell has a temperature.
         let heated = self.heat.is_some();
         let temperature = heated.then(|| flash.map_or_else(Vec::new, |flash| flash.temperature));
         let contact = Contact { temperature, ..contact };
         let temperature = contact.temperature_field(solution.pressure.ncols());
-        Ok(SlidingOutcome { state, record: StaticRecord::new(&solution), solution, temperature })
+        let record = StaticRecord { interface: contact.interface, ..StaticRecord::new(&solution) };
+        Ok(SlidingOutcome { state, record, solution, temperature })
     }
 
     /// Solves the contact before sliding.
     fn begin(&mut self, watch: &dyn Watch) -> Result<Updated> {
         let pair = self.pair.clone();
-        let (solution, contact) = self.press(&pair, None, 0.0.into(), 0, watch)?;
-        let flash = self.flash(&contact)?;
+        let (pressure, memory) = (pair.lower_grid().zeros(), creeping::memory(&pair));
+        let state = SlidingState { pair, updates: Vec::new(), pressure, contact: None, memory };
+        let pressed = self.press(&state, 0.0.into(), 0.0, 0, watch)?;
+        let flash = self.flash(&pressed.contact)?;
         let record = UpdateRecord {
             distance: 0.0,
             time: self.slide.time(0.0),
             lost: law::nothing_lost(&self.laws),
-            ..self.record(&pair, &contact, flash.as_ref())
+            ..self.record(&state.pair, &pressed.contact, flash.as_ref())
         };
-        let state = SlidingState { pressure: solution.pressure.clone(), updates: vec![record], pair };
-        Ok(Updated { state, solution })
+        Ok(state.after(pressed, record, 0.0))
     }
 
     /// Solves the update that ends at the distance of this `index`.
     fn advance(&mut self, mut state: SlidingState, index: usize, watch: &dyn Watch) -> Result<Updated> {
         let position_data = self.slide.position_data(index);
-        let mut compliance =
-            self.compliance(&state.pair, &law::nothing(&self.laws, &state.pair), position_data.distance);
+        let nothing = law::nothing(&self.laws, &state.pair);
+        let mut compliance = self.compliance(&state.pair, &nothing, position_data.distance, &state.pressure);
         let (mut stats, mut solutions) = (Stats::default(), 0);
-        let (solution, contact, flash, sums) = loop {
-            let (solution, contact) =
-                self.press(&state.pair, Some(&state.pressure), compliance.clone(), index, watch)?;
+        let time = position_data.time;
+        let (pressed, flash, sums) = loop {
+            let pressed = self.press(&state, compliance.clone(), time, index, watch)?;
+            let Pressed { solution, contact, .. } = &pressed;
             state.pressure.assign(&solution.pressure);
             stats = stats.and(&solution.stats);
             solutions += 1;
-            let flash = self.flash(&contact)?;
-            let sums = self.sums(&state.pair, &contact, &position_data, flash.as_ref())?;
-            let next = self.compliance(&state.pair, &sums, position_data.distance);
-            let change =
-                |(cell, _): &(u32, f64)| (next.at(*cell as usize) - compliance.at(*cell as usize)).abs();
+            let flash = self.flash(contact)?;
+            let sums = self.sums(&state.pair, contact, &position_data, flash.as_ref())?;
+            let next = self.compliance(&state.pair, &sums, position_data.distance, &solution.pressure);
+            // A cell whose pressure is hardly one may go on changing between pressure and tension.
+            let highest = contact.max_pressure();
+            let weight = |pressure: f64| match state.pair.interface().is_hard() {
+                true => 1.0,
+                false => pressure.abs() / highest,
+            };
+            let change = |(cell, pressure): &(u32, f64)| {
+                weight(*pressure) * (next.at(*cell as usize) - compliance.at(*cell as usize)).abs()
+            };
             let most = contact.pressure.iter().map(change).fold(0.0, f64::max);
             if most <= COEFFICIENT_ACCURACY * next.max() || solutions == MAX_SOLUTIONS {
-                break (solution, contact, flash, sums);
+                break (pressed, flash, sums);
             }
             compliance = next;
         };
+        let contact = &pressed.contact;
         let before = state.updates.last().expect("the contact before it slides");
         let mut lost = before.lost.clone();
         let work = before.friction_work + contact.tangential_force.abs() * position_data.distance;
         law::advance(&self.laws, &mut state.pair, &sums, 1.0, &self.interiors, &mut lost);
         worn_away::check_cells(&state.pair, &self.laws)?;
         let distance = self.slide.ends[index];
-        state.updates.push(UpdateRecord {
+        let record = UpdateRecord {
             update: index + 1,
             distance,
             time: self.slide.time(distance),
@@ -328,41 +357,65 @@ impl SlidingContact {
             solutions,
             iterations: stats.iterations,
             convolutions: stats.convolutions,
-            ..self.record(&state.pair, &contact, flash.as_ref())
-        });
-        Ok(Updated { state, solution })
+            ..self.record(&state.pair, contact, flash.as_ref())
+        };
+        Ok(state.after(pressed, record, time))
     }
 
-    /// Solves the contact of a `pair` with the additional cell `compliance`, from the pressure `start`, after `done`
-    /// updates.
+    /// Solves the contact after a `state` with the additional cell `compliance`, at the end of an update of this `time`, after `done` updates.
     fn press(
         &mut self,
-        pair: &Pair,
-        start: Option<&Field>,
+        state: &SlidingState,
         compliance: CellValues,
+        time: Second,
         done: usize,
         watch: &dyn Watch,
-    ) -> Result<(Solution, Contact)> {
+    ) -> Result<Pressed> {
+        let pair = &state.pair;
         let (control, position) = (self.slide.control, pair.at_rest());
         let (gap, bounds) = (pair.initial_gap(&position), pair.bounds(&position));
         let watch = StaticWatch::new(watch, done, self.slide.ends.len(), control);
+        let last = state.contact.clone();
+        let last = last.map(|last| Equilibrium::Frictionless(Box::new(last)).over(&gap));
+        let begins = state.updates.is_empty();
         let problem = ContactProblem {
             compliance: Some(&compliance),
-            guess: start.map(Guess::Pressure),
+            before: last.as_ref(),
+            guess: (!begins).then_some(Guess::Pressure(&state.pressure)),
             ..ContactProblem::new(&gap, &bounds, Loading::pressing(control), &self.params, &watch)
         };
-        let solved = self.solver.solve(&problem)?;
-        let contact = Contact::new(position, solved.sliding(), solved.normal());
-        Ok((solved.into_normal(), contact))
+        let (solution, elastic) = match &state.memory {
+            None => (self.solver.solve(&problem)?.into_normal(), None),
+            Some(memory) => {
+                let (operator, modulus) = (self.solver.normal(), pair.modulus());
+                let (solution, elastic) = creeping::load_removing(operator, modulus, memory, &problem, time)?;
+                (solution, Some(elastic))
+            }
+        };
+        let before = last.as_ref().map(Equilibrium::normal);
+        let interface = InterfaceRecord::of(pair.interface(), &solution, before);
+        let contact =
+            Contact { interface, ..Contact::new(position, self.slide.sliding().as_ref(), &solution) };
+        Ok(Pressed { solution, contact, elastic })
     }
 
     /// Returns the depth κ that laws remove from each cell of both bodies per pressure over a `distance`, m/Pa, with these
-    /// sums.
-    fn compliance(&self, pair: &Pair, sums: &[Sums], distance: Metre) -> CellValues {
+    /// sums; nothing where the attraction of the bodies pulls by this `pressure`.
+    fn compliance(&self, pair: &Pair, sums: &[Sums], distance: Metre, pressure: &Field) -> CellValues {
         let friction = self.slide.friction.map_or(0.0, |friction| friction.coefficient);
         let [lower, upper] = law::compliance(&self.laws, pair, sums, friction, distance);
         let shape = pair.lower_grid().shape;
-        opposing_values([&lower, &upper], [shape; 2], &pair.at_rest(), |lower, upper| lower + upper)
+        let depths =
+            opposing_values([&lower, &upper], [shape; 2], &pair.at_rest(), |lower, upper| lower + upper);
+        if pair.interface().is_hard() {
+            return depths;
+        }
+        let mut pressed = pressure.clone();
+        pressed
+            .iter_mut()
+            .enumerate()
+            .for_each(|(cell, p)| *p = if *p > 0.0 { depths.at(cell) } else { 0.0 });
+        pressed.into()
     }
 
     /// Returns the sums of the laws over an update.
@@ -420,8 +473,17 @@ impl SlidingContact {
             iterations: contact.stats.iterations,
             convolutions: contact.stats.convolutions,
             residual: contact.residual,
+            interface: contact.interface,
         }
     }
+}
+
+/// A contact at the end of an update.
+struct Pressed {
+    solution: Solution,
+    contact: Contact,
+    /// Displacement by which the memory of viscoelastic bodies advances.
+    elastic: Option<Field>,
 }
 
 /// An update, and the contact at its end.

@@ -123,6 +123,10 @@ pub struct SlidingState {
     pub updates: Vec<UpdateRecord>,
     /// Pressure of the last update, Pa.
     pub pressure: Field,
+    /// The last contact of bodies that attract each other, from which they come to the next one; `None` between hard walls.
+    pub contact: Option<Solution>,
+    /// Memory of viscoelastic bodies; `None` for others.
+    pub memory: Option<CreepMemory>,
 }
 
 impl CourseState for LoadingState {
@@ -154,9 +158,7 @@ impl CourseState for LoadingState {
         if let Some(changed) = &self.changed {
             changed.store(to);
         }
-        if let Some(memory) = &self.memory {
-            creeping::named(memory).for_each(|(name, values)| to.field(&name, creeping::UNIT, values));
-        }
+        store_memory(to, self.memory.as_ref());
         let Progress { stage, cycles, step } = self.next;
         to.count("next_stage", stage);
         to.count("next_cycles", cycles);
@@ -173,6 +175,20 @@ impl CourseState for LoadingState {
         to.vector("origin_force", force);
         to.vector("origin_displacement", displacement);
     }
+}
+
+/// Stores the memory of viscoelastic bodies, if there is one.
+fn store_memory(to: &mut dyn StateWriter, memory: Option<&CreepMemory>) {
+    let fields = memory.into_iter().flat_map(creeping::named);
+    fields.for_each(|(name, values)| to.field(&name, creeping::UNIT, values));
+}
+
+/// Restores the memory of the bodies of a `pair`, if there is one.
+fn restored_memory(from: &dyn StateReader, pair: &Pair) -> Result<Option<CreepMemory>> {
+    restore_if(from, creeping::ELASTIC, || {
+        let creep = pair.creep_together().unwrap_or(Creep::elastic(0.0));
+        creeping::restored(creep, |name| from.field(name))
+    })
 }
 
 impl LoadingState {
@@ -208,10 +224,7 @@ impl LoadingState {
                 ..Stats::default()
             },
         };
-        let memory = restore_if(from, creeping::ELASTIC, || {
-            let creep = pair.creep_together().unwrap_or(Creep::elastic(0.0));
-            creeping::restored(creep, |name| from.field(name))
-        })?;
+        let memory = restored_memory(from, pair)?;
         let has_friction = from.holds("stick");
         let contact = match has_friction {
             false => Equilibrium::Frictionless(Box::new(normal)),
@@ -311,6 +324,14 @@ impl CourseState for SlidingState {
     fn store(&self, to: &mut dyn StateWriter) {
         to.bodies(&self.pair);
         to.field("pressure", "Pa", &self.pressure);
+        if let Some(contact) = &self.contact {
+            to.field("displacement", "m", &contact.displacement);
+            to.number("approach", contact.approach);
+            if let CellValues::Field(lower) = contact.bounds.lower() {
+                to.field("least_pressure", "Pa", lower);
+            }
+        }
+        store_memory(to, self.memory.as_ref());
     }
 }
 
@@ -322,6 +343,25 @@ impl SlidingState {
     pub fn restore(from: &dyn StateReader, pair: &Pair, updates: Vec<UpdateRecord>) -> Result<Self> {
         let mut pair = pair.clone();
         from.bodies(&mut pair)?;
-        Ok(Self { pair, updates, pressure: from.field("pressure")? })
+        let pressure = from.field("pressure")?;
+        let contact = restore_if(from, "displacement", || {
+            let bounds = pair.bounds(&pair.at_rest());
+            let bounds = match restore_if(from, "least_pressure", || from.field("least_pressure"))? {
+                Some(least) => bounds.above(least),
+                None => bounds,
+            };
+            Ok(Solution {
+                grid: pair.lower_grid(),
+                initial_gap: pair.initial_gap(&pair.at_rest()),
+                bounds,
+                pressure: pressure.clone(),
+                displacement: from.field("displacement")?,
+                approach: from.number("approach")?,
+                residual: f64::NAN,
+                stats: Stats::default(),
+            })
+        })?;
+        let memory = restored_memory(from, &pair)?;
+        Ok(Self { pair, updates, pressure, contact, memory })
     }
 }

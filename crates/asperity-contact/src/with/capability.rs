@@ -244,8 +244,6 @@ pub struct Surroundings {
     /// Whether the shear changes the pressures in a way that depends on them: it displaces the bodies normally, or grows junctions of cells
     /// that may stick.
     pub shear_changes_pressures: bool,
-    /// Whether the bodies slide in place.
-    pub slides_in_place: bool,
     /// Whether a body deforms plastically below its surface.
     pub flows: bool,
     /// Whether a device solves the contact.

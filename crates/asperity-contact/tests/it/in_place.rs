@@ -1,12 +1,15 @@
 //! Contacts that slide in place: implicit updates, and the compliance used to solve them.
 
+use std::sync::Arc;
+
 use asperity_base::grid::CellValues;
 use asperity_base::{Error, Field, Grid, Result};
+use asperity_contact::adhesion::Adhesion;
 use asperity_contact::film::{FILM, Film, FilmLaw, FilmStress, Films};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    ContactCells, Law, Output, Pair, Slide, SlidingContact, SlidingOutcome, SlidingState, SlipRegime, State,
-    Step, press,
+    ContactCells, Law, Output, Pair, Slide, SlidingContact, SlidingOutcome, SlidingState, SlipRegime, Stage,
+    StageTime, State, Step, load_in_stages, press,
 };
 use asperity_contact::operator::{
     Boundary, Compliant, CoupledSum, DirectSum, FreeFft, Operator, PeriodicFft,
@@ -16,8 +19,9 @@ use asperity_contact::solver::{
     solve_normal,
 };
 use asperity_contact::temperature::Thermal;
+use asperity_contact::viscoelastic::{Relaxation, RelaxationTerm};
 use asperity_contact::wear::{WEAR, Wear, WearCoefficient};
-use asperity_surface::{Amplitude, Form, SelfAffine};
+use asperity_surface::{Amplitude, Form, SelfAffine, Topography};
 
 const PITCH: f64 = 1e-6;
 const METHODS: [Method; 3] = [Method::Direct, Method::PolonskyKeer, Method::ActiveSet];
@@ -431,7 +435,7 @@ fn an_interrupted_contact_slides_on_as_if_it_had_not_stopped() {
             body.state.clone_from(&worn.state);
         }
         let contact = everything(at, 6);
-        let state = SlidingState::resumed(&contact, state.updates, state.pressure);
+        let state = state.resumed(&contact);
         let rest = contact.run(Some(state), &(), &mut []).unwrap();
         assert_eq!(rest.state.updates, whole.state.updates);
         assert_eq!(rest.state.pair.upper.heights, whole.state.pair.upper.heights);
@@ -556,4 +560,151 @@ fn a_solid_lubricant_is_worn_off_and_the_body_after_it() {
         }
         assert_eq!(state.pair.upper.heights[[0, 0]], 0.0);
     }
+}
+
+/// Pressures at the ends of the updates.
+#[derive(Default)]
+struct Pressures(Vec<Field>);
+
+impl Output for Pressures {
+    fn step(&mut self, step: &Step<'_>) -> Result<()> {
+        self.0.extend(step.contact.map(|contact| contact.pressure.clone()));
+        Ok(())
+    }
+}
+
+/// A rough body of a modulus of 1 slides over a flat one that attracts it and wears.
+fn attracted(attraction: f64, load: f64, distance: f64, updates: usize) -> (SlidingOutcome, Vec<Field>) {
+    let grid = Grid::new([22, 20], [1.0; 2]).unwrap();
+    let form =
+        SelfAffine { hurst: 0.8, rolloff: Some(10.0), shortest: Some(4.0), amplitude: Amplitude::Sdq(0.1) };
+    let rough = form.generate(&grid, 5).unwrap();
+    let flat = Topography::new(grid, grid.zeros()).unwrap();
+    let body = Material::elastic(1.5, 0.3).unwrap();
+    let pair = Pair::new(rough, flat.underside(), [&body, &body]).unwrap();
+    let pair = match attraction {
+        0.0 => pair,
+        share => pair.with_interface(Arc::new(Adhesion::new(share * 0.004, 0.12).unwrap())),
+    };
+    let wear =
+        Wear::new([Some(WearCoefficient::archard(ATTRACTED_WEAR).unwrap()), None], [None, None]).unwrap();
+    let slide = Slide::graded(distance, updates, Control::Load(load));
+    let params = Params::default().with_tolerance(1e-9);
+    let contact = SlidingContact::new(pair, Boundary::FREE, slide, params).unwrap().with_law(wear);
+    let mut kept = Pressures::default();
+    let outcome = contact.run(None, &(), &mut [&mut kept]).unwrap();
+    (outcome, kept.0)
+}
+
+const ATTRACTED_WEAR: f64 = 1e-2;
+
+/// Wear counts what presses at the end of an update, cell by cell, and nothing of what pulls.
+#[test]
+fn bodies_that_attract_each_other_wear_in_place_by_what_presses() {
+    let (worn, pressures) = attracted(1.0, 0.4, 60.0, 8);
+    let updates = &worn.state.updates;
+    let mut before = 0.0;
+    let mut expected = 0.0;
+    for (update, pressure) in updates.iter().zip(&pressures).skip(1) {
+        let pressed: f64 = pressure.iter().map(|p| p.max(0.0)).sum();
+        let pulled: f64 = pressure.iter().map(|p| p.min(0.0)).sum();
+        assert!(pulled < -0.05 * pressed && (pressed + pulled - 0.4).abs() < 1e-6, "{pressed} {pulled}");
+        expected += ATTRACTED_WEAR * pressed * (update.distance - before);
+        before = update.distance;
+        assert!((update.lost("wear")[0] / expected - 1.0).abs() < 1e-9, "{update:?} {expected}");
+        let depth = largest(&pressure.mapv(|p| p.max(0.0))) * ATTRACTED_WEAR;
+        assert!(update.solutions <= 6 && depth > 0.0, "{update:?}");
+        assert!(update.interface.is_some());
+    }
+    // The bodies at rest are in equilibrium where they have worn to.
+    assert!(worn.solution.residual < 1e-8 && worn.record.interface.is_some());
+}
+
+#[test]
+fn a_faint_attraction_wears_in_place_as_hard_walls_do() {
+    let worn = |attraction: f64| attracted(attraction, 0.4, 20.0, 4).0.state.pair.lower.heights;
+    let hard = worn(0.0);
+    let [faint, fainter] = [1e-3, 1e-5].map(|attraction| largest(&(&hard - &worn(attraction))));
+    assert!(faint > 0.0 && (80.0..120.0).contains(&(faint / fainter)), "{faint:e} {fainter:e}");
+}
+
+const RUBBER: f64 = 1e6;
+
+/// A ball of rubber whose modulus falls from ten times that at rest, by one time of a second; on rigid glass, which wears.
+fn rubber_ball(speed: f64, updates: usize, wear: f64, relaxes: bool) -> (SlidingOutcome, Vec<Field>, Pair) {
+    let grid = Grid::new([24, 24], [10e-6; 2]).unwrap();
+    let ball = Form::Sphere { radius: 2e-3 }.on(&grid).unwrap();
+    let flat = Topography::new(grid, grid.zeros()).unwrap();
+    let [rubber, glass] = [RUBBER, f64::INFINITY].map(|young| Material::elastic(young, 0.5).unwrap());
+    let mut pair = Pair::new(flat, ball.underside(), [&glass, &rubber]).unwrap();
+    if relaxes {
+        let terms = [RelaxationTerm { modulus: 9.0 * RUBBER, time: 0.1 }];
+        let relaxation = Relaxation::new(RUBBER, terms).unwrap();
+        pair = pair.with_relaxation([&glass, &rubber], [None, Some(relaxation)]).unwrap();
+    }
+    let slide = Slide::graded(10e-3, updates, Control::Load(2e-3)).with_speed(speed);
+    let law = Wear::new([Some(WearCoefficient::archard(wear).unwrap()), None], [None, None]).unwrap();
+    let params = Params::default().with_tolerance(1e-9);
+    let contact = SlidingContact::new(pair.clone(), Boundary::FREE, slide, params).unwrap().with_law(law);
+    let mut kept = Pressures::default();
+    let outcome = contact.run(None, &(), &mut [&mut kept]).unwrap();
+    (outcome, kept.0, pair)
+}
+
+/// With next to no wear it creeps as under a load that stays.
+#[test]
+fn rubber_that_slides_in_place_creeps_as_under_a_load_that_stays() {
+    let (slid, pressures, pair) = rubber_ball(10e-3, 6, 1e-22, true);
+    let loading = Loading { normal: Control::Load(2e-3), tangential: Tangential::Force([0.0; 2]) };
+    let stages = vec![Stage::new(loading, 1), Stage::new(loading, 6).within(StageTime::Growing(1.0))];
+    let mut kept = Pressures::default();
+    let params = Params::default().with_tolerance(1e-9);
+    let loaded =
+        load_in_stages(&pair, Boundary::FREE, None, &stages, &params, None, &(), &mut [&mut kept]).unwrap();
+    assert_eq!((pressures.len(), kept.0.len(), loaded.increments.len()), (7, 7, 7));
+    for ((update, increment), (slid, stays)) in
+        slid.state.updates.iter().zip(&loaded.increments).zip(pressures.iter().zip(&kept.0))
+    {
+        assert!((update.approach / increment.approach - 1.0).abs() < 1e-6, "{update:?} {increment:?}");
+        assert!(difference(slid, stays) < 1e-5);
+    }
+    let approaches: Vec<f64> = slid.state.updates.iter().map(|update| update.approach).collect();
+    assert!(approaches.windows(2).all(|pair| pair[1] > pair[0]) && approaches[6] > 2.0 * approaches[0]);
+}
+
+/// The worn volume is that of Archard, and slow sliding is that of an elastic body with the relaxed modulus.
+#[test]
+fn rubber_wears_in_place_by_its_pressures_and_slowly_as_an_elastic_body() {
+    const WEAR: f64 = 1e-9;
+    let (fast, ..) = rubber_ball(10e-3, 8, WEAR, true);
+    for update in &fast.state.updates[1..] {
+        let expected = WEAR * 2e-3 * update.distance;
+        assert!((update.lost("wear")[0] / expected - 1.0).abs() < 1e-9, "{update:?}");
+    }
+    let heights = |outcome: &SlidingOutcome| outcome.state.pair.lower.heights.clone();
+    let elastic = heights(&rubber_ball(10e-3, 8, WEAR, false).0);
+    let away = |speed: f64| difference(&heights(&rubber_ball(speed, 8, WEAR, true).0), &elastic);
+    let [fast, slow] = [away(10e-3), away(1e-6)];
+    assert!(slow < 0.02 && fast > 4.0 * slow, "{fast} {slow}");
+}
+
+#[test]
+fn rubber_below_a_contact_that_moves_over_it_is_refused() {
+    let grid = Grid::new([4, 4], [1e-6; 2]).unwrap();
+    let flat = || Topography::new(grid, grid.zeros()).unwrap();
+    let rubber = Material::elastic(RUBBER, 0.5).unwrap();
+    let relaxation = Relaxation::new(RUBBER, [RelaxationTerm { modulus: RUBBER, time: 1.0 }]).unwrap();
+    let refused = |bodies, slide: Slide| {
+        let pair = Pair::new(flat(), flat(), [&rubber, &rubber]).unwrap();
+        let pair = pair.with_relaxation([&rubber, &rubber], bodies).unwrap();
+        match SlidingContact::new(pair, Boundary::FREE, slide, Params::default()).map(|_| ()) {
+            Err(Error::Unsupported(words)) => words,
+            other => panic!("{other:?}"),
+        }
+    };
+    let slide = || Slide::graded(1e-3, 2, Control::Load(1e-3));
+    assert!(
+        refused([Some(relaxation.clone()), None], slide().with_speed(1.0)).contains("must be the upper one")
+    );
+    assert!(refused([None, Some(relaxation)], slide()).contains("need the speed"));
 }

@@ -278,7 +278,10 @@ fn what_viscoelastic_bodies_do_not_support_is_refused_before_anything_is_solved(
             "speed of their motion",
             Simulation::new(pair(), Boundary::FREE, motion, Params::default()).map(|_| ()),
         ),
-        ("nothing else", SlidingContact::new(pair(), Boundary::FREE, slide, Params::default()).map(|_| ())),
+        (
+            "must be the upper one",
+            SlidingContact::new(pair(), Boundary::FREE, slide, Params::default()).map(|_| ()),
+        ),
     ] {
         let error = found.unwrap_err().to_string();
         assert!(error.contains("viscoelastic") && error.contains(what), "{what}: {error}");

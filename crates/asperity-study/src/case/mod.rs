@@ -164,7 +164,6 @@ impl Case {
             has_friction: self.friction.is_some(),
             shear_changes_pressures: self.shear_displaces_normally()
                 || (self.motion.is_none() && self.grows_junctions()),
-            slides_in_place: self.sliding.is_some(),
             flows: self.plasticity.is_some(),
             on_device: self.contact.device != Device::Cpu,
         }

@@ -90,6 +90,35 @@ fn a_case_slides_and_goes_on_after_an_interruption_with_the_same_bits() {
     assert_eq!(memory.updates, updates);
 }
 
+/// Bodies that attract each other, and rubber that creeps, go on from what they remember of their last contact.
+#[test]
+fn bodies_that_remember_their_contact_slide_on_with_the_same_bits() {
+    let sticky = format!("{CASE}[adhesion]\nwork = \"1 J/m2\"\nrange = \"40 nm\"\n");
+    let rubber = r#"
+lower = { young = "inf", poisson = 0.3, topography = { form = "flat", shape = [24, 24], pitch = "10 um" }, wear = { coefficient = 1e-13 } }
+upper = { young = "1 MPa", poisson = 0.5, viscoelastic = { moduli = ["9 MPa"], times = ["100 ms"] }, topography = { form = "sphere", radius = "2 mm" } }
+contact = { load = "2 mN" }
+friction = { coefficient = 0.5, coupling = "none" }
+sliding = { distance = "10 mm", speed = "10 mm/s", updates = 8 }
+"#;
+    for text in [&sticky, rubber] {
+        let folder = tempfile::tempdir().unwrap();
+        let case = Case::parse(text, Path::new("case.toml"), folder.path()).unwrap();
+        let run = |name: &str, existing, watch: &dyn Watch| {
+            asperity_study::run(&case, SurfaceInput::default(), &folder.path().join(name), existing, watch)
+        };
+        let (summary, _) = run("whole", Existing::Keep, &()).unwrap();
+        assert!(matches!(run("cut", Existing::Keep, &Stop(4.into())).err(), Some(Error::Interrupted)));
+        assert_eq!(run("cut", Existing::Resume, &()).unwrap().0.outcome, summary.outcome);
+        for file in ["updates.csv", "fields.h5"] {
+            let read = |name: &str| std::fs::read(folder.path().join(name).join(file)).unwrap();
+            assert!(read("whole") == read("cut"), "{file}");
+        }
+        let update = summary.sliding.unwrap();
+        assert!(update.lost("wear")[0] > 0.0 && update.interface.is_some() == text.contains("adhesion"));
+    }
+}
+
 #[test]
 fn a_scar_that_reaches_the_rim_of_the_grid_is_told() {
     let case = |load: &str, k: f64, upper: &str, boundary: &str, course: &str| {

@@ -106,8 +106,6 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
             "asperity-study/src/case/rules/loading.rs",
             // Tables that viscoelastic bodies do not support.
             "asperity-study/src/case/rules/viscoelastic.rs",
-            // Bodies that pit in stages.
-            "asperity-study/src/case/rules/bodies.rs",
             // A case that shows it.
             "asperity-cli/src/example/kits.rs",
             // Its numbers in Python, its error, and the types that are made from its table.
@@ -132,6 +130,7 @@ const CAPABILITIES: [(&str, &[&str], &[&str]); 6] = [
             "asperity-contact/src/motion/state.rs",
             "asperity-contact/src/motion/steady.rs",
             "asperity-contact/src/motion/kinematics.rs",
+            "asperity-contact/src/motion/sliding.rs",
             "asperity-contact/src/motion/stage.rs",
             "asperity-contact/src/motion/sweep.rs",
             "asperity-contact/src/motion/pass.rs",

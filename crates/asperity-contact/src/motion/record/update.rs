@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::laws::LawsInUpdate;
 use super::lost_volumes::{self, LostVolume};
+use crate::solver::InterfaceRecord;
 use crate::units::{CubicMetre, Joule, Kelvin, Metre, Newton, Pascal, Second, SquareMetre, Watt};
 use asperity_base::record::columns;
 use asperity_base::record::number_or_none;
@@ -56,6 +57,9 @@ columns! {
         pub convolutions: f64,
         /// Scale-free complementarity residual η.
         pub residual: f64,
+        /// Tension across the gap; none between hard walls.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub interface: Option<InterfaceRecord>,
     }
 }
 

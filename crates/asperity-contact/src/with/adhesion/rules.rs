@@ -52,15 +52,6 @@ pub(super) const RULES: &[Rule<Attraction>] = &[
     },
     Rule {
         this: "[adhesion]",
-        with: "[sliding]",
-        message: "[adhesion] does not apply to sliding in place",
-        hint: "leave [adhesion] or [sliding] out",
-        at: "adhesion",
-        example: &[STICKS, "{law example}", r#"sliding = { distance = "1 m" }"#],
-        broken: |_, surroundings| surroundings.slides_in_place,
-    },
-    Rule {
-        this: "[adhesion]",
         with: "[plasticity]",
         message: "[adhesion] does not apply to bodies that deform plastically below the surface",
         hint: "give the bodies a `hardness` instead",

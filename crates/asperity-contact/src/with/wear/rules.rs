@@ -7,17 +7,19 @@ pub(super) const WEARS: &str = r#"lower.wear = { coefficient = "1e-7 mm3/(N m)" 
 
 pub(super) const RULES: &[LawRule<WearCoefficient>] = &[
     LawRule {
-        this: "wear without [motion]",
+        this: "wear in stages",
         with: "[lower.viscoelastic], [upper.viscoelastic]",
-        message: "viscoelastic bodies do not support '{key}' without [motion]",
-        hint: "leave the wear out, or let the bodies pass over each other in a [motion]",
+        message: "viscoelastic bodies in time do not support '{key}'",
+        hint: "leave the wear out, or let the bodies pass over each other in a [motion], or slide in place in [sliding]",
         at: "lower.wear",
         example: &[
             r#"lower.viscoelastic = { moduli = ["1 GPa"], times = ["1 s"] }"#,
             WEARS,
             r#"history = [{ load = "1 N", duration = "1 s" }]"#,
         ],
-        broken: |_, case| case.relaxes && !matches!(case.slip, Slip::InPasses | Slip::Rolling),
+        broken: |_, case| {
+            case.relaxes && !matches!(case.slip, Slip::InPasses | Slip::Rolling | Slip::InPlace)
+        },
     },
     LawRule {
         this: "wear",

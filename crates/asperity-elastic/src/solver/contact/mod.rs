@@ -106,7 +106,7 @@ impl<'a> ContactProblem<'a> {
 
 impl<'a> Guess<'a> {
     /// Returns the pressure; `None` of a contact in which nothing is pressed.
-    fn pressure(self) -> Option<&'a Field> {
+    pub fn pressure(self) -> Option<&'a Field> {
         match self {
             Self::Pressure(pressure) => Some(pressure),
             Self::Contact(contact) => {

@@ -3,7 +3,7 @@
 use super::super::{Case, StageSpec};
 use super::Rule;
 use super::device::ON_PROCESSOR;
-use super::examples::{AT_ANY_SPEED, JUMPS, MOVES, ON_DEVICE, RUBS, STEADY};
+use super::examples::{AT_ANY_SPEED, CHANGES, JUMPS, MOVES, ON_DEVICE, RUBS, SLIDES, STEADY};
 
 /// The lower body relaxes.
 const RELAXES: &str = r#"lower.viscoelastic = { moduli = ["1 GPa"], times = ["1 s"] }"#;
@@ -17,15 +17,15 @@ const OTHERS: [&str; 8] =
 pub(super) const RULES: &[Rule] = &[
     Rule {
         this: "[lower.viscoelastic], [upper.viscoelastic]",
-        with: "no [steady], no [motion], and no `duration`, `dwell` or `period` in a [[history]]",
-        message: "a viscoelastic body needs [steady], [motion] or a time: a static contact has the relaxed modulus `young`",
+        with: "no [steady], no [motion], no [sliding], and no `duration`, `dwell` or `period` in a [[history]]",
+        message: "a viscoelastic body needs [steady], [motion], [sliding] or a time: a static contact has the relaxed modulus `young`",
         hint: "give the `speed` or the `speeds` in [steady], passes in [motion], or a [[history]] with a `dwell`",
         at: "lower.viscoelastic",
         example: &[RELAXES],
         broken: |tables| {
             let timed = tables.of_stage(&TIMES).or(tables.of_stage(&["period"]));
-            let timeless = tables.case.steady.is_none() && tables.motion().is_none() && timed.is_none();
-            tables.viscoelastic().filter(|_| timeless)
+            let moves = tables.case.steady.is_some() || tables.slides();
+            tables.viscoelastic().filter(|_| !moves && timed.is_none())
         },
     },
     Rule {
@@ -202,6 +202,51 @@ pub(super) const RULES: &[Rule] = &[
         broken: |tables| {
             let given = tables.first("motion", &["speed", "speed_lower", "speed_upper"]);
             tables.viscoelastic().and(tables.at("motion")).filter(|_| given.is_none())
+        },
+    },
+    Rule {
+        this: "[lower.viscoelastic]",
+        with: "[sliding]",
+        message: "the contact moves over the lower body of [sliding]: a viscoelastic body must be the upper one",
+        hint: "exchange the bodies, or let them pass over each other in a [motion]",
+        at: "lower.viscoelastic",
+        example: &[RELAXES, CHANGES, SLIDES],
+        broken: |tables| {
+            tables.at("sliding")?;
+            tables.viscoelastic().filter(|_| tables.case.lower.properties.viscoelastic.is_some())
+        },
+    },
+    Rule {
+        this: "[sliding] of viscoelastic bodies",
+        with: "no `speed`",
+        message: "viscoelastic bodies that slide in place need a speed",
+        hint: "for example `speed = \"10 mm/s\"` in [sliding]",
+        at: "sliding",
+        example: &[r#"upper.viscoelastic = { moduli = ["1 GPa"], times = ["1 s"] }"#, CHANGES, SLIDES],
+        broken: |tables| {
+            tables.viscoelastic()?;
+            tables
+                .at("sliding")
+                .filter(|_| tables.case.sliding.is_some_and(|sliding| sliding.speed.is_none()))
+        },
+    },
+    Rule {
+        this: "[sliding] of viscoelastic bodies",
+        with: "[adhesion], [plasticity], a friction that displaces the bodies normally",
+        message: "viscoelastic bodies that slide in place do not support '{key}'",
+        hint: "a friction may have `coupling = \"none\"`",
+        at: "adhesion",
+        example: &[
+            r#"upper.viscoelastic = { moduli = ["1 GPa"], times = ["1 s"] }"#,
+            CHANGES,
+            r#"sliding = { distance = "1 m", speed = "1 m/s" }"#,
+            r#"adhesion = { work = "0.05 J/m2", range = "1 nm" }"#,
+        ],
+        broken: |tables| {
+            tables.viscoelastic().and(tables.at("sliding"))?;
+            let pushes = tables.case.shear_displaces_normally();
+            let first = ["adhesion", "plasticity"].iter().find_map(|table| tables.at(table));
+            first.or_else(|| tables.at("friction").filter(|_| pushes))
         },
     },
     Rule {
