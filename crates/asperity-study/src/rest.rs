@@ -282,8 +282,11 @@ impl StaticProblem<'_> {
         ]
         .concat();
         let LoadedContact { record, increments, solution, plastic, slip, changed, .. } = contact;
+        let temperature =
+            changed.as_ref().and_then(|changed| Some(changed.heat.as_ref()?.temperature_field()));
         let pair = changed.map_or(self.pair, |ChangedBodies { pair, .. }| pair);
-        let fields = fields(pair, solution, plastic, slip);
+        let mut fields = fields(pair, solution, plastic, slip);
+        fields.fields.extend(temperature.map(|values| NamedField::new("temperature", "K", values)));
         StaticResult { increments, warnings, ..StaticResult::of(record, fields) }
     }
 

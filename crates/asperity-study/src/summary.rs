@@ -184,6 +184,7 @@ mod tests {
             interface: None,
             plastic: None,
             fretting: None,
+            heat: None,
         };
         let summary = Summary {
             version: "0.1.0".into(),

@@ -212,6 +212,11 @@ fn static_table(case: &Case, record: &StaticRecord) -> String {
             }));
         });
     }
+    if let Some(heat) = &record.heat {
+        let celsius = format_number(heat.max_flash_temperature - CELSIUS);
+        let power = format(heat.friction_power, Dimension::Power);
+        rows.push(("temperature", format!("up to {celsius} °C, by a mean of {power} of friction")));
+    }
     if let Some(plastic) = &record.plastic {
         let residual = plastic.residual.as_ref();
         let tension =

@@ -262,6 +262,7 @@ impl StaticRecord {
             interface: None,
             plastic: None,
             fretting: None,
+            heat: None,
         }
     }
 }

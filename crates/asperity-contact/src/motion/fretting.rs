@@ -7,17 +7,19 @@
 
 use crate::error::Result;
 use crate::grid::{CellValues, Field};
+use crate::motion::cycle_heat::{CycleHeat, CyclicTemperature};
 use crate::motion::extrapolation::{self, Acceleration, Bounds, GridCompliance, LastExtrapolation};
 use crate::motion::kinematics::Strategy;
 use crate::motion::law::{self, CyclicSlip, Law, Sums};
 use crate::motion::memory::{self, LoadCycle, Memory};
 use crate::motion::pair::Pair;
-use crate::motion::record::{FrettingRecord, LawsInCycles};
+use crate::motion::record::{FrettingRecord, HeatRecord, LawsInCycles};
 use crate::motion::rim::Interior;
 use crate::motion::worn_away;
 use crate::operator::{Boundary, Compliant, Operator, Operators};
 use crate::solver::{Before, Control, Equilibrium, FrictionalSolution, NormalProblem, Params, Solution};
 use crate::subsurface::Tractions;
+use crate::temperature::Thermal;
 use crate::units::{Joule, Kelvin, Metre, Second};
 
 /// Laws that change the bodies of a loading, and memories of its cycles.
@@ -26,6 +28,7 @@ pub(super) struct Changes {
     memories: Vec<Box<dyn Memory>>,
     acceleration: Acceleration,
     bulk: [Kelvin; 2],
+    heat: Option<CyclicTemperature>,
     interiors: [Interior; 2],
     operator: Box<dyn Operator>,
     compliance: GridCompliance,
@@ -51,6 +54,8 @@ pub struct ChangedBodies {
     pub cycles: usize,
     /// Computed cycles of the present stage.
     pub computed: usize,
+    /// Heat of friction; `None` if its temperature is not computed.
+    pub heat: Option<CycleHeat>,
     /// Tractions on the lower body in the contacts of the present cycle, from that at its beginning; empty without memories.
     pub contacts: Vec<Tractions>,
 }
@@ -72,13 +77,16 @@ impl Changes {
         mut laws: Vec<Box<dyn Law>>,
         memories: Vec<Box<dyn Memory>>,
         acceleration: Acceleration,
-        bulk: [Kelvin; 2],
+        (bulk, thermal): ([Kelvin; 2], Option<[Thermal; 2]>),
         (operators, boundary, params): (&Operators, Boundary, Params),
     ) -> Result<Self> {
         laws.iter_mut().for_each(|law| law.prepare(pair));
         memories.iter().for_each(|memory| memory.prepare(pair));
-        let shape = pair.lower_grid().shape;
+        let (grid, shape) = (pair.lower_grid(), pair.lower_grid().shape);
+        let heat =
+            thermal.map(|thermal| CyclicTemperature::new(grid, thermal, boundary, bulk)).transpose()?;
         Ok(Self {
+            heat,
             laws,
             memories,
             acceleration: acceleration.checked()?,
@@ -93,7 +101,9 @@ impl Changes {
     /// The bodies before the first increment.
     pub(super) fn begin(&self, pair: Pair) -> ChangedBodies {
         let sums = law::nothing(&self.laws, &pair);
+        let heat = self.heat.as_ref().map(|_| CycleHeat::nothing(&pair.lower_grid()));
         ChangedBodies {
+            heat,
             pair,
             sums,
             last: None,
@@ -125,7 +135,14 @@ impl Changes {
         time: Second,
     ) {
         let slip = CyclicSlip::of(contact, before);
-        law::add_slip(&self.laws, &bodies.pair, &slip, time, self.bulk, &mut bodies.sums);
+        let temperature = match (&self.heat, &bodies.heat) {
+            (Some(steady), Some(heat)) => steady.of_cells(heat, &slip.cells),
+            _ => self.bulk.map(|bulk| vec![bulk; slip.cells.len()]),
+        };
+        law::add_slip(&self.laws, &bodies.pair, &slip, time, &temperature, &mut bodies.sums);
+        if let Some(heat) = &mut bodies.heat {
+            heat.add(&slip);
+        }
     }
 
     /// Adds a contact to those of the present cycle, which begins with the contact `before` if it is on the same bodies.
@@ -148,6 +165,19 @@ impl Changes {
         bodies.contacts.push(tractions(contact));
     }
 
+    /// Computes the temperature by the heat of the cycle of this `period` that ends with a `contact`, if it is requested.
+    pub(super) fn warm(
+        &mut self,
+        bodies: &mut ChangedBodies,
+        contact: &Solution,
+        period: Option<Second>,
+    ) -> Result<()> {
+        match (&mut self.heat, &mut bodies.heat) {
+            (Some(steady), Some(heat)) => steady.end(heat, contact, period),
+            _ => Ok(()),
+        }
+    }
+
     /// Lets the memories look at the cycle that has ended.
     pub(super) fn look(&self, bodies: &mut ChangedBodies, stop: &(dyn Fn() -> bool + Sync)) -> Result<()> {
         bodies.computed += 1;
@@ -164,6 +194,10 @@ impl Changes {
     /// Lets the laws act once for their sums, which begin anew.
     pub(super) fn act_once(&self, bodies: &mut ChangedBodies) -> Result<()> {
         let sums = std::mem::replace(&mut bodies.sums, law::nothing(&self.laws, &bodies.pair));
+        if let Some(heat) = &mut bodies.heat {
+            // The heat of a stage takes no known time.
+            heat.taken.fill(0.0);
+        }
         worn_away::check_losses(&bodies.pair, &law::tried(&self.laws, &bodies.pair, &sums, 1))?;
         self.act(bodies, &sums, 1, 0);
         Ok(())
@@ -325,6 +359,13 @@ impl Changes {
         let taken = law::advance(&self.laws, pair, sums, times as f64, &self.interiors, &mut lost);
         let worn = law::uncovered(&self.laws, &taken);
         memory::advance(&self.memories, pair, cycles as f64, worn, &self.interiors);
+    }
+
+    /// Describes the heat of the last computed cycle, if its temperature is requested.
+    pub(super) fn heat_record(&self, bodies: &ChangedBodies) -> Option<HeatRecord> {
+        let heat = bodies.heat.as_ref()?;
+        let warmest = heat.warmest().unwrap_or(self.bulk[0].max(self.bulk[1]));
+        Some(HeatRecord { friction_power: heat.power, max_flash_temperature: warmest })
     }
 
     /// Describes the bodies after an increment.

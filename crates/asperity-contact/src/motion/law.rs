@@ -278,7 +278,7 @@ pub(super) fn sums(
 
 /// The slip of an increment, on the cells in contact.
 pub(super) struct CyclicSlip {
-    cells: Vec<u32>,
+    pub(super) cells: Vec<u32>,
     /// Mean of the pressures before and after the increment.
     pressure: Vec<Pascal>,
     /// Mean of the largest shear before and after it.
@@ -317,18 +317,25 @@ impl CyclicSlip {
     }
 }
 
-/// Adds the slip of an increment at rest to the sums of `laws`.
+impl CyclicSlip {
+    /// Energy that friction takes on each cell, J/m².
+    pub(super) fn energies(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let cells = self.cells.iter().zip(&self.shear).zip(&self.distance);
+        cells.map(|((cell, shear), distance)| (*cell as usize, shear * distance))
+    }
+}
+
+/// Adds the slip of an increment at rest, on cells of this `temperature`, to the sums of `laws`.
 pub(super) fn add_slip(
     laws: &[Box<dyn Law>],
     pair: &Pair,
     slip: &CyclicSlip,
     time: Second,
-    bulk: [Kelvin; 2],
+    temperature: &[Vec<Kelvin>; 2],
     sums: &mut [Sums],
 ) {
     let position = pair.at_rest();
     let nothing = vec![0.0; slip.cells.len()];
-    let temperature = bulk.map(|bulk| vec![bulk; slip.cells.len()]);
     let contact_cells = ContactCells {
         position: &position,
         cells: [&slip.cells, &slip.cells],

@@ -24,6 +24,7 @@ use crate::solver::{
     self, ContactProblem, ContactSolver, Control, Equilibrium, Friction, FrictionalSolution, InterfaceRecord,
     Loading, Params,
 };
+use crate::temperature::Thermal;
 use crate::units::Kelvin;
 
 /// Loads a pair at full overlap, stage after stage, from before contact or from a state `under_way`. A resumed loading
@@ -71,6 +72,7 @@ pub struct StagedLoading {
     memories: Vec<Box<dyn Memory>>,
     acceleration: Acceleration,
     bulk: [Kelvin; 2],
+    thermal: Option<[Thermal; 2]>,
 }
 
 impl StagedLoading {
@@ -95,7 +97,8 @@ impl StagedLoading {
         let solver = SlipRegime::from(friction).solver(&pair, &operators, shape, params.device)?;
         let (acceleration, bulk) = (Acceleration::NONE, [f64::NAN; 2]);
         let (laws, memories) = (Vec::new(), Vec::new());
-        Ok(Self { pair, gap, solver, params, boundary, stages, laws, memories, acceleration, bulk })
+        let thermal = None;
+        Ok(Self { pair, gap, solver, params, boundary, stages, laws, memories, acceleration, bulk, thermal })
     }
 
     /// Adds a `law` by which slip changes the bodies. It needs friction.
@@ -128,6 +131,13 @@ impl StagedLoading {
     #[must_use]
     pub fn with_bulk(self, bulk: [Kelvin; 2]) -> Self {
         Self { bulk, ..self }
+    }
+
+    /// Adds frictional heating of bodies with these thermal constants, lower one first, to their cycles. Laws then see the steady temperature
+    /// by the mean heat of the last computed cycle; before there is one, that of the bodies. It needs their temperatures and the periods.
+    #[must_use]
+    pub fn with_heat(self, thermal: [Thermal; 2]) -> Self {
+        Self { thermal: Some(thermal), ..self }
     }
 
     /// The bodies before the loading.
@@ -175,7 +185,8 @@ impl StagedLoading {
         }
         let (operators, _) = facing(&self.pair, self.boundary)?;
         let with = (&operators, self.boundary, self.params);
-        Changes::new(&mut self.pair, laws, memories, self.acceleration, self.bulk, with).map(Some)
+        let heat = (self.bulk, self.thermal);
+        Changes::new(&mut self.pair, laws, memories, self.acceleration, heat, with).map(Some)
     }
 }
 
@@ -335,6 +346,7 @@ impl Increments {
                 Some(cycles) => {
                     changes.see(changed, &contact, last.as_ref().filter(|_| next.step > 0));
                     if next.ends_cycle(stages) {
+                        changes.warm(changed, contact.normal(), cycles.period)?;
                         changes.look(changed, &|| watch.stop())?;
                         let left = cycles.count - next.cycles;
                         let gap = flattening.open(&gap);
@@ -355,6 +367,11 @@ impl Increments {
         let following = next.after(stages, represented, removes);
         let fretting =
             self.changes.as_ref().zip(changed.as_ref()).map(|(changes, changed)| changes.record(changed));
+        let heat = self
+            .changes
+            .as_ref()
+            .zip(changed.as_ref())
+            .and_then(|(changes, changed)| changes.heat_record(changed));
         let creep = memory.as_ref().map(|_| {
             let before = increments.last().and_then(|last| last.creep).unwrap_or_default();
             CreepRecord { time: before.time + duration }
@@ -363,6 +380,7 @@ impl Increments {
             increment: increments.len() + 1,
             creep,
             stage: next.stage + 1,
+            heat,
             fretting,
             plastic_volume: area * flattening.total(plastic).sum(),
             dissipation,
@@ -424,7 +442,7 @@ impl StagedLoading {
         let dissipation_error =
             if computed > 0.0 { dissipation_error * (dissipation / computed) } else { dissipation_error };
         let shear = shear_record(&solution, dissipation);
-        let fretting = increments.last().and_then(|last| last.fretting);
+        let (fretting, heat) = increments.last().map_or((None, None), |last| (last.fretting, last.heat));
         let of_interface = || increments.iter().filter_map(|increment| increment.interface.as_ref());
         let interface = of_interface().next_back().map(|last| last.after(of_interface()));
         let normal = solution.normal();
@@ -437,6 +455,7 @@ impl StagedLoading {
             shear,
             interface,
             fretting,
+            heat,
             ..static_record(&solution, &plastic)
         };
         let plastic_result = None;

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use crate::error::Result;
 use crate::grid::{CellValues, Field};
 use crate::motion::creeping;
+use crate::motion::cycle_heat::CycleHeat;
 use crate::motion::extrapolation::LastExtrapolation;
 use crate::motion::fretting::{ChangedBodies, LastCycle};
 use crate::motion::pair::Pair;
@@ -264,8 +265,13 @@ impl LoadingState {
 impl ChangedBodies {
     /// Keeps the bodies and the present cycle.
     fn store(&self, to: &mut dyn StateWriter) {
-        let Self { pair, sums, last, work, cycle_work, error, cycles, computed, contacts } = self;
+        let Self { pair, sums, last, work, cycle_work, error, cycles, computed, contacts, heat } = self;
         to.bodies(pair);
+        if let Some(CycleHeat { taken, temperature, power }) = heat {
+            to.field("cycle_heat", "J/m²", taken);
+            to.field("cycle_temperature", "K", temperature);
+            to.number("cycle_power", *power);
+        }
         store_sums(to, "cycle", sums);
         if let Some(LastCycle { extrapolation, pressure, work }) = last {
             to.count("jump", extrapolation.passes);
@@ -299,6 +305,10 @@ impl ChangedBodies {
                 work: from.number("last_work")?,
             })
         })?;
+        let heat = restore_if(from, "cycle_heat", || {
+            let [taken, temperature] = [from.field("cycle_heat")?, from.field("cycle_temperature")?];
+            Ok(CycleHeat { taken, temperature, power: from.number("cycle_power")? })
+        })?;
         let contacts = (1..).map(|index| format!("contact_{index}"));
         let tractions = |name: String| {
             let shear =
@@ -307,6 +317,7 @@ impl ChangedBodies {
         };
         Ok(Self {
             pair,
+            heat,
             sums: restore_sums(from, "cycle")?,
             last,
             work: from.number("friction_work")?,

@@ -5,6 +5,7 @@ mod adhesive_friction;
 mod closed_forms;
 mod conductance;
 mod convergence;
+mod cycle_heat;
 mod device;
 mod error_places;
 mod fatigue;

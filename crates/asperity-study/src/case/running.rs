@@ -53,6 +53,9 @@ impl Case {
         if let Some(temperature) = self.temperature {
             loading = loading.with_bulk(temperature.bulk);
         }
+        if let Some(thermal) = self.heated() {
+            loading = loading.with_heat(thermal);
+        }
         Ok(loading.with_acceleration(self.acceleration.unwrap_or(Acceleration::NONE)))
     }
 

@@ -105,6 +105,21 @@ fn bodies_that_attract_each_other_fret_and_go_on_after_interruptions_with_the_sa
     goes_on_to_the_same_bits(&attracting.replace("cycles = 400", "cycles = 30"));
 }
 
+/// Films grow faster where friction heats them.
+#[test]
+fn bodies_that_warm_up_as_they_fret_go_on_after_interruptions_with_the_same_bits() {
+    let heat =
+        "conductivity = \"5 W/(m K)\", heat_capacity = \"460 J/(kg K)\", density = \"7850 kg/m3\", young";
+    let warm = ROUGH.replace("young", heat).replace("cycles = 400", "cycles = 40").replace("50 ms", "10 ns");
+    goes_on_to_the_same_bits(&warm);
+    let last = |text: &str| solved(text).increments.last().cloned().unwrap();
+    let (warm, cold) = (last(&warm), last(&warm.replace("bulk", "every = 0, bulk")));
+    let heat = warm.heat.unwrap();
+    assert!(heat.max_flash_temperature > 375.0 && cold.heat.is_none(), "{heat:?}");
+    let [warm, cold] = [warm, cold].map(|each| each.fretting.unwrap().laws.max_film_lower);
+    assert!(warm > 1.001 * cold, "{warm:e} {cold:e}");
+}
+
 #[test]
 fn rough_bodies_fret_and_go_on_after_interruptions_with_the_same_bits_on_any_number_of_threads() {
     goes_on_to_the_same_bits(ROUGH);

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::creep::CreepRecord;
+use super::heat::HeatRecord;
 use super::laws::FrettingRecord;
 use super::plastic::PlasticStepRecord;
 use crate::solver::InterfaceRecord;
@@ -60,6 +61,9 @@ columns! {
         /// Cycles, and changes by laws; none of bodies that neither change nor count their cycles.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub fretting: Option<FrettingRecord>,
+        /// Heat of friction in the last computed cycle; none without a flash temperature.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub heat: Option<HeatRecord>,
         /// Time of viscoelastic bodies; none of others.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub creep: Option<CreepRecord>,

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::heat::HeatRecord;
 use super::laws::FrettingRecord;
 use super::plastic::PlasticRecord;
 use crate::solver::InterfaceRecord;
@@ -48,6 +49,9 @@ columns! {
         /// Cycles of a loading, and changes by slip; none of bodies that neither change nor count their cycles.
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         pub fretting: Option<FrettingRecord>,
+        /// Heat of friction in the last computed cycle; none without a flash temperature.
+        #[serde(flatten, skip_serializing_if = "Option::is_none")]
+        pub heat: Option<HeatRecord>,
     }
 }
 

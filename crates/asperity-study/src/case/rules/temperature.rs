@@ -59,21 +59,31 @@ pub(super) const RULES: &[Rule] = &[
     },
     Rule {
         this: "a flash temperature",
-        with: "a loading in stages",
-        message: "the slip of a loading in stages has no flash temperature",
-        hint: "set `every = 0`, or leave the thermal constants out",
+        with: "stages without `cycles` and their `period`",
+        message: "a flash temperature of stages is that of their cycles, whose time must be known",
+        hint: "give a stage of the [[history]] `cycles` and a `period`, set `every = 0`, or leave the thermal constants out",
         at: "temperature.every",
-        example: &[CHANGES, RUBS, r#"temperature = { bulk = "100 °C", every = 1 }"#],
-        broken: |tables| tables.flash().filter(|_| !tables.slides()),
+        example: &[
+            CHANGES,
+            RUBS,
+            r#"history = [{ force = "0.1 N", cycles = 10 }]"#,
+            r#"temperature = { bulk = "100 °C", every = 1 }"#,
+        ],
+        broken: |tables| {
+            let stages = &tables.case.history;
+            let cycles = || stages.iter().filter(|stage| stage.cycles.is_some());
+            let timed = cycles().next().is_some() && cycles().all(|stage| stage.period.is_some());
+            tables.flash().filter(|_| !tables.slides() && !timed)
+        },
     },
     Rule {
         this: "`every` above 1",
-        with: "[sliding]",
-        message: "'every' is {value}, expected 1 (a flash temperature at each update) or 0 (none)",
+        with: "[sliding], [[history]]",
+        message: "'every' is {value}, expected 1 (a flash temperature at each update or cycle) or 0 (none)",
         hint: "",
         at: "temperature.every",
         example: &[CHANGES, SLIDES, r#"temperature = { bulk = "100 °C", every = 3 }"#],
-        broken: |tables| tables.seldom().filter(|_| tables.case.sliding.is_some()),
+        broken: |tables| tables.seldom().filter(|_| tables.motion().is_none()),
     },
     Rule {
         this: "`every` above 1",
@@ -110,9 +120,9 @@ pub(super) const RULES: &[Rule] = &[
         broken: |tables| tables.flash().filter(|_| tables.case.friction.is_none()),
     },
     Rule {
-        this: "a flash temperature in [sliding]",
+        this: "a flash temperature in [sliding], [[history]]",
         with: "a boundary periodic along one axis alone",
-        message: "a flash temperature in [sliding] needs a boundary that is free or periodic along both axes",
+        message: "a flash temperature at rest needs a boundary that is free or periodic along both axes",
         hint: "use \"free\" or \"periodic\", or set `every = 0`",
         at: "contact.boundary",
         example: &[
@@ -124,7 +134,7 @@ pub(super) const RULES: &[Rule] = &[
             WARM,
             LINE,
         ],
-        broken: |tables| tables.flash().filter(|_| tables.case.sliding.is_some()).and(tables.line()),
+        broken: |tables| tables.flash().filter(|_| tables.motion().is_none()).and(tables.line()),
     },
     Rule {
         this: "a flash temperature in [sliding]",
