@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::case::Case;
 use asperity_base::error::Result;
-use asperity_contact::motion::{Pair, PlasticPath, Stage};
+use asperity_contact::motion::{Pair, Stage};
 use asperity_contact::plasticity::{PlasticBody, Volume};
 use asperity_contact::with::plasticity::PlasticRegion;
 
@@ -20,10 +20,8 @@ pub(super) fn bodies(case: &Case, spec: &PlasticRegion, pair: &Pair) -> Result<[
     Ok([of_body(0)?, of_body(1)?])
 }
 
-/// Creates the loading path of elasto-plastic bodies through these `stages`. Unloading takes as many steps as the first
-/// stage.
-pub(super) fn path(spec: &PlasticRegion, stages: Vec<Stage>) -> PlasticPath {
+/// Returns the number of unloading steps after these `stages`, as many as those of the first one; `None` if the load stays.
+pub(super) fn unloading(region: &PlasticRegion, stages: &[Stage]) -> Option<usize> {
     let steps = stages.first().map_or(1, |stage| stage.increments);
-    let unloading = spec.unload.unwrap_or(true).then_some(steps);
-    PlasticPath::new(stages).with_unloading(unloading).with_plastic(spec.params())
+    region.unload.unwrap_or(true).then_some(steps)
 }

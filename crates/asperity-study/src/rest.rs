@@ -20,12 +20,10 @@ use asperity_base::grid::{CellValues, Field, check_finite};
 use asperity_contact::motion::{
     Body, ChangedBodies, IncrementRecord, LoadedContact, Output, Pair, PlasticResult, PlasticVolume, Point,
     Slide, SlidingContact, SlidingOutcome, SlidingState, SlipRegime, Stage, StagedLoading, State,
-    StaticRecord, UpdateRecord, Watch, YieldingBodies, press, press_elasto_plastic, sweep,
-    sweep_elasto_plastic,
+    StaticRecord, UpdateRecord, Watch, YieldingBodies, press, sweep, sweep_elasto_plastic,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Equilibrium, Friction, Params, Solution};
-use asperity_contact::with::plasticity::PlasticRegion;
 use asperity_contact::with::{self, InterfaceNumbers, Observations};
 
 /// Result of a static contact.
@@ -133,14 +131,11 @@ pub(super) fn solve(
     let control = case.contact.prescribed().control(apparent_area);
     let extent = pair.lower_grid().extent();
     let contact = StaticProblem { case, pair, estimate, law, control, params: params(case), writer, watch };
-    let rest = match (case.course(apparent_area), law, &case.plasticity) {
-        (Course::InPlace(slide), ..) => return contact.slide(slide),
-        (Course::Sweep(points), ..) => contact.sweep(&points),
-        (Course::Rolling(rolling), Some(friction), _) => {
-            contact.press(SlipRegime::Rolling(*friction, rolling))
-        }
-        (Course::Stages(stages), _, Some(spec)) => contact.press_elasto_plastic(spec, stages),
-        (Course::Stages(stages), law, _) if law.is_some() || stages.len() > 1 => {
+    let rest = match (case.course(apparent_area), law) {
+        (Course::InPlace(slide), _) => return contact.slide(slide),
+        (Course::Sweep(points), _) => contact.sweep(&points),
+        (Course::Rolling(rolling), Some(friction)) => contact.press(SlipRegime::Rolling(*friction, rolling)),
+        (Course::Stages(stages), law) if law.is_some() || stages.len() > 1 || case.plasticity.is_some() => {
             contact.load_in_stages(&stages)
         }
         _ => contact.press(SlipRegime::Frictionless),
@@ -179,7 +174,9 @@ impl StaticProblem<'_> {
         let case = self.case;
         self.begin()?;
         let under_way = |writer: &Writer| writer.results().loading_under_way(&self.pair, stages.len());
-        let left = self.writer.map(under_way).transpose()?.flatten();
+        // The stress below the surfaces of elasto-plastic bodies is not kept: their loading begins anew.
+        let resumed = self.writer.filter(|_| case.plasticity.is_none());
+        let left = resumed.map(under_way).transpose()?.flatten();
         let done = left.as_ref().map_or(&[][..], |left| &left.increments);
         let every = case.increments_kept_every();
         let mut kept = self.writer.map(|writer| writer.increments(done, every)).transpose()?;
@@ -187,7 +184,17 @@ impl StaticProblem<'_> {
         let (mut observers, mut limits) = (self.observers(done)?, self.limits(done)?);
         let (boundary, outputs) = (self.boundary(), &mut outputs(&mut observers, &mut limits, &mut kept));
         let (pair, law, stages) = (self.pair.clone(), self.law.copied(), stages.to_vec());
-        let loading = StagedLoading::new(pair, boundary, law, stages, self.params)?;
+        let loading = match &case.plasticity {
+            None => StagedLoading::new(pair, boundary, law, stages, self.params)?,
+            Some(region) => {
+                let unloading = elasto_plastic::unloading(region, &stages);
+                StagedLoading::new(pair, boundary, law, stages, self.params)?.with_plastic(
+                    elasto_plastic::bodies(case, region, &self.pair)?,
+                    region.params(),
+                    unloading,
+                )?
+            }
+        };
         let loading = case.fretting(loading, self.params)?;
         let contact = loading.run(left, self.watch, outputs)?;
         self.loaded(contact, limits.all()).seen_by(case, observers)
@@ -247,27 +254,6 @@ impl StaticProblem<'_> {
         StaticResult { updates, warnings, ..result }.seen_by(case, observers)
     }
 
-    /// Solves the stages of elasto-plastic bodies.
-    fn press_elasto_plastic(self, spec: &PlasticRegion, stages: Vec<Stage>) -> Result<StaticResult> {
-        let case = self.case;
-        let (bodies, path) =
-            (elasto_plastic::bodies(self.case, spec, &self.pair)?, elasto_plastic::path(spec, stages));
-        self.begin()?;
-        let mut kept = self.writer.map(|writer| writer.increments(&[], 0)).transpose()?;
-        let (mut observers, mut limits) = (self.observers(None)?, self.limits(None)?);
-        let outputs = &mut outputs(&mut observers, &mut limits, &mut kept);
-        let (pair, boundary) = (&self.pair, self.boundary());
-        let contact =
-            press_elasto_plastic(pair, boundary, self.law, bodies, &path, &self.params, self.watch, outputs)?;
-        let of_answer = self.review(contact.solution.normal());
-        let of_bodies = review::elasto_plastic(self.case, &self.pair, &contact);
-        let warnings = [limits.all(), of_bodies, of_answer].concat();
-        let LoadedContact { record, increments, solution, plastic, slip, plastic_result, .. } = contact;
-        let fields = fields(displaced(self.pair, plastic_result.as_ref()), solution, plastic, slip);
-        let result = StaticResult::of(record, fields);
-        StaticResult { increments, plastic_result, warnings, ..result }.seen_by(case, observers)
-    }
-
     /// Creates the result from the end of a loading, or of rolling, with the warnings of `broken` limits.
     fn loaded(self, contact: LoadedContact, broken: Vec<String>) -> StaticResult {
         let changed = contact.changed.as_ref();
@@ -276,18 +262,20 @@ impl StaticProblem<'_> {
         let warnings = [
             broken,
             review::loaded(&contact, self.boundary()),
+            review::elasto_plastic(self.case, &self.pair, &contact),
             of_increments,
             self.review(contact.solution.normal()),
             scar.into_iter().collect(),
         ]
         .concat();
-        let LoadedContact { record, increments, solution, plastic, slip, changed, .. } = contact;
+        let LoadedContact { record, increments, solution, plastic, slip, changed, plastic_result, .. } =
+            contact;
         let temperature =
             changed.as_ref().and_then(|changed| Some(changed.heat.as_ref()?.temperature_field()));
         let pair = changed.map_or(self.pair, |ChangedBodies { pair, .. }| pair);
-        let mut fields = fields(pair, solution, plastic, slip);
+        let mut fields = fields(displaced(pair, plastic_result.as_ref()), solution, plastic, slip);
         fields.fields.extend(temperature.map(|values| NamedField::new("temperature", "K", values)));
-        StaticResult { increments, warnings, ..StaticResult::of(record, fields) }
+        StaticResult { increments, warnings, plastic_result, ..StaticResult::of(record, fields) }
     }
 
     /// Creates the observers of the case, after the steps that are `done`.

@@ -132,7 +132,6 @@ pub(super) fn elasto_plastic(case: &Case, pair: &Pair, contact: &LoadedContact) 
         let hint = "the load changes by more than 15 % in an increment while the bodies yield, which follows the loading path only roughly: give more `increments`";
         warnings.push(hint.to_owned());
     }
-    warnings.extend(record.shear.as_ref().and_then(|shear| inaccurate(contact.dissipation_error, shear)));
     warnings
 }
 

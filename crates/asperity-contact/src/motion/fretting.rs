@@ -13,6 +13,7 @@ use crate::motion::kinematics::Strategy;
 use crate::motion::law::{self, CyclicSlip, Law, Sums};
 use crate::motion::memory::{self, LoadCycle, Memory};
 use crate::motion::pair::Pair;
+use crate::motion::plastic_volume::PlasticVolume;
 use crate::motion::record::{FrettingRecord, HeatRecord, LawsInCycles};
 use crate::motion::rim::Interior;
 use crate::motion::worn_away;
@@ -179,39 +180,50 @@ impl Changes {
     }
 
     /// Lets the memories look at the cycle that has ended.
-    pub(super) fn look(&self, bodies: &mut ChangedBodies, stop: &(dyn Fn() -> bool + Sync)) -> Result<()> {
+    pub(super) fn look(
+        &self,
+        bodies: &mut ChangedBodies,
+        plastic_volumes: &[PlasticVolume],
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<()> {
         bodies.computed += 1;
         let contacts = std::mem::take(&mut bodies.contacts);
         let cycle = LoadCycle {
             number: bodies.computed,
             extrapolated: bodies.last.as_ref().map_or(1.0, |last| last.extrapolation.passes as f64),
             stop,
+            plastic_volumes,
             ..LoadCycle::at_rest(&contacts)
         };
         self.memories.iter().try_for_each(|memory| memory.look(&cycle, &mut bodies.pair))
     }
 
-    /// Lets the laws act once for their sums, which begin anew.
-    pub(super) fn act_once(&self, bodies: &mut ChangedBodies) -> Result<()> {
+    /// Whether memories look at the cycles.
+    pub(super) fn remembers(&self) -> bool {
+        !self.memories.is_empty()
+    }
+
+    /// Lets the laws act once for their sums, which begin anew. Returns the depth of the material that has gone from both bodies.
+    pub(super) fn act_once(&self, bodies: &mut ChangedBodies) -> Result<[Field; 2]> {
         let sums = std::mem::replace(&mut bodies.sums, law::nothing(&self.laws, &bodies.pair));
         if let Some(heat) = &mut bodies.heat {
             // The heat of a stage takes no known time.
             heat.taken.fill(0.0);
         }
         worn_away::check_losses(&bodies.pair, &law::tried(&self.laws, &bodies.pair, &sums, 1))?;
-        self.act(bodies, &sums, 1, 0);
-        Ok(())
+        Ok(self.act(bodies, &sums, 1, 0))
     }
 
     /// Lets the laws act at the end of a cycle, after those of its stage that are `done`, over the `gap` between the bodies before the load,
-    /// flattened as far as they are, under the same load or at the same approach. Returns the number of cycles that it stands for, of the `left` ones.
+    /// flattened as far as they are, under the same load or at the same approach. Returns the number of cycles that it stands for, of the `left`
+    /// ones, and the depth of the material that has gone from both bodies.
     pub(super) fn act_for_cycles(
         &mut self,
         bodies: &mut ChangedBodies,
         contact: &Solution,
         (gap, control): (&Field, Control),
         [done, left]: [usize; 2],
-    ) -> Result<usize> {
+    ) -> Result<(usize, [Field; 2])> {
         /// Cycles at the beginning of a stage that stand for themselves: the first one still remembers how the loading came there.
         const SETTLING: usize = 2;
         let sums = std::mem::replace(&mut bodies.sums, law::nothing(&self.laws, &bodies.pair));
@@ -239,7 +251,7 @@ impl Changes {
             let fewer = (cycles as f64 * (allowed / error).sqrt()) as usize;
             cycles = fewer.clamp(1, cycles - 1);
         };
-        self.act(bodies, &implicit, cycles, cycles);
+        let gone = self.act(bodies, &implicit, cycles, cycles);
         let (work, several) = (bodies.cycle_work, cycles as f64);
         let growth = bodies
             .last
@@ -253,7 +265,7 @@ impl Changes {
         bodies.last = Some(LastCycle { extrapolation, pressure: contact.pressure.clone(), work });
         bodies.error += error;
         bodies.cycles += cycles;
-        Ok(cycles)
+        Ok((cycles, gone))
     }
 
     /// Returns the sums of a cycle over so many `cycles`, in the mean of the pressures before and after their removal, from those with the
@@ -352,13 +364,19 @@ impl Changes {
         law::difference(&explicit, &tried(implicit)).max(of_slip)
     }
 
-    /// Lets the laws act for their `sums` over so many `times`, and the memories go on by so many `cycles`.
-    fn act(&self, bodies: &mut ChangedBodies, sums: &[Sums], times: usize, cycles: usize) {
+    /// Lets the laws act for their `sums` over so many `times`, and the memories go on by so many `cycles`. Returns the depth of the material that
+    /// has gone from both bodies.
+    fn act(&self, bodies: &mut ChangedBodies, sums: &[Sums], times: usize, cycles: usize) -> [Field; 2] {
         let mut lost = law::nothing_lost(&self.laws);
         let pair = &mut bodies.pair;
         let taken = law::advance(&self.laws, pair, sums, times as f64, &self.interiors, &mut lost);
         let worn = law::uncovered(&self.laws, &taken);
-        memory::advance(&self.memories, pair, cycles as f64, worn, &self.interiors);
+        let shape = pair.lower.heights.raw_dim();
+        let begins = worn.clone().unwrap_or_else(|| [Field::zeros(shape), Field::zeros(shape)]);
+        let broken_out = memory::advance(&self.memories, pair, cycles as f64, worn, &self.interiors);
+        broken_out
+            .into_iter()
+            .fold(begins, |[lower, upper], (_, [more, further])| [lower + more, upper + further])
     }
 
     /// Describes the heat of the last computed cycle, if its temperature is requested.

@@ -19,7 +19,9 @@ use crate::motion::slip::SlipRegime;
 use crate::motion::stage::{Origin, Progress, Stage};
 use crate::motion::state::{Flattening, LoadedContact, LoadingState};
 use crate::motion::watch::{StaticWatch, Watch};
+use crate::motion::yielding::Yielding;
 use crate::operator::Boundary;
+use crate::plasticity::{PlasticBody, PlasticParams};
 use crate::solver::{
     self, ContactProblem, ContactSolver, Control, Equilibrium, Friction, FrictionalSolution, InterfaceRecord,
     Loading, Params,
@@ -64,7 +66,7 @@ pub struct StagedLoading {
     pair: Pair,
     /// Initial gap of the undeformed bodies.
     gap: Field,
-    solver: Box<dyn ContactSolver>,
+    response: Response,
     params: Params,
     boundary: Boundary,
     stages: Vec<Stage>,
@@ -73,6 +75,24 @@ pub struct StagedLoading {
     acceleration: Acceleration,
     bulk: [Kelvin; 2],
     thermal: Option<[Thermal; 2]>,
+}
+
+/// How the bodies of a loading answer.
+enum Response {
+    /// By an elastic contact, with their memory if they creep.
+    Elastic(Box<dyn ContactSolver>),
+    /// With plastic flow below their surfaces.
+    Yielding(Box<Yielding>),
+}
+
+impl Response {
+    /// Whether cells may stick.
+    fn sticks(&self) -> bool {
+        match self {
+            Self::Elastic(solver) => solver.sticks(),
+            Self::Yielding(yielding) => yielding.sticks(),
+        }
+    }
 }
 
 impl StagedLoading {
@@ -97,8 +117,42 @@ impl StagedLoading {
         let solver = SlipRegime::from(friction).solver(&pair, &operators, shape, params.device)?;
         let (acceleration, bulk) = (Acceleration::NONE, [f64::NAN; 2]);
         let (laws, memories) = (Vec::new(), Vec::new());
-        let thermal = None;
-        Ok(Self { pair, gap, solver, params, boundary, stages, laws, memories, acceleration, bulk, thermal })
+        let (thermal, response) = (None, Response::Elastic(solver));
+        Ok(Self {
+            pair,
+            gap,
+            response,
+            params,
+            boundary,
+            stages,
+            laws,
+            memories,
+            acceleration,
+            bulk,
+            thermal,
+        })
+    }
+
+    /// Adds plastic flow below the surfaces of the given `bodies`, lower one first, with the convergence criteria of a step. Their load is taken
+    /// off at the end in so many `unloading` steps, ≥ 1, or stays. Such a loading is not resumed.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for an elasto-plastic body with a hardness, for viscoelastic bodies, and for bodies that attract each other.
+    ///
+    /// # Panics
+    /// If no body is given, or if the grid of one differs from that of its surface.
+    pub fn with_plastic(
+        self,
+        bodies: [Option<PlasticBody>; 2],
+        plastic: PlasticParams,
+        unloading: Option<usize>,
+    ) -> Result<Self> {
+        let Response::Elastic(solver) = self.response else {
+            return Err(Error::Unsupported("the bodies of this loading are elasto-plastic already"));
+        };
+        let end = (plastic, unloading);
+        let yielding = Yielding::new(&self.pair, &self.gap, solver, bodies, end, self.params)?;
+        Ok(Self { response: Response::Yielding(Box::new(yielding)), ..self })
     }
 
     /// Adds a `law` by which slip changes the bodies. It needs friction.
@@ -163,10 +217,16 @@ impl StagedLoading {
         {
             changes.resume(changed);
         }
-        let mut increments = Increments { loading: self, changes, state };
+        let mut increments = Increments { loading: self, changes, state, loaded: None };
         course::run(&mut increments, watch, outputs)?;
-        let state = increments.state.ok_or(Error::Unsupported("a loading needs at least one increment"))?;
-        Ok(increments.loading.finish(state))
+        let Increments { mut loading, state, loaded, .. } = increments;
+        let state = state.ok_or(Error::Unsupported("a loading needs at least one increment"))?;
+        Ok(match (&mut loading.response, loaded) {
+            (Response::Yielding(yielding), Some(loaded)) => {
+                yielding.unloaded(LoadedContact { increments: state.increments, ..loaded })
+            }
+            _ => loading.finish(state),
+        })
     }
 
     /// Prepares the bodies for the laws that change them and for the memories of their cycles; `None` without any.
@@ -175,13 +235,16 @@ impl StagedLoading {
         if laws.is_empty() && memories.is_empty() {
             return Ok(None);
         }
-        if !laws.is_empty() && !self.solver.sticks() {
+        if !laws.is_empty() && !self.response.sticks() {
             return Err(Error::Unsupported(
                 "laws change the bodies of a loading by slip, which needs friction",
             ));
         }
-        if self.pair.creep().is_some() && self.acceleration.max_jump > 1 {
-            return Err(Error::Unsupported("cycles of bodies that creep are not extrapolated"));
+        let remembers = self.pair.creep().is_some() || matches!(self.response, Response::Yielding(_));
+        if remembers && self.acceleration.max_jump > 1 {
+            return Err(Error::Unsupported(
+                "cycles of bodies that creep or flow below their surfaces are not extrapolated",
+            ));
         }
         let (operators, _) = facing(&self.pair, self.boundary)?;
         let with = (&operators, self.boundary, self.params);
@@ -196,6 +259,8 @@ struct Increments {
     changes: Option<Changes>,
     /// State after the last increment; `None` before the first.
     state: Option<LoadingState>,
+    /// Elasto-plastic bodies under their last load, once it is reached.
+    loaded: Option<LoadedContact>,
 }
 
 impl Course for Increments {
@@ -204,7 +269,11 @@ impl Course for Increments {
     fn next(&mut self, watch: &dyn Watch) -> Result<Option<LoadingState>> {
         let state = self.state.take();
         let next = state.as_ref().map_or(Progress::BEGIN, |state| state.next);
-        let Some(stage) = self.loading.stages.get(next.stage).copied() else {
+        let stage = match self.loading.stages.get(next.stage) {
+            Some(stage) => Some(*stage),
+            None => state.as_ref().and_then(|state| self.unloading(state)),
+        };
+        let Some(stage) = stage else {
             self.state = state;
             return Ok(None);
         };
@@ -218,7 +287,7 @@ impl Course for Increments {
             None => Origin::apart(self.loading.gap.iter().copied().fold(f64::INFINITY, f64::min)),
         };
         let (loading, share) = stage.at(next.step, &origin);
-        let all = done + next.left(&self.loading.stages, 1);
+        let all = done + next.left(&self.loading.stages, 1) + self.unloading_steps();
         let watch = StaticWatch::new(watch, done, all, loading.normal);
         let at = |source| Error::AtIncrement { increment: done + 1, source };
         self.load(next, loading, share, origin, state, &watch).map(Some).map_err(|error| match all {
@@ -233,12 +302,16 @@ impl Course for Increments {
         let left = state.next.left(&self.loading.stages, represented.unwrap_or(1));
         let record = state.increments.last().expect("the increment just done");
         let number = state.increments.len();
+        let left = left + self.unloading_steps();
+        let yields = matches!(self.loading.response, Response::Yielding(_));
+        let is_loading = self.loaded.is_none();
         Step {
-            contact: Some(state.contact.normal()),
+            contact: is_loading.then(|| state.contact.normal()),
             flattening: Some(&state.flattening),
             changed: state.changed.as_ref().map(|changed| &changed.pair),
-            state: Some(state),
+            state: (!yields).then_some(state),
             cycle: self.loading.cycle(state),
+            ends_loading: yields && is_loading && state.next.stage == self.loading.stages.len(),
             ..Step::new(number, number + left, StepRow::Increment(record))
         }
     }
@@ -252,6 +325,27 @@ impl Course for Increments {
 const MAX_DECREASE: f64 = 4.0;
 
 impl Increments {
+    /// Number of unloading steps of elasto-plastic bodies that are still to come, before the first of them.
+    fn unloading_steps(&self) -> usize {
+        match &self.loading.response {
+            Response::Yielding(yielding) if self.loaded.is_none() => yielding.unloading.unwrap_or(0),
+            _ => 0,
+        }
+    }
+
+    /// Keeps the contact of elasto-plastic bodies under their last load, and adds the stage that takes the load off, if it is taken off.
+    fn unloading(&mut self, state: &LoadingState) -> Option<Stage> {
+        if self.loaded.is_some() || matches!(self.loading.response, Response::Elastic(_)) {
+            return None;
+        }
+        let loaded = self.loading.finish(state.clone());
+        let Response::Yielding(yielding) = &mut self.loading.response else { return None };
+        let stage = yielding.unloading_from(&state.contact);
+        self.loaded = Some(yielding.loaded(loaded));
+        self.loading.stages.extend(stage);
+        stage
+    }
+
     /// Returns the state after an increment that starts from the state `before`, in a `share` of the time of a cycle.
     fn load(
         &mut self,
@@ -281,7 +375,7 @@ impl Increments {
                 (None, Flattening { kept: None, deepest }, Vec::new(), None, 0.0, begun, memory)
             }
         };
-        let StagedLoading { pair, gap, solver, params, stages, .. } = &mut self.loading;
+        let StagedLoading { pair, gap, response, params, stages, .. } = &mut self.loading;
         let (pair, gap) = match &changed {
             None => (&*pair, Cow::Borrowed(&*gap)),
             Some(ChangedBodies { pair, .. }) => (pair, Cow::Owned(pair.initial_gap(&pair.at_rest()))),
@@ -300,9 +394,15 @@ impl Increments {
                 ..ContactProblem::new(gap, &bounds, loading, params, watch)
             })
         };
-        let mut contact = match &mut memory {
-            None => solve(solver.as_mut(), &flattening.open(&gap))?,
-            Some(memory) => {
+        let mut flow = None;
+        let mut contact = match (&mut *response, &mut memory) {
+            (Response::Yielding(yielding), _) => {
+                let (contact, of_increment) = yielding.load(&flattening.open(&gap), loading, watch)?;
+                flow = Some(of_increment);
+                contact
+            }
+            (Response::Elastic(solver), None) => solve(solver.as_mut(), &flattening.open(&gap))?,
+            (Response::Elastic(solver), Some(memory)) => {
                 let before = last.as_ref();
                 let problem =
                     ContactProblem { before, ..ContactProblem::new(&gap, &bounds, loading, params, watch) };
@@ -311,14 +411,25 @@ impl Increments {
         };
         let mut stats = contact.normal().stats;
         let mut plastic = contact.normal().plastic_interference();
-        let allowed = MAX_DECREASE * params.tolerance * contact.normal().displacement.std(0.0);
-        if flattening.exceeds(&plastic, allowed) {
-            flattening.keep();
-            contact = solve(solver.as_mut(), &flattening.open(&gap))?;
-            stats = stats.and(&contact.normal().stats);
-            plastic = contact.normal().plastic_interference();
+        match &mut *response {
+            Response::Elastic(solver) => {
+                let allowed = MAX_DECREASE * params.tolerance * contact.normal().displacement.std(0.0);
+                if flattening.exceeds(&plastic, allowed) {
+                    flattening.keep();
+                    contact = solve(solver.as_mut(), &flattening.open(&gap))?;
+                    stats = stats.and(&contact.normal().stats);
+                    plastic = contact.normal().plastic_interference();
+                }
+                flattening.deepen(&plastic);
+            }
+            // Plastic flow below depends on the path anyway.
+            Response::Yielding(_) if bounds.upper().min().is_finite() => {
+                flattening.deepen(&plastic);
+                flattening.keep();
+                plastic.fill(0.0);
+            }
+            Response::Yielding(_) => {}
         }
-        flattening.deepen(&plastic);
         let [dissipation, more_error] = contact.dissipation(last.as_ref());
         let slip = match (slip, contact.slip()) {
             (Some([x, y]), Some(more)) => Some([x + &more[0], y + &more[1]]),
@@ -328,7 +439,7 @@ impl Increments {
         let interface = InterfaceRecord::of(pair.interface(), contact.normal(), before);
         let area = pair.cell_area();
         let stage = &stages[next.stage];
-        let mut represented = 1;
+        let (mut represented, mut gone) = (1, None);
         if let (Some(changes), Some(changed)) = (&mut self.changes, &mut changed) {
             if next.begins_stage() {
                 (changed.last, changed.computed) = (None, 0);
@@ -347,20 +458,33 @@ impl Increments {
                     changes.see(changed, &contact, last.as_ref().filter(|_| next.step > 0));
                     if next.ends_cycle(stages) {
                         changes.warm(changed, contact.normal(), cycles.period)?;
-                        changes.look(changed, &|| watch.stop())?;
+                        let volumes = match &mut *response {
+                            Response::Yielding(yielding) if changes.remembers() => yielding.volumes(),
+                            _ => Vec::new(),
+                        };
+                        changes.look(changed, &volumes, &|| watch.stop())?;
                         let left = cycles.count - next.cycles;
-                        let gap = flattening.open(&gap);
+                        let gap = match response {
+                            Response::Elastic(_) => flattening.open(&gap),
+                            // The surfaces with their plastic displacement.
+                            Response::Yielding(_) => Cow::Borrowed(&contact.normal().initial_gap),
+                        };
                         // The load or the approach is that of the contact itself, as closely as it is solved.
                         let now = contact.normal();
                         let control = match loading.normal {
                             Control::Load(_) => Control::Load(now.load()),
                             Control::Approach(_) => Control::Approach(now.approach),
                         };
-                        represented =
-                            changes.act_for_cycles(changed, now, (&gap, control), [next.cycles, left])?;
+                        let cycles = [next.cycles, left];
+                        let (stands_for, depth) =
+                            changes.act_for_cycles(changed, now, (&gap, control), cycles)?;
+                        (represented, gone) = (stands_for, Some(depth));
                     }
                 }
-                None => changes.act_once(changed)?,
+                None => gone = Some(changes.act_once(changed)?),
+            }
+            if let (Response::Yielding(yielding), Some(gone)) = (response, gone) {
+                yielding.uncover(&gone);
             }
         }
         let removes = self.changes.as_ref().is_some_and(Changes::remove);
@@ -385,6 +509,7 @@ impl Increments {
             plastic_volume: area * flattening.total(plastic).sum(),
             dissipation,
             interface,
+            plastic: flow,
             iterations: stats.iterations,
             convolutions: stats.convolutions,
             ..IncrementRecord::of(&contact)
@@ -429,12 +554,17 @@ impl StagedLoading {
     }
 
     /// Returns the contact at the end of its loading.
-    fn finish(self, state: LoadingState) -> LoadedContact {
+    fn finish(&self, state: LoadingState) -> LoadedContact {
         let LoadingState {
             increments, contact: solution, flattening, slip, dissipation_error, changed, ..
         } = state;
-        let now = solution.normal().plastic_interference();
-        let plastic = flattening.total(now);
+        let normal = solution.normal();
+        let plastic = match (&self.response, &flattening.kept) {
+            (Response::Elastic(_), _) => flattening.total(normal.plastic_interference()),
+            // All of it is kept.
+            (Response::Yielding(_), Some(kept)) => kept.clone(),
+            (Response::Yielding(_), None) => Field::zeros(normal.pressure.raw_dim()),
+        };
         let sum = |value: fn(&IncrementRecord) -> f64| increments.iter().map(value).sum::<f64>();
         // Cycles that were not computed have taken energy, too, with the relative error of those that were.
         let computed = sum(|increment| increment.dissipation);
@@ -445,9 +575,18 @@ impl StagedLoading {
         let (fretting, heat) = increments.last().map_or((None, None), |last| (last.fretting, last.heat));
         let of_interface = || increments.iter().filter_map(|increment| increment.interface.as_ref());
         let interface = of_interface().next_back().map(|last| last.after(of_interface()));
-        let normal = solution.normal();
-        let gap = changed.as_ref().map(|changed| changed.pair.initial_gap(&changed.pair.at_rest()));
-        let gap = gap.unwrap_or(self.gap) + &normal.displacement - normal.approach;
+        let gap = match (&self.response, &changed) {
+            (Response::Yielding(yielding), Some(changed)) => {
+                changed.pair.initial_gap(&changed.pair.at_rest()) + yielding.displacement(normal)
+            }
+            // The surfaces with their plastic displacement, below 0 by what a hardness has flattened, as for other bodies.
+            (Response::Yielding(_), None) => {
+                &normal.initial_gap - &(&plastic - &normal.plastic_interference())
+            }
+            (Response::Elastic(_), Some(changed)) => changed.pair.initial_gap(&changed.pair.at_rest()),
+            (Response::Elastic(_), None) => self.gap.clone(),
+        };
+        let gap = gap + &normal.displacement - normal.approach;
         let record = StaticRecord {
             mean_gap: gap.mean().unwrap_or(0.0),
             iterations: increments.iter().map(|increment| increment.iterations).sum(),

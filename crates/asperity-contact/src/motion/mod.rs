@@ -43,6 +43,7 @@ mod volumes;
 mod warm_start;
 mod watch;
 mod worn_away;
+mod yielding;
 
 pub use asperity_base::record::{Column, Presence};
 pub use body::{Body, State};

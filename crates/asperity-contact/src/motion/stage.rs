@@ -88,18 +88,6 @@ impl Stage {
         if self.cycles.is_some() { 2 * self.increments } else { self.increments }
     }
 
-    /// Returns the index of the stage and its next step, from 1, after `done` increments of stages without cycles; `None` after the last.
-    pub(super) fn after(stages: &[Self], done: usize) -> Option<(usize, usize)> {
-        let mut left = done;
-        for (index, stage) in stages.iter().enumerate() {
-            if left < stage.increments {
-                return Some((index, left + 1));
-            }
-            left -= stage.increments;
-        }
-        None
-    }
-
     /// Returns the time of a step, which is this `share` of a cycle in cycles.
     pub(super) fn duration(&self, step: usize, share: f64) -> Second {
         let n = self.increments as f64;

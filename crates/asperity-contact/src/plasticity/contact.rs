@@ -215,12 +215,41 @@ impl PlasticContact {
         self.with_residual(self.facing.initial_gap.clone()).iter().copied().fold(f64::INFINITY, f64::min)
     }
 
-    /// Opens the gap by the plastic interference at the hardness in the last increment, which stays. Returns it, m.
-    pub fn flatten(&mut self) -> Field {
-        let zeros = || self.facing.solver.grid().zeros();
-        let interference = self.solution().map_or_else(zeros, Solution::plastic_interference);
-        self.facing.initial_gap += &interference;
-        interference
+    /// Sets the gap h of the undeformed bodies for the next increment.
+    ///
+    /// # Panics
+    /// If its shape differs.
+    pub fn set_gap(&mut self, gap: &Field) {
+        self.facing.initial_gap.assign(gap);
+    }
+
+    /// Gap h of the undeformed bodies, m.
+    pub fn initial_gap(&self) -> &Field {
+        &self.facing.initial_gap
+    }
+
+    /// Bounds on the pressures.
+    pub fn bounds(&self) -> &Bounds {
+        &self.facing.bounds
+    }
+
+    /// Whether cells may stick.
+    pub fn sticks(&self) -> bool {
+        self.facing.solver.sticks()
+    }
+
+    /// Moves the plastic strain of each body up where the depth `worn` of the material above it has gone, on the cells of the lower and of the
+    /// upper body. The contact stays as it is for the next increment, without the tangential displacement of the surfaces by the strain that has gone.
+    ///
+    /// # Panics
+    /// If a shape differs from that of its body.
+    pub fn uncover(&mut self, worn: &[Field; 2]) {
+        for (body, side) in self.bodies.iter_mut().zip(&self.sides) {
+            let faces = body.volume().layers().faces().to_vec();
+            let state = body.state().uncovered(&faces, &worn[*side]);
+            body.restore(&state);
+        }
+        self.along = None;
     }
 
     /// The elasto-plastic bodies.

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use asperity_base::{Field, Grid, Result};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    Contact, ContactCells, Law, LoadControl, Motion, Output, Pair, PassRecord, PlasticPath, PlasticUpdate,
-    PlasticVolume, Point, Simulation, SlipRegime, Stage, Step, StepRecord, Strategy, SweepState,
-    YieldingBodies, load_in_stages, press_elasto_plastic, sweep_elasto_plastic,
+    Contact, ContactCells, Cycles, Law, LoadControl, LoadedContact, Motion, Output, Pair, PassRecord,
+    PlasticPath, PlasticUpdate, PlasticVolume, Point, Simulation, SlipRegime, Stage, StagedLoading, Step,
+    StepRecord, Strategy, SweepState, YieldingBodies, load_in_stages, press_elasto_plastic,
+    sweep_elasto_plastic,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::plasticity::{Hardening, J2, Layers, PlasticBody, PlasticParams, Volume};
@@ -347,4 +348,61 @@ fn a_point_of_a_sweep_is_the_contact_of_its_load_alone() {
     // A sweep that was interrupted after two points goes on to the same bits.
     let done = SweepState { records: records[..2].to_vec(), ..SweepState::default() };
     assert_eq!(sweep(done).0, records);
+}
+
+/// A ball pressed on a flat body and pushed to and fro in cycles, with wear of the flat one.
+fn fretted(yield_stress: Option<f64>, wear: f64, cycles: usize) -> LoadedContact {
+    let pair = pair([f64::INFINITY; 2]);
+    let stage = |way: f64, steps: usize| {
+        let tangential = Tangential::Displacement([way, 0.0]);
+        Stage::new(Loading { normal: Control::Load(4.0), tangential }, steps)
+    };
+    let cycling = stage(-0.4e-6, 3).with_cycles(Some(Cycles { count: cycles, period: None }));
+    let friction = Friction::coulomb(0.3).unwrap();
+    let params = Params::default().with_tolerance(1e-9);
+    let stages = vec![stage(0.0, 6), stage(0.4e-6, 3), cycling];
+    let loading = StagedLoading::new(pair, Boundary::PERIODIC, Some(friction), stages, params).unwrap();
+    let loading = match yield_stress {
+        None => loading,
+        Some(stress) => {
+            loading.with_plastic([Some(flowing(stress)), None], PlasticParams::new(), Some(3)).unwrap()
+        }
+    };
+    loading.with_law(Archard(wear)).run(None, &(), &mut []).unwrap()
+}
+
+#[test]
+fn bodies_that_never_yield_fret_as_elastic_ones() {
+    let [elastic, yielding] = [None, Some(1e12)].map(|stress| fretted(stress, 1e-13, 4));
+    let (a, b) = (&elastic.increments, &yielding.increments);
+    // The increments of the unloading come at the end.
+    assert_eq!(b.len(), a.len() + 3);
+    for (a, b) in a.iter().zip(b) {
+        assert!((a.approach / b.approach - 1.0).abs() < 1e-6, "{a:?} {b:?}");
+        assert!(
+            (a.dissipation - b.dissipation).abs() < 1e-6 * elastic.record.shear.as_ref().unwrap().dissipation
+        );
+        assert_eq!(a.fretting.unwrap().cycles, b.fretting.unwrap().cycles);
+    }
+    let [a, b] =
+        [&elastic, &yielding].map(|contact| contact.changed.as_ref().unwrap().pair.lower.heights.clone());
+    let deepest = a.iter().fold(0.0_f64, |most, height| most.max(-height));
+    let difference = (&a - &b).iter().fold(0.0_f64, |most, each| most.max(each.abs()));
+    assert!(deepest > 1e-10 && difference < 1e-5 * deepest, "{difference:e} of {deepest:e}");
+    let [a, b] = [&elastic.record, &yielding.record];
+    assert!((a.mean_gap / b.mean_gap - 1.0).abs() < 1e-6 && a.contact_area == b.contact_area);
+}
+
+/// Each cycle wears off k/μ times the energy that friction takes in it, while the strain below stays with its material.
+#[test]
+fn yielding_bodies_fret_off_what_their_friction_takes() {
+    let worn = fretted(Some(1.5e9), 1e-15, 3);
+    let flow = worn.record.plastic.as_ref().unwrap();
+    assert!(flow.max_plastic_strain > 1e-3 && flow.residual.is_some());
+    let last = worn.increments[worn.increments.len() - 4].fretting.unwrap();
+    let pair = &worn.changed.as_ref().unwrap().pair;
+    let volume = -PITCH * PITCH * pair.lower.heights.sum();
+    assert!((volume * 0.3 / (1e-15 * last.friction_work) - 1.0).abs() < 1e-4, "{volume:e} {last:?}");
+    let volumes = &worn.plastic_result.as_ref().unwrap().volumes[0];
+    assert!(volumes.state.accumulated.iter().any(|strain| *strain > 0.0));
 }

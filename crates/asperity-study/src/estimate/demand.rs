@@ -2,7 +2,7 @@
 
 use web_time::Instant;
 
-use crate::case::{Body, Case, ControlKind, CounterBody, Course, Layer, MotionSpec, Source, StageSpec};
+use crate::case::{Body, Case, ControlKind, CounterBody, Course, Layer, MotionSpec, Source};
 use crate::given::SurfaceInput;
 use crate::prepare::grids;
 use crate::subsurface::Plan;
@@ -322,13 +322,16 @@ impl Sizes<'_> {
                 trials * products * (motion.passes * self.overlaps.len()) as f64
             }
             None => {
-                let later: usize = self.case.history.iter().map(StageSpec::steps).sum();
+                let course = self.case.course(1.0);
                 let [flowing, unloading] = PRODUCTS;
                 let unloading = if plasticity.unload == Some(true) { unloading } else { 0.0 };
                 let friction = self.case.friction.as_ref().map_or(1, |friction| friction.increments);
                 let first = plasticity.increments.unwrap_or(friction) as f64;
-                let points = self.case.contact.sweep().len().max(1) as f64;
-                flowing * (points * first + later as f64) + unloading * first
+                let steps = match course.stages() {
+                    [] => self.case.contact.sweep().len() as f64 * first,
+                    stages => Stage::increments(stages) as f64,
+                };
+                flowing * steps + unloading * first
             }
         };
         let product = |(cells, periodic)| cells * if periodic { 250.0 } else { 1000.0 };

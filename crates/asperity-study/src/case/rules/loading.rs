@@ -2,7 +2,7 @@
 
 use super::super::{Boundary, Prescribed};
 use super::Rule;
-use super::examples::{AT_ANY_SPEED, FLOWS, LINE, ROLLS, RUBS, SWEEP, VOLUME};
+use super::examples::{AT_ANY_SPEED, LINE, ROLLS, RUBS, SWEEP};
 
 pub(super) const RULES: &[Rule] = &[
     Rule {
@@ -17,15 +17,6 @@ pub(super) const RULES: &[Rule] = &[
             let both = stages.any(|stage| stage.cycles.is_some() && stage.sliding.is_some());
             tables.of_stage(&["cycles"]).or(tables.at("history")).filter(|_| both)
         },
-    },
-    Rule {
-        this: "`cycles` of a stage",
-        with: "[plasticity]",
-        message: "elasto-plastic bodies do not support 'cycles'",
-        hint: "write each way as a stage, or give the bodies a `hardness`",
-        at: "history.cycles",
-        example: &[FLOWS, VOLUME, r#"history = [{ load = "1 N", cycles = 10 }]"#],
-        broken: |tables| tables.of_stage(&["cycles"]).filter(|_| tables.flows()),
     },
     Rule {
         this: "`period` of a stage",

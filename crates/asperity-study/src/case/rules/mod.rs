@@ -172,13 +172,6 @@ impl<'a> Tables<'a> {
             .find_map(|(name, _)| self.at(&format!("{name}.{key}")))
     }
 
-    /// Returns the table of a law that changes a body.
-    fn law(&self) -> Option<Entry<'a>> {
-        let mut given = None;
-        each_law!(L => given = given.or(self.of_body(L::NAME, |_| true)));
-        given
-    }
-
     /// Returns the key of a sweep in [contact].
     fn sweep(&self) -> Option<Entry<'a>> {
         self.first("contact", &["loads", "mean_pressures", "approaches"])
