@@ -300,18 +300,16 @@ impl Changes {
         self.operator.apply(&normal.pressure, &mut of_pressure);
         let gap = gap + &normal.displacement - &of_pressure + half * depth;
         let mut operator = Compliant::new(self.operator.as_mut(), CellValues::Field(compliance))?;
-        let before = Solution { initial_gap: gap.clone(), displacement: of_pressure, ..normal.clone() };
-        let worn = bodies.pair.interface().solve(
-            &mut operator,
-            &NormalProblem {
-                gap: &gap,
-                bounds: &normal.bounds,
-                control,
-                before: Before::Contact(&before),
-                params: &self.params,
-                watch: &(),
-            },
-        )?;
+        let interface = bodies.pair.interface();
+        let attracted = (!interface.is_hard()).then(|| Solution {
+            initial_gap: gap.clone(),
+            displacement: of_pressure,
+            ..normal.clone()
+        });
+        let before = attracted.as_ref().map_or(Before::Guess(&normal.pressure), Before::Contact);
+        let (bounds, params) = (&normal.bounds, &self.params);
+        let problem = NormalProblem { gap: &gap, bounds, control, before, params, watch: &() };
+        let worn = interface.solve(&mut operator, &problem)?;
         for (sums, _) in sums.iter_mut().zip(&self.laws).filter(|(_, law)| follows_pressure(law.as_ref())) {
             for of_body in sums.iter_mut() {
                 ndarray::Zip::from(&mut of_body[0]).and(&worn.pressure).and(&normal.pressure).for_each(
