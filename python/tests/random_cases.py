@@ -113,12 +113,51 @@ class RandomCase:
             self._passage(tables, bodies)
         # Drawn apart, so that the other options of a seed do not depend on it.
         self._adhesion(tables, random.Random(f"adhesion {self.seed}"))
+        self._together(tables, bodies, random.Random(f"together {self.seed}"))
         return tables
+
+    def _together(self, tables: Table, bodies: list[Table], rng: random.Random) -> None:
+        """What bodies remember besides each other: plastic strain, a hardness, wear, heat, attraction."""
+        if rng.random() < 0.4:
+            return
+        stages = tables.get("history", [])
+        slips = "friction" in tables and self.course in ("history", "friction", "flowing") and not self.coated
+        rate = 10 ** rng.uniform(-3, -1.5) * self.sq / (0.05 * self.modulus * self._slope() * self.shape[0][0] * PITCH)
+        if self.flows and rng.random() < 0.5:
+            # The other body has a hardness.
+            other = 1 if "plasticity" in bodies[0] and "plasticity" not in bodies[1] else 0
+            if "plasticity" not in bodies[other]:
+                bodies[other]["hardness"] = self.modulus * self._slope() * 10 ** rng.uniform(-0.5, 0.5)
+        if self.course == "flowing" and not slips and not stages and rng.random() < 0.5 and self.control in ("load", "mean_pressure"):
+            value = tables["contact"].pop(self.control)
+            tables["contact"] = {f"{self.control}s": [0.4 * value, value], **tables["contact"]}
+            tables["plasticity"].pop("unload", None)
+            return
+        if self.course == "flowing-motion" or slips:
+            bodies[rng.randrange(2)]["wear"] = {"coefficient": rate}
+        if self.course == "flowing-motion" and "friction" in tables and (self.strategy == "overlap" or self.boundary[0] == "periodic"):
+            tables["motion"].setdefault("speed" if self.strategy == "overlap" else "speed_upper", 1.0)
+            self._conducts(tables, bodies)
+        if slips and stages and rng.random() < 0.6:
+            stage = stages[-1]
+            stage |= {"cycles": rng.randint(1, 4), "period": 10 ** rng.uniform(-6, -2), "increments": rng.randint(1, 3)}
+            if not self.mixed and rng.random() < 0.5:
+                self._conducts(tables, bodies)
+        if self.course in ("overlap", "shift") and self.wears and self.hardness < math.inf and rng.random() < 0.6:
+            tables["motion"]["plastic_update"] = "step"
+            if tables.get("acceleration", {}).get("max_jump", 1) > 1:
+                tables["acceleration"]["max_jump"] = 1
+
+    def _conducts(self, tables: Table, bodies: list[Table]) -> None:
+        """Heat of friction."""
+        tables.setdefault("temperature", {"bulk": 350.0})["every"] = 1
+        for body in bodies:
+            body |= {"conductivity": 46.0, "heat_capacity": 460.0, "density": 7850.0}
 
     def _adhesion(self, tables: Table, rng: random.Random) -> None:
         """Attraction of the bodies of some contacts, whose process zone has a cell or more."""
         moves = self.course in ("overlap", "shift") and "subsurface" not in tables
-        static = self.course in ("press", "sweep", "history", "friction", "rolling", "traction")
+        static = self.course in ("press", "sweep", "history", "friction", "rolling", "traction", "in-place")
         if not moves and not static or rng.random() < 0.6:
             return
         pitch, extents = max(self.pitch), [n * d for n, d in zip(self.shape[0], self.pitch)]
@@ -243,6 +282,7 @@ class RandomCase:
         rate = 10 ** rng.uniform(-3, -0.5) * self.sq / (pressure * per_pass)
         # The heat of surfaces that go round goes round with them.
         heated = self.slides and rng.random() < 0.4 and (self.strategy != "shift" or self.boundary[0] == "periodic")
+        heated = heated and not (self.mixed and self.course == "in-place")
         filmed = rng.random() < 0.5
         for index, body in enumerate(bodies):
             if index == 1 and rng.random() < 0.4:

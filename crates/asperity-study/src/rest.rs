@@ -132,7 +132,7 @@ pub(super) fn solve(
     let extent = pair.lower_grid().extent();
     let contact = StaticProblem { case, pair, estimate, law, control, params: params(case), writer, watch };
     let rest = match (case.course(apparent_area), law) {
-        (Course::InPlace(slide), _) => return contact.slide(slide),
+        (Course::InPlace(slide), _) => contact.slide(slide),
         (Course::Sweep(points), _) => contact.sweep(&points),
         (Course::Rolling(rolling), Some(friction)) => contact.press(SlipRegime::Rolling(*friction, rolling)),
         (Course::Stages(stages), law) if law.is_some() || stages.len() > 1 || case.plasticity.is_some() => {
