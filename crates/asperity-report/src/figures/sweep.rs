@@ -15,11 +15,12 @@ use crate::error::Result;
 type Number = fn(&SweepRecord) -> f64;
 
 /// The curves of the contact. The mean gap falls with the logarithm of the load.
-const DRAWN: [OfPoints; 4] = [
+const DRAWN: [OfPoints; 5] = [
     drawn("contact_area", "real contact area", true, |p| Some(p.contact_area)),
     drawn("mean_gap", "mean gap", false, |p| Some(p.mean_gap)),
     drawn("stiffness", "normal stiffness", true, |p| p.stiffness),
     drawn("max_pressure", "largest pressure", true, |p| Some(p.max_pressure)),
+    drawn("max_plastic_strain", "largest plastic strain", false, |p| Some(p.plastic?.max_plastic_strain)),
 ];
 
 const fn drawn(

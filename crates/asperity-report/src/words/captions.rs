@@ -1,7 +1,7 @@
 //! Captions of the charts and maps of the page, as in a paper.
 
 /// Captions by the names of figures and of the maps of a contact. A capability has its own.
-const CAPTIONS: [(&str, &str); 40] = [
+const CAPTIONS: [(&str, &str); 41] = [
     (
         "approach",
         "Rigid-body approach of each pass, with what the surfaces have lost by plastic deformation.",
@@ -39,6 +39,10 @@ const CAPTIONS: [(&str, &str); 40] = [
         "Force over displacement on the way through all stages. A loop encloses the energy that is lost.",
     ),
     ("material_ratio", "Share of the surface that lies above a height."),
+    (
+        "max_plastic_strain",
+        "Largest accumulated plastic strain below the surfaces, each time from virgin bodies.",
+    ),
     ("max_pressure", "Pressure of the most loaded cell."),
     ("mean_contact_area", "Mean of the real area of contact over the positions of each pass."),
     (
