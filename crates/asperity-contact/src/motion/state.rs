@@ -184,6 +184,28 @@ fn store_memory(to: &mut dyn StateWriter, memory: Option<&CreepMemory>) {
     fields.for_each(|(name, values)| to.field(&name, creeping::UNIT, values));
 }
 
+/// Restores the contact of a `pair`, without its residual and its cost.
+fn restored_contact(from: &dyn StateReader, pair: &Pair) -> Result<Solution> {
+    let bounds = match restore_if(from, "cap", || from.field("cap"))? {
+        Some(cap) => Bounds::up_to(cap),
+        None => pair.bounds(&pair.at_rest()),
+    };
+    let bounds = match restore_if(from, "least_pressure", || from.field("least_pressure"))? {
+        Some(least) => bounds.above(least),
+        None => bounds,
+    };
+    Ok(Solution {
+        grid: pair.lower_grid(),
+        initial_gap: pair.initial_gap(&pair.at_rest()),
+        bounds,
+        pressure: from.field("pressure")?,
+        displacement: from.field("displacement")?,
+        approach: from.number("approach")?,
+        residual: f64::NAN,
+        stats: Stats::default(),
+    })
+}
+
 /// Restores the memory of the bodies of a `pair`, if there is one.
 fn restored_memory(from: &dyn StateReader, pair: &Pair) -> Result<Option<CreepMemory>> {
     restore_if(from, creeping::ELASTIC, || {
@@ -202,21 +224,9 @@ impl LoadingState {
         let pair = changed.as_ref().map_or(pair, |changed| &changed.pair);
         let kept = restore_if(from, "kept", || from.field("kept"))?;
         let flattening = Flattening { kept, deepest: from.field("deepest")? };
-        let bounds = match restore_if(from, "cap", || from.field("cap"))? {
-            Some(cap) => Bounds::up_to(cap),
-            None => pair.bounds(&pair.at_rest()),
-        };
-        let bounds = match restore_if(from, "least_pressure", || from.field("least_pressure"))? {
-            Some(least) => bounds.above(least),
-            None => bounds,
-        };
+        let gap = pair.initial_gap(&pair.at_rest());
         let normal = Solution {
-            grid: pair.lower_grid(),
-            initial_gap: flattening.open(&pair.initial_gap(&pair.at_rest())).into_owned(),
-            bounds,
-            pressure: from.field("pressure")?,
-            displacement: from.field("displacement")?,
-            approach: from.number("approach")?,
+            initial_gap: flattening.open(&gap).into_owned(),
             residual: from.number("residual")?,
             stats: Stats {
                 iterations: from.number("iterations")? as usize,
@@ -224,6 +234,7 @@ impl LoadingState {
                 restarts: from.number("restarts")? as usize,
                 ..Stats::default()
             },
+            ..restored_contact(from, pair)?
         };
         let memory = restored_memory(from, pair)?;
         let has_friction = from.holds("stick");
@@ -355,23 +366,7 @@ impl SlidingState {
         let mut pair = pair.clone();
         from.bodies(&mut pair)?;
         let pressure = from.field("pressure")?;
-        let contact = restore_if(from, "displacement", || {
-            let bounds = pair.bounds(&pair.at_rest());
-            let bounds = match restore_if(from, "least_pressure", || from.field("least_pressure"))? {
-                Some(least) => bounds.above(least),
-                None => bounds,
-            };
-            Ok(Solution {
-                grid: pair.lower_grid(),
-                initial_gap: pair.initial_gap(&pair.at_rest()),
-                bounds,
-                pressure: pressure.clone(),
-                displacement: from.field("displacement")?,
-                approach: from.number("approach")?,
-                residual: f64::NAN,
-                stats: Stats::default(),
-            })
-        })?;
+        let contact = restore_if(from, "displacement", || restored_contact(from, &pair))?;
         let memory = restored_memory(from, &pair)?;
         Ok(Self { pair, updates, pressure, contact, memory })
     }
