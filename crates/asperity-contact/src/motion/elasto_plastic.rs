@@ -46,8 +46,7 @@ impl PlasticPath {
 /// they stick or slip. The increments include the unloading; record and solution are those under the last load.
 ///
 /// # Errors
-/// [`Error::AtIncrement`] with the cause, [`Error::Interrupted`], [`Error::Unsupported`] for a path that ends without
-/// contact, and the errors of the outputs.
+/// The errors of [`StagedLoading::with_plastic`] and of [`StagedLoading::run`].
 ///
 /// # Panics
 /// If the bodies have different shapes.

@@ -200,7 +200,7 @@ impl StagedLoading {
     /// Loads the bodies, from before contact or from a state `under_way`. A resumed loading gives the same result, bit by bit.
     ///
     /// # Errors
-    /// The errors of [`solver::solve_frictional`], with several increments in an [`Error::AtIncrement`]; those of the outputs;
+    /// The errors of [`crate::solver::solve_frictional`], with several increments in an [`Error::AtIncrement`]; those of the outputs;
     /// [`Error::Unsupported`] without stages and for laws without friction; [`Error::WornAway`]; [`Error::Interrupted`].
     pub fn run(
         mut self,
