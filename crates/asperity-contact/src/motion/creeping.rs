@@ -1,4 +1,4 @@
-//! Viscoelastic bodies in stages and in passes, in which their memory moves with them.
+//! Viscoelastic bodies in stages, in place, and in passes, in which their memory moves with them.
 
 use crate::error::{Error, Result, check_in};
 use crate::grid::{CellValues, Field, Placement};

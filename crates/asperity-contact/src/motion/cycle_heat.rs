@@ -1,15 +1,16 @@
 //! Heat of the slip in the cycles of a loading.
 //!
 //! The surfaces have the steady temperature of the mean heat of the last computed cycle, with both bodies at rest: the contact is warm by then,
-//! and its temperature changes little within a cycle. The first cycle has the temperatures of the bodies.
+//! and in a cycle that is short compared with the time that heat needs to cross a spot, its temperature changes little. The first cycle has the
+//! temperatures of the bodies.
 
-use crate::error::{Error, Result, check_in};
+use crate::error::Result;
 use crate::grid::{Field, Grid};
 use crate::motion::law::CyclicSlip;
 use crate::operator::Boundary;
 use crate::solver::Solution;
 use crate::temperature::{SteadyTemperature, Thermal};
-use crate::units::{Dimension, Joule, Kelvin, Second, Watt};
+use crate::units::{Joule, Kelvin, Second, Watt};
 
 /// Heat of friction in the present cycle, and the temperature by that of the last one.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,16 +71,7 @@ impl CyclicTemperature {
     }
 
     /// Ends a cycle of this `period` with the contact at its end: computes the temperature by its heat.
-    pub(super) fn end(
-        &mut self,
-        heat: &mut CycleHeat,
-        contact: &Solution,
-        period: Option<Second>,
-    ) -> Result<()> {
-        let Some(period) = period else {
-            return Err(Error::Unsupported("a flash temperature in cycles needs the period of a cycle"));
-        };
-        check_in(Dimension::Time, "period", period, period > 0.0, "a time above 0")?;
+    pub(super) fn end(&mut self, heat: &mut CycleHeat, contact: &Solution, period: Second) -> Result<()> {
         let both = contact.pressure.iter().zip(&heat.taken).enumerate();
         let cells = both.filter(|(_, (p, energy))| **p > 0.0 || **energy > 0.0).map(|(cell, _)| cell as u32);
         let cells: Vec<u32> = cells.collect();

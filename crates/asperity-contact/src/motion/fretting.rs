@@ -171,7 +171,7 @@ impl Changes {
         &mut self,
         bodies: &mut ChangedBodies,
         contact: &Solution,
-        period: Option<Second>,
+        period: Second,
     ) -> Result<()> {
         match (&mut self.heat, &mut bodies.heat) {
             (Some(steady), Some(heat)) => steady.end(heat, contact, period),
@@ -203,8 +203,8 @@ impl Changes {
         !self.memories.is_empty()
     }
 
-    /// Lets the laws act once for their sums, which begin anew. Returns the depth of the material that has gone from both bodies.
-    pub(super) fn act_once(&self, bodies: &mut ChangedBodies) -> Result<[Field; 2]> {
+    /// Lets the laws act once for their sums, which begin anew. Returns the depths of the material that has gone from both bodies.
+    pub(super) fn act_once(&self, bodies: &mut ChangedBodies) -> Result<Vec<[Field; 2]>> {
         let sums = std::mem::replace(&mut bodies.sums, law::nothing(&self.laws, &bodies.pair));
         if let Some(heat) = &mut bodies.heat {
             // The heat of a stage takes no known time.
@@ -216,14 +216,14 @@ impl Changes {
 
     /// Lets the laws act at the end of a cycle, after those of its stage that are `done`, over the `gap` between the bodies before the load,
     /// flattened as far as they are, under the same load or at the same approach. Returns the number of cycles that it stands for, of the `left`
-    /// ones, and the depth of the material that has gone from both bodies.
+    /// ones, and the depths of the material that has gone from both bodies.
     pub(super) fn act_for_cycles(
         &mut self,
         bodies: &mut ChangedBodies,
         contact: &Solution,
         (gap, control): (&Field, Control),
         [done, left]: [usize; 2],
-    ) -> Result<(usize, [Field; 2])> {
+    ) -> Result<(usize, Vec<[Field; 2]>)> {
         /// Cycles at the beginning of a stage that stand for themselves: the first one still remembers how the loading came there.
         const SETTLING: usize = 2;
         let sums = std::mem::replace(&mut bodies.sums, law::nothing(&self.laws, &bodies.pair));
@@ -362,19 +362,15 @@ impl Changes {
         law::difference(&explicit, &tried(implicit)).max(of_slip)
     }
 
-    /// Lets the laws act for their `sums` over so many `times`, and the memories go on by so many `cycles`. Returns the depth of the material that
-    /// has gone from both bodies.
-    fn act(&self, bodies: &mut ChangedBodies, sums: &[Sums], times: usize, cycles: usize) -> [Field; 2] {
+    /// Lets the laws act for their `sums` over so many `times`, and the memories go on by so many `cycles`. Returns the depths of the material that
+    /// has gone from both bodies, one after the other.
+    fn act(&self, bodies: &mut ChangedBodies, sums: &[Sums], times: usize, cycles: usize) -> Vec<[Field; 2]> {
         let mut lost = law::nothing_lost(&self.laws);
         let pair = &mut bodies.pair;
         let taken = law::advance(&self.laws, pair, sums, times as f64, &self.interiors, &mut lost);
         let worn = law::uncovered(&self.laws, &taken);
-        let shape = pair.lower.heights.raw_dim();
-        let begins = worn.clone().unwrap_or_else(|| [Field::zeros(shape), Field::zeros(shape)]);
-        let broken_out = memory::advance(&self.memories, pair, cycles as f64, worn, &self.interiors);
-        broken_out
-            .into_iter()
-            .fold(begins, |[lower, upper], (_, [more, further])| [lower + more, upper + further])
+        let broken_out = memory::advance(&self.memories, pair, cycles as f64, worn.as_ref(), &self.interiors);
+        worn.into_iter().chain(broken_out.into_iter().map(|(_, depth)| depth)).collect()
     }
 
     /// Describes the heat of the last computed cycle, if its temperature is requested.

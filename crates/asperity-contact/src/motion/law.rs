@@ -315,9 +315,7 @@ impl CyclicSlip {
         }
         found
     }
-}
 
-impl CyclicSlip {
     /// Energy that friction takes on each cell, J/m².
     pub(super) fn energies(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         let cells = self.cells.iter().zip(&self.shear).zip(&self.distance);

@@ -117,17 +117,23 @@ pub(super) fn advance(
     memories: &[Box<dyn Memory>],
     pair: &mut Pair,
     cycles: f64,
-    worn: Option<[Field; 2]>,
+    worn: Option<&[Field; 2]>,
     interiors: &[Interior; 2],
 ) -> Vec<(LostVolume, [Field; 2])> {
     if memories.is_empty() {
         return Vec::new();
     }
-    let unworn = || [&pair.lower, &pair.upper].map(|body| Field::zeros(body.heights.raw_dim()));
-    let worn = worn.unwrap_or_else(unworn);
+    let unworn;
+    let worn = match worn {
+        Some(worn) => worn,
+        None => {
+            unworn = [&pair.lower, &pair.upper].map(|body| Field::zeros(body.heights.raw_dim()));
+            &unworn
+        }
+    };
     let mut lost = Vec::new();
     for memory in memories {
-        let depth = memory.advance(pair, cycles, &worn);
+        let depth = memory.advance(pair, cycles, worn);
         if let Some(name) = memory.takes() {
             let mut volume = LostVolume::nothing(name);
             law::remove(pair, &depth, interiors, &mut volume);

@@ -132,9 +132,7 @@ impl SlidingState {
     pub fn resumed(self, contact: &SlidingContact) -> Self {
         Self { pair: contact.pair.clone(), ..self }
     }
-}
 
-impl SlidingState {
     /// Returns the state after an update of this `time` with its `record`.
     fn after(mut self, pressed: Pressed, record: UpdateRecord, time: Second) -> Updated {
         let Pressed { solution, elastic, .. } = pressed;

@@ -245,11 +245,15 @@ impl PlasticContact {
     /// If a shape differs from that of its body.
     pub fn uncover(&mut self, worn: &[Field; 2]) {
         for (body, side) in self.bodies.iter_mut().zip(&self.sides) {
+            let depth = &worn[*side];
+            if depth.iter().all(|depth| *depth <= 0.0) {
+                continue;
+            }
             let faces = body.volume().layers().faces().to_vec();
-            let state = body.state().uncovered(&faces, &worn[*side]);
+            let state = body.state().uncovered(&faces, depth);
             body.restore(&state);
+            self.along = None;
         }
-        self.along = None;
     }
 
     /// The elasto-plastic bodies.

@@ -77,7 +77,7 @@ fn read(table: &Table<'_>, file: &Path, folder: &Path) -> Result<Case> {
     let sweeps = !root.contact.sweep().is_empty();
     let plasticity = root
         .plasticity
-        .map(|region| plasticity(region, &mut motion, &mut friction, [gives_increments, sweeps]));
+        .map(|region| plasticity(region, &mut motion, &mut friction, gives_increments, sweeps));
     // Later stages of elasto-plastic bodies have as many steps as the first one.
     let steps = match (&plasticity, &friction) {
         (None, _) => 1,

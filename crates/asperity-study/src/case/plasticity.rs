@@ -4,13 +4,14 @@ use super::{FrictionSpec, MotionSpec};
 use asperity_contact::motion::PlasticUpdate;
 use asperity_contact::with::plasticity::{INCREMENTS, Keep, PlasticRegion};
 
-/// Returns `[plasticity]` with its effect on the `motion` of the bodies and on their `friction`, whose table may give the increments. The points
-/// of a case that `sweeps` stay loaded.
+/// Returns `[plasticity]` with its effect on the `motion` of the bodies and on their `friction`, whose table may give the increments. The load is
+/// not taken off the points of a case that `sweeps`.
 pub(super) fn plasticity(
     mut region: PlasticRegion,
     motion: &mut Option<MotionSpec>,
     friction: &mut Option<FrictionSpec>,
-    [gives_increments, sweeps]: [bool; 2],
+    gives_increments: bool,
+    sweeps: bool,
 ) -> PlasticRegion {
     let at_rest = motion.is_none();
     let increments = region.increments.unwrap_or(INCREMENTS);

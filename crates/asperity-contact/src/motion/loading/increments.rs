@@ -62,10 +62,9 @@ impl Course for Increments {
     fn report<'a>(&'a self, state: &'a LoadingState) -> Step<'a> {
         let changed = state.changed.as_ref().filter(|_| !state.next.begins_stage());
         let represented = changed.and_then(|changed| Some(changed.last.as_ref()?.extrapolation.passes));
-        let left = state.next.left(&self.loading.stages, represented.unwrap_or(1));
+        let left = state.next.left(&self.loading.stages, represented.unwrap_or(1)) + self.unloading_steps();
         let record = state.increments.last().expect("the increment just done");
         let number = state.increments.len();
-        let left = left + self.unloading_steps();
         let yields = matches!(self.loading.response, Response::Yielding(_));
         let is_loading = self.loaded.is_none();
         Step {
@@ -202,15 +201,15 @@ impl Increments {
         let interface = InterfaceRecord::of(pair.interface(), contact.normal(), before);
         let area = pair.cell_area();
         let stage = &stages[next.stage];
-        let (mut represented, mut gone) = (1, None);
+        let (mut represented, mut gone) = (1, Vec::new());
         if let (Some(changes), Some(changed)) = (&mut self.changes, &mut changed) {
             if next.begins_stage() {
                 (changed.last, changed.computed) = (None, 0);
             }
             let before = last.as_ref().and_then(Equilibrium::frictional);
             changed.work += dissipation;
+            let period = stage.cycles.and_then(|cycles| cycles.period).unwrap_or(f64::NAN);
             if next.step > 0 {
-                let period = stage.cycles.and_then(|cycles| cycles.period).unwrap_or(f64::NAN);
                 if let Some(now) = contact.frictional() {
                     changes.add(changed, now, before, if share > 0.0 { share * period } else { 0.0 });
                 }
@@ -220,7 +219,7 @@ impl Increments {
                 Some(cycles) => {
                     changes.see(changed, &contact, last.as_ref().filter(|_| next.step > 0));
                     if next.ends_cycle(stages) {
-                        changes.warm(changed, contact.normal(), cycles.period)?;
+                        changes.warm(changed, contact.normal(), period)?;
                         let volumes = match &mut *response {
                             Response::Yielding(yielding) if changes.remembers() => yielding.volumes(),
                             _ => Vec::new(),
@@ -239,26 +238,21 @@ impl Increments {
                             Control::Approach(_) => Control::Approach(now.approach),
                         };
                         let cycles = [next.cycles, left];
-                        let (stands_for, depth) =
+                        (represented, gone) =
                             changes.act_for_cycles(changed, now, (&gap, control), cycles)?;
-                        (represented, gone) = (stands_for, Some(depth));
                     }
                 }
-                None => gone = Some(changes.act_once(changed)?),
+                None => gone = changes.act_once(changed)?,
             }
-            if let (Response::Yielding(yielding), Some(gone)) = (response, gone) {
-                yielding.uncover(&gone);
+            if let Response::Yielding(yielding) = response {
+                gone.iter().for_each(|depth| yielding.uncover(depth));
             }
         }
         let removes = self.changes.as_ref().is_some_and(Changes::remove);
         let following = next.after(stages, represented, removes);
-        let fretting =
-            self.changes.as_ref().zip(changed.as_ref()).map(|(changes, changed)| changes.record(changed));
-        let heat = self
-            .changes
-            .as_ref()
-            .zip(changed.as_ref())
-            .and_then(|(changes, changed)| changes.heat_record(changed));
+        let both = self.changes.as_ref().zip(changed.as_ref());
+        let fretting = both.map(|(changes, changed)| changes.record(changed));
+        let heat = both.and_then(|(changes, changed)| changes.heat_record(changed));
         let creep = memory.as_ref().map(|_| {
             let before = increments.last().and_then(|last| last.creep).unwrap_or_default();
             CreepRecord { time: before.time + duration }

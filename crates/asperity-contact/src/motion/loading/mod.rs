@@ -230,13 +230,17 @@ impl StagedLoading {
     /// Prepares the bodies for the laws that change them and for the memories of their cycles; `None` without any.
     fn changes(&mut self) -> Result<Option<Changes>> {
         let (laws, memories) = (std::mem::take(&mut self.laws), std::mem::take(&mut self.memories));
-        if laws.is_empty() && memories.is_empty() {
+        if laws.is_empty() && memories.is_empty() && self.thermal.is_none() {
             return Ok(None);
         }
-        if !laws.is_empty() && !self.response.sticks() {
+        if (!laws.is_empty() || self.thermal.is_some()) && !self.response.sticks() {
             return Err(Error::Unsupported(
-                "laws change the bodies of a loading by slip, which needs friction",
+                "laws change the bodies of a loading, and heat warms them, by slip, which needs friction",
             ));
+        }
+        let mut cycles = self.stages.iter().filter_map(|stage| stage.cycles);
+        if self.thermal.is_some() && cycles.any(|cycles| cycles.period.is_none()) {
+            return Err(Error::Unsupported("a flash temperature in cycles needs the period of a cycle"));
         }
         let remembers = self.pair.creep().is_some() || matches!(self.response, Response::Yielding(_));
         if remembers && self.acceleration.max_jump > 1 {

@@ -143,7 +143,7 @@ impl Simulation {
         let jumps = self.changes.acceleration.max_jump > 1;
         let is_simple = laws.is_empty() && self.changes.heat.is_none() && !jumps;
         if let Some(taken) = pass.taken.take() {
-            self.warm(pass, steps, &position_data);
+            self.add_heat(pass, steps, &position_data);
             worn_away::check_cells(&pass.pair, laws)?;
             self.remember(pass, 1, law::uncovered(laws, &taken));
             let running = (!is_simple).then(|| self.running(pass, steps, &taken, Extrapolation::ONE));
@@ -161,7 +161,7 @@ impl Simulation {
         for (contact, temperature) in pass.contacts.iter_mut().zip(warm) {
             contact.temperature = Some(temperature);
         }
-        self.warm(pass, steps, &position_data);
+        self.add_heat(pass, steps, &position_data);
         let repeated = sums.split_off(once);
         let mut lost = std::mem::take(&mut pass.lost);
         law::advance(flow, &mut pass.pair, &sums, 1.0, &self.interiors, &mut lost[..once]);
@@ -186,11 +186,7 @@ impl Simulation {
             law::advance(laws, &mut pass.pair, mean, passes as f64, &self.interiors, &mut lost[once..]);
         pass.lost = lost;
         worn_away::check_cells(&pass.pair, laws)?;
-        let worn = law::uncovered(laws, &taken);
-        if let Some(worn) = &worn {
-            self.uncover(pass, worn);
-        }
-        self.remember(pass, passes, worn);
+        self.remember(pass, passes, law::uncovered(laws, &taken));
         let running = self.running(pass, steps, &taken, extrapolation);
         let extrapolation = jumps.then_some(LastExtrapolation { passes, sums: repeated });
         Ok((Some(running), extrapolation))
@@ -204,7 +200,7 @@ impl Simulation {
     }
 
     /// Adds the heat of friction at each position to the `steps`, and to the bodies the temperature for passes without their own computation.
-    fn warm(&self, pass: &mut Pass, steps: &mut [StepRecord], position_data: &PositionData) {
+    fn add_heat(&self, pass: &mut Pass, steps: &mut [StepRecord], position_data: &PositionData) {
         let Some(heat) = &self.changes.heat else { return };
         let PositionData { distance, time, bulk, .. } = *position_data;
         for (step, contact) in steps.iter_mut().zip(&pass.contacts) {
@@ -251,10 +247,13 @@ impl Simulation {
         }
     }
 
-    /// Lets the memories go on by a number of passes in which laws that uncover material have taken the depth `worn` from both bodies, `None`
-    /// without such laws.
-    pub(super) fn remember(&self, pass: &mut Pass, passes: usize, worn: Option<[Field; 2]>) {
-        let memories = &self.changes.memories;
+    /// Lets plastic strain and the memories go on by a number of passes in which laws that uncover material have taken the depth `worn` from both
+    /// bodies, `None` without such laws.
+    fn remember(&self, pass: &mut Pass, passes: usize, worn: Option<[Field; 2]>) {
+        if let Some(worn) = &worn {
+            self.uncover(pass, worn);
+        }
+        let (memories, worn) = (&self.changes.memories, worn.as_ref());
         for (lost, depth) in memory::advance(memories, &mut pass.pair, passes as f64, worn, &self.interiors) {
             pass.lost.push(lost);
             self.uncover(pass, &depth);
