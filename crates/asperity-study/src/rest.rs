@@ -262,6 +262,7 @@ impl StaticProblem<'_> {
         let warnings = [
             broken,
             review::loaded(&contact, self.boundary()),
+            review::flash_in_cycles(self.case, &contact, self.boundary()).into_iter().collect(),
             review::elasto_plastic(self.case, &self.pair, &contact),
             of_increments,
             self.review(contact.solution.normal()),

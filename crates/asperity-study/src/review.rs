@@ -100,6 +100,30 @@ fn moves_on(contact: &LoadedContact, boundary: Boundary) -> Option<String> {
     })
 }
 
+/// Warns of cycles in which a warm contact has time to cool, because their temperature is that of their mean heat.
+pub(super) fn flash_in_cycles(case: &Case, contact: &LoadedContact, boundary: Boundary) -> Option<String> {
+    /// Largest rise that needs no warning, K.
+    const SMALL: f64 = 10.0;
+    let heat = contact.changed.as_ref()?.heat.as_ref()?;
+    let normal = contact.solution.normal();
+    let [x, y] = normal.grid.pitch;
+    let radius = 0.5 * spot(&normal.pressure, boundary) as f64 * x.min(y);
+    let bodies = [&case.lower, &case.upper].into_iter().filter_map(|body| body.thermal);
+    let slowest = bodies.map(|thermal| thermal.diffusivity()).fold(f64::INFINITY, f64::min);
+    let crosses = radius * radius / slowest;
+    let period = case.history.iter().filter_map(|stage| stage.period).fold(0.0, f64::max);
+    let bulk = case.temperature?.bulk;
+    let rise = heat.temperature.iter().copied().fold(0.0, f64::max) - bulk[0].max(bulk[1]);
+    (radius > 0.0 && period > crosses && rise > SMALL).then(|| {
+        format!(
+            "heat crosses the largest spot of contact in {}, and a cycle takes {}: the temperature follows the slip within the cycle, and \
+             while the bodies slip fast it rises above that of the mean heat, which the films see",
+            units::format(crosses, Dimension::Time),
+            units::format(period, Dimension::Time)
+        )
+    })
+}
+
 /// Warns of an inaccurate frictional energy.
 fn inaccurate(error: Joule, shear: &ShearRecord) -> Option<String> {
     /// Relative uncertainty of the dissipation that needs no warning.

@@ -211,3 +211,25 @@ fn cycles_on_surfaces_that_have_yielded_wear_as_their_ways_one_by_one() {
     let difference = (one - other).iter().fold(0.0, |most: f64, d| most.max(d.abs()));
     assert!(deepest > 0.0 && difference < 1e-6 * deepest, "{}", difference / deepest);
 }
+
+#[test]
+fn cycles_that_are_slow_for_the_heat_of_a_warm_spot_say_so() {
+    let heat =
+        "conductivity = \"15 W/(m K)\", heat_capacity = \"460 J/(kg K)\", density = \"7850 kg/m3\", young";
+    let of = |displacement: &str, period: &str| {
+        let there = format!("displacement = \"{displacement}\"");
+        let back = format!("displacement = \"-{displacement}\"\ncycles = 1\nperiod = \"{period}\"");
+        let text = ball(&there, &back, "1e-9 mm3/(N m)").replace("young", heat);
+        let text = text.replace("\nfriction =", "\ntemperature = { bulk = \"20 °C\" }\nfriction =");
+        let result = solved(&text);
+        let last = result.increments.last().unwrap().heat.unwrap().max_flash_temperature;
+        (
+            last - 293.15,
+            result.warnings.iter().any(|warning| warning.contains("follows the slip within the cycle")),
+        )
+    };
+    let (slow, fast, cool) = (of("10 um", "1.5 ms"), of("10 um", "150 us"), of("10 um", "1 s"));
+    assert!(slow.0 > 10.0 && slow.1, "{slow:?}");
+    assert!((fast.0 / slow.0 - 10.0).abs() < 1e-6 && !fast.1, "{fast:?}");
+    assert!(cool.0 < 10.0 && !cool.1, "{cool:?}");
+}
