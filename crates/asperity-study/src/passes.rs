@@ -231,7 +231,8 @@ fn simulation(
     look: Option<usize>,
 ) -> Result<Simulation> {
     let simulation = Simulation::new(pair, case.contact.boundary, motion, params(case))?;
-    let simulation = case.running(simulation.with_rim(case.output.rim)?, params(case))?;
+    let changes = case.changes(simulation.pair(), params(case))?;
+    let simulation = simulation.with_rim(case.output.rim)?.with_changes(changes)?;
     let simulation = match &case.plasticity {
         None => simulation,
         Some(spec) => {

@@ -195,8 +195,8 @@ impl StaticProblem<'_> {
                 )?
             }
         };
-        let loading = case.fretting(loading, self.params)?;
-        let contact = loading.run(left, self.watch, outputs)?;
+        let changes = case.changes(loading.pair(), self.params)?;
+        let contact = loading.with_changes(changes).run(left, self.watch, outputs)?;
         self.loaded(contact, limits.all()).seen_by(case, observers)
     }
 
@@ -242,8 +242,9 @@ impl StaticProblem<'_> {
         let last = done.last().map(|last| last.update);
         let (mut observers, mut limits) = (self.observers(last)?, self.limits(last)?);
         let from = left.as_ref().map_or(&self.pair, |left| &left.pair).clone();
+        let changes = case.changes(&from, self.params)?;
         let contact =
-            self.case.running_in_place(SlidingContact::new(from, self.boundary(), slide, self.params)?)?;
+            SlidingContact::new(from, self.boundary(), slide, self.params)?.with_changes(changes)?;
         let state = left.map(|left| left.resumed(&contact));
         let worn = contact.run(state, self.watch, &mut outputs(&mut observers, &mut limits, &mut kept))?;
         let (record, updates) = (worn.record.clone(), worn.state.updates.clone());

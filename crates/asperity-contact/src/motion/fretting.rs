@@ -7,11 +7,12 @@
 
 use crate::error::Result;
 use crate::grid::{CellValues, Field};
+use crate::motion::changes::{Changes, FrictionalHeat};
 use crate::motion::cycle_heat::{CycleHeat, CyclicTemperature};
-use crate::motion::extrapolation::{self, Acceleration, Bounds, GridCompliance, LastExtrapolation};
+use crate::motion::extrapolation::{self, Bounds, GridCompliance, LastExtrapolation};
 use crate::motion::kinematics::Strategy;
 use crate::motion::law::{self, CyclicSlip, Law, Sums};
-use crate::motion::memory::{self, LoadCycle, Memory};
+use crate::motion::memory::LoadCycle;
 use crate::motion::pair::Pair;
 use crate::motion::plastic_volume::PlasticVolume;
 use crate::motion::record::{FrettingRecord, HeatRecord, LawsInCycles};
@@ -20,15 +21,11 @@ use crate::motion::worn_away;
 use crate::operator::{Boundary, Compliant, Operator, Operators};
 use crate::solver::{Before, Control, Equilibrium, FrictionalSolution, NormalProblem, Params, Solution};
 use crate::subsurface::Tractions;
-use crate::temperature::Thermal;
-use crate::units::{Joule, Kelvin, Metre, Second};
+use crate::units::{Joule, Metre, Second};
 
-/// Laws that change the bodies of a loading, and memories of its cycles.
-pub(super) struct Changes {
-    laws: Vec<Box<dyn Law>>,
-    memories: Vec<Box<dyn Memory>>,
-    acceleration: Acceleration,
-    bulk: [Kelvin; 2],
+/// What slip does to the bodies of a loading.
+pub(super) struct Fretting {
+    changes: Changes,
     heat: Option<CyclicTemperature>,
     interiors: [Interior; 2],
     operator: Box<dyn Operator>,
@@ -72,26 +69,20 @@ pub struct LastCycle {
     pub work: Joule,
 }
 
-impl Changes {
+impl Fretting {
     pub(super) fn new(
         pair: &mut Pair,
-        mut laws: Vec<Box<dyn Law>>,
-        memories: Vec<Box<dyn Memory>>,
-        acceleration: Acceleration,
-        (bulk, thermal): ([Kelvin; 2], Option<[Thermal; 2]>),
+        mut changes: Changes,
         (operators, boundary, params): (&Operators, Boundary, Params),
     ) -> Result<Self> {
-        laws.iter_mut().for_each(|law| law.prepare(pair));
-        memories.iter().for_each(|memory| memory.prepare(pair));
+        changes.prepare(pair)?;
         let (grid, shape) = (pair.lower_grid(), pair.lower_grid().shape);
-        let heat =
-            thermal.map(|thermal| CyclicTemperature::new(grid, thermal, boundary, bulk)).transpose()?;
+        let heat = changes.heated(true)?.map(|FrictionalHeat { thermal, .. }| {
+            CyclicTemperature::new(grid, thermal, boundary, changes.bulk)
+        });
         Ok(Self {
-            heat,
-            laws,
-            memories,
-            acceleration: acceleration.checked()?,
-            bulk,
+            heat: heat.transpose()?,
+            changes,
             interiors: Interior::of_bodies([shape; 2], boundary, Strategy::Overlap, 0.0),
             operator: operators.on(shape),
             compliance: GridCompliance::of(pair, boundary),
@@ -101,7 +92,7 @@ impl Changes {
 
     /// The bodies before the first increment.
     pub(super) fn begin(&self, pair: Pair) -> ChangedBodies {
-        let sums = law::nothing(&self.laws, &pair);
+        let sums = law::nothing(&self.changes.laws, &pair);
         let heat = self.heat.as_ref().map(|_| CycleHeat::nothing(&pair.lower_grid()));
         ChangedBodies {
             heat,
@@ -117,14 +108,14 @@ impl Changes {
         }
     }
 
-    /// Whether the heights of the bodies change.
-    pub(super) fn remove(&self) -> bool {
-        !self.laws.is_empty() || self.memories.iter().any(|memory| memory.takes().is_some())
+    /// What changes the bodies.
+    pub(super) fn changes(&self) -> &Changes {
+        &self.changes
     }
 
     /// Prepares bodies that come from a file.
-    pub(super) fn resume(&mut self, bodies: &mut ChangedBodies) {
-        self.laws.iter_mut().for_each(|law| law.prepare(&mut bodies.pair));
+    pub(super) fn resume(&mut self, bodies: &mut ChangedBodies) -> Result<()> {
+        self.changes.prepare(&mut bodies.pair)
     }
 
     /// Adds an increment to the sums of the laws: its slip since the contact `before`, in this `time`.
@@ -138,9 +129,9 @@ impl Changes {
         let slip = CyclicSlip::of(contact, before);
         let temperature = match (&self.heat, &bodies.heat) {
             (Some(steady), Some(heat)) => steady.of_cells(heat, &slip.cells),
-            _ => self.bulk.map(|bulk| vec![bulk; slip.cells.len()]),
+            _ => self.changes.bulk.map(|bulk| vec![bulk; slip.cells.len()]),
         };
-        law::add_slip(&self.laws, &bodies.pair, &slip, time, &temperature, &mut bodies.sums);
+        law::add_slip(&self.changes.laws, &bodies.pair, &slip, time, &temperature, &mut bodies.sums);
         if let Some(heat) = &mut bodies.heat {
             heat.add(&slip);
         }
@@ -153,7 +144,7 @@ impl Changes {
         contact: &Equilibrium,
         before: Option<&Equilibrium>,
     ) {
-        if self.memories.is_empty() {
+        if self.changes.memories.is_empty() {
             return;
         }
         let tractions = |contact: &Equilibrium| {
@@ -195,22 +186,17 @@ impl Changes {
             plastic_volumes,
             ..LoadCycle::at_rest(&contacts)
         };
-        self.memories.iter().try_for_each(|memory| memory.look(&cycle, &mut bodies.pair))
-    }
-
-    /// Whether memories look at the cycles.
-    pub(super) fn remembers(&self) -> bool {
-        !self.memories.is_empty()
+        self.changes.look(&cycle, &mut bodies.pair)
     }
 
     /// Lets the laws act once for their sums, which begin anew. Returns the depths of the material that has gone from both bodies.
     pub(super) fn act_once(&self, bodies: &mut ChangedBodies) -> Result<Vec<[Field; 2]>> {
-        let sums = std::mem::replace(&mut bodies.sums, law::nothing(&self.laws, &bodies.pair));
+        let sums = std::mem::replace(&mut bodies.sums, law::nothing(&self.changes.laws, &bodies.pair));
         if let Some(heat) = &mut bodies.heat {
             // The heat of a stage takes no known time.
             heat.taken.fill(0.0);
         }
-        worn_away::check_losses(&bodies.pair, &law::tried(&self.laws, &bodies.pair, &sums, 1))?;
+        worn_away::check_losses(&bodies.pair, &law::tried(&self.changes.laws, &bodies.pair, &sums, 1))?;
         Ok(self.act(bodies, &sums, 1, 0))
     }
 
@@ -226,8 +212,8 @@ impl Changes {
     ) -> Result<(usize, Vec<[Field; 2]>)> {
         /// Cycles at the beginning of a stage that stand for themselves: the first one still remembers how the loading came there.
         const SETTLING: usize = 2;
-        let sums = std::mem::replace(&mut bodies.sums, law::nothing(&self.laws, &bodies.pair));
-        let one = law::tried(&self.laws, &bodies.pair, &sums, 1);
+        let sums = std::mem::replace(&mut bodies.sums, law::nothing(&self.changes.laws, &bodies.pair));
+        let one = law::tried(&self.changes.laws, &bodies.pair, &sums, 1);
         worn_away::check_losses(&bodies.pair, &one)?;
         let bounds = Bounds {
             left,
@@ -235,11 +221,11 @@ impl Changes {
             deepest: law::deepest(&one).into_iter().fold(0.0, f64::max),
             stable: f64::INFINITY,
         };
-        let most = bodies.last.as_ref().filter(|_| done >= SETTLING && self.acceleration.max_jump > 1);
-        let most = most.map_or(1, |last| self.acceleration.most(&bounds, &last.extrapolation));
-        let mut cycles = most.min(memory::most_cycles(&self.memories, &bodies.pair)).max(1);
+        let most = bodies.last.as_ref().filter(|_| done >= SETTLING && self.changes.jumps());
+        let most = most.map_or(1, |last| self.changes.acceleration.most(&bounds, &last.extrapolation));
+        let mut cycles = most.min(self.changes.most_cycles(&bodies.pair)).max(1);
         let highest = contact.pressure.iter().copied().fold(0.0, f64::max);
-        let allowed = self.acceleration.tolerance * self.compliance.single * highest;
+        let allowed = self.changes.acceleration.tolerance * self.compliance.single * highest;
         let (implicit, error) = loop {
             let of_slip = self.with_slip(bodies, &contact.pressure, &sums, cycles);
             let implicit = self.implicitly(bodies, contact, (gap, control), of_slip.clone(), cycles)?;
@@ -278,13 +264,13 @@ impl Changes {
         mut sums: Vec<Sums>,
         cycles: usize,
     ) -> Result<Vec<Sums>> {
-        if !self.laws.iter().any(|law| follows_pressure(law.as_ref())) {
+        if !self.changes.laws.iter().any(|law| follows_pressure(law.as_ref())) {
             return Ok(sums);
         }
-        let one = law::tried(&self.laws, &bodies.pair, &sums, 1);
+        let one = law::tried(&self.changes.laws, &bodies.pair, &sums, 1);
         let mut depth = Field::zeros(normal.pressure.raw_dim());
         for ([lower, upper], _) in
-            one.iter().zip(&self.laws).filter(|(_, law)| follows_pressure(law.as_ref()))
+            one.iter().zip(&self.changes.laws).filter(|(_, law)| follows_pressure(law.as_ref()))
         {
             depth += lower;
             depth += upper;
@@ -310,7 +296,9 @@ impl Changes {
         let (bounds, params) = (&normal.bounds, &self.params);
         let problem = NormalProblem { gap: &gap, bounds, control, before, params, watch: &() };
         let worn = interface.solve(&mut operator, &problem)?;
-        for (sums, _) in sums.iter_mut().zip(&self.laws).filter(|(_, law)| follows_pressure(law.as_ref())) {
+        for (sums, _) in
+            sums.iter_mut().zip(&self.changes.laws).filter(|(_, law)| follows_pressure(law.as_ref()))
+        {
             for of_body in sums.iter_mut() {
                 ndarray::Zip::from(&mut of_body[0]).and(&worn.pressure).and(&normal.pressure).for_each(
                     |sum, worn, before| {
@@ -328,7 +316,7 @@ impl Changes {
         let mut changing = sums.to_vec();
         let Some(last) = bodies.last.as_ref().filter(|_| cycles > 1) else { return changing };
         let factor = 0.5 * cycles as f64 / last.extrapolation.passes as f64;
-        let laws = self.laws.iter().zip(&mut changing).zip(&last.extrapolation.sums);
+        let laws = self.changes.laws.iter().zip(&mut changing).zip(&last.extrapolation.sums);
         for ((_, sums), then) in laws.filter(|((law, _), _)| follows_pressure(law.as_ref())) {
             for (sum, then) in sums.iter_mut().zip(then) {
                 ndarray::Zip::from(&mut sum[0]).and(&then[0]).and(&last.pressure).and(pressure).for_each(
@@ -353,7 +341,7 @@ impl Changes {
         [of_slip, implicit]: [&[Sums]; 2],
         cycles: usize,
     ) -> Metre {
-        let tried = |sums: &[Sums]| law::tried(&self.laws, &bodies.pair, sums, cycles);
+        let tried = |sums: &[Sums]| law::tried(&self.changes.laws, &bodies.pair, sums, cycles);
         let explicit = match &bodies.last {
             Some(last) => tried(&extrapolation::extrapolated(sums, &last.extrapolation, cycles)),
             None => tried(sums),
@@ -365,25 +353,22 @@ impl Changes {
     /// Lets the laws act for their `sums` over so many `times`, and the memories go on by so many `cycles`. Returns the depths of the material that
     /// has gone from both bodies, one after the other.
     fn act(&self, bodies: &mut ChangedBodies, sums: &[Sums], times: usize, cycles: usize) -> Vec<[Field; 2]> {
-        let mut lost = law::nothing_lost(&self.laws);
-        let pair = &mut bodies.pair;
-        let taken = law::advance(&self.laws, pair, sums, times as f64, &self.interiors, &mut lost);
-        let worn = law::uncovered(&self.laws, &taken);
-        let broken_out = memory::advance(&self.memories, pair, cycles as f64, worn.as_ref(), &self.interiors);
-        worn.into_iter().chain(broken_out.into_iter().map(|(_, depth)| depth)).collect()
+        let laws = &self.changes.laws;
+        let (mut lost, times) = (law::nothing_lost(laws), [times, cycles]);
+        self.changes.act(laws, &mut bodies.pair, sums, times, &self.interiors, &mut lost).gone
     }
 
     /// Describes the heat of the last computed cycle, if its temperature is requested.
     pub(super) fn heat_record(&self, bodies: &ChangedBodies) -> Option<HeatRecord> {
         let heat = bodies.heat.as_ref()?;
-        let warmest = heat.warmest().unwrap_or(self.bulk[0].max(self.bulk[1]));
+        let warmest = heat.warmest().unwrap_or(self.changes.warmer_bulk());
         Some(HeatRecord { friction_power: heat.power, max_flash_temperature: warmest })
     }
 
     /// Describes the bodies after an increment.
     pub(super) fn record(&self, bodies: &ChangedBodies) -> FrettingRecord {
         let mut columns = LawsInCycles::default();
-        self.laws.iter().for_each(|law| law.record_cycles(&bodies.pair, &mut columns));
+        self.changes.laws.iter().for_each(|law| law.record_cycles(&bodies.pair, &mut columns));
         FrettingRecord::new(bodies.cycles, columns, bodies.work, bodies.error)
     }
 }

@@ -9,7 +9,7 @@ use super::path::{
 };
 use super::slip::SlipRegime;
 use crate::solver::{Bounds, Control, Friction, Sliding};
-use crate::units::{Kelvin, Metre, MetrePerSecond, Second};
+use crate::units::{Metre, MetrePerSecond, Second};
 
 /// How the bodies pass over each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,8 +78,6 @@ pub struct Motion {
     pub friction: Option<Friction>,
     /// Speed of the upper body over the lower one in an overlap, > 0, if known. A shift has its own speeds.
     pub speed: Option<MetrePerSecond>,
-    /// Temperatures of the lower and of the upper body, > 0, if known.
-    pub bulk: Option<[Kelvin; 2]>,
     /// Whether a pass is one forward stroke, or a forward and a return stroke.
     pub path: Path,
     /// Offset of the passes along y. An offset other than 0 needs a boundary periodic along y.
@@ -103,7 +101,6 @@ impl Motion {
             load_tolerance: 1e-4,
             friction: None,
             speed: None,
-            bulk: None,
             path: Path::OneWay,
             offset_y: OffsetY::NONE,
             pause: 0.0,
@@ -162,12 +159,6 @@ impl Motion {
     #[must_use]
     pub fn with_speed(self, speed: impl Into<Option<MetrePerSecond>>) -> Self {
         Self { speed: speed.into(), ..self }
-    }
-
-    /// Sets the temperatures of the bodies, > 0.
-    #[must_use]
-    pub fn with_bulk(self, bulk: impl Into<Option<[Kelvin; 2]>>) -> Self {
-        Self { bulk: bulk.into(), ..self }
     }
 
     /// Sets the path of a pass: one forward stroke, or a forward and a return stroke.

@@ -186,14 +186,14 @@ pub(super) struct PositionData {
 }
 
 impl PositionData {
-    /// Returns the data of a position of a `motion` of a `pair`.
-    pub(super) fn of(motion: &Motion, pair: &Pair) -> Self {
+    /// Returns the data of a position of a `motion` of a `pair` with these temperatures of its bodies.
+    pub(super) fn of(motion: &Motion, pair: &Pair, bulk: [Kelvin; 2]) -> Self {
         let (cells, pitch) = (motion.cells_of_position(pair.lower.columns()), pair.pitch()[0]);
         Self {
             sliding: motion.sliding(Stroke::Forth),
             distance: motion.sliding_distance_of(cells, pitch),
             time: motion.time_of(cells, pitch),
-            bulk: motion.bulk.unwrap_or([f64::NAN; 2]),
+            bulk,
         }
     }
 }

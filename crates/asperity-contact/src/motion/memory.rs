@@ -106,11 +106,6 @@ impl<'a> LoadCycle<'a> {
     }
 }
 
-/// Returns the largest number of cycles over which the `memories` allow a cycle to be extrapolated.
-pub(super) fn most_cycles(memories: &[Box<dyn Memory>], pair: &Pair) -> usize {
-    memories.iter().map(|memory| memory.most_cycles(pair)).fold(f64::INFINITY, f64::min) as usize
-}
-
 /// Lets the `memories` go on by so many `cycles` in which laws that uncover material have taken the depth `worn` from both bodies, `None`
 /// without such laws. Returns the volumes that the bodies lose by it, and their depths.
 pub(super) fn advance(

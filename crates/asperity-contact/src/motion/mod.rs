@@ -3,6 +3,7 @@
 mod approach;
 mod batch;
 mod body;
+mod changes;
 mod contact;
 mod control;
 mod course;
@@ -47,6 +48,7 @@ mod yielding;
 
 pub use asperity_base::record::{Column, Presence};
 pub use body::{Body, State};
+pub use changes::Changes;
 pub use contact::Contact;
 pub use control::{LoadControl, check_limit};
 pub use course::{Output, Step, StepRow};

@@ -19,7 +19,7 @@ use crate::motion::slip::SlipRegime;
 use crate::motion::watch::{Progress, Watch};
 use crate::operator::Operators;
 use crate::solver::{Control, Equilibrium, Params, Solution};
-use crate::units::Newton;
+use crate::units::{Kelvin, Newton};
 
 /// A pass at one prescribed load or approach: its contacts and the pair. The laws still have to change the pair, unless they
 /// have done so position by position.
@@ -70,6 +70,8 @@ pub(super) struct Solver<'a> {
     pub(super) laws: &'a [Box<dyn Law>],
     /// The flash temperature, with the number of computed passes before this one, if it is requested.
     pub(super) heat: Option<(&'a PassHeat, usize)>,
+    /// Temperatures of the bodies.
+    pub(super) bulk: [Kelvin; 2],
     /// Whether the gap of each position is kept.
     pub(super) gaps: &'a [bool],
     /// The last contact of the pass before, if viscoelastic bodies go on from it.
@@ -205,7 +207,7 @@ impl Solver<'_> {
         };
         let mut after = pair.clone();
         if !self.motion.is_frozen(pair.yields()) {
-            let position_data = PositionData::of(self.motion, pair);
+            let position_data = PositionData::of(self.motion, pair, self.bulk);
             let mut lost = law::nothing_lost(self.laws);
             let mut contacts = Vec::with_capacity(self.positions.len());
             let once = law::once(self.laws);

@@ -2,12 +2,13 @@
 
 use crate::error::{Error, Result, check, check_in};
 use crate::grid::{CellValues, Field};
+use crate::motion::changes::{Changes, FrictionalHeat};
 use crate::motion::contact::{Contact, facing};
 use crate::motion::control::check_limit;
 use crate::motion::course::{self, Course, Output, Step, StepRow};
 use crate::motion::creeping;
 use crate::motion::kinematics::Strategy;
-use crate::motion::law::{self, Heat, Law, PositionData, Sums};
+use crate::motion::law::{self, Heat, PositionData, Sums};
 use crate::motion::pair::{Pair, opposing_values};
 use crate::motion::path::Position;
 use crate::motion::record::{LawsInUpdate, StaticRecord, UpdateRecord};
@@ -23,7 +24,7 @@ use crate::solver::{
     ContactProblem, ContactSolver, Control, Equilibrium, Friction, Guess, InterfaceRecord, Loading, Params,
     Sliding, Solution, Stats,
 };
-use crate::temperature::{FlashStep, SteadyTemperature, Thermal};
+use crate::temperature::{FlashStep, SteadyTemperature};
 use crate::units::{Dimension, Kelvin, Metre, MetrePerSecond, Second};
 
 /// Sliding in place. The upper body slides towards +x, while the cells of the lower body stay under
@@ -39,8 +40,6 @@ pub struct Slide {
     pub friction: Option<Friction>,
     /// Speed of the upper body over the lower one, > 0, if known.
     pub speed: Option<MetrePerSecond>,
-    /// Temperatures of the lower and of the upper body, > 0, if known.
-    pub bulk: Option<[Kelvin; 2]>,
 }
 
 impl Slide {
@@ -54,7 +53,7 @@ impl Slide {
 
     /// Slides in updates that end at these distances.
     pub const fn to(ends: Vec<Metre>, control: Control) -> Self {
-        Self { ends, control, friction: None, speed: None, bulk: None }
+        Self { ends, control, friction: None, speed: None }
     }
 
     /// Sets or removes the friction.
@@ -69,27 +68,17 @@ impl Slide {
         Self { speed: speed.into(), ..self }
     }
 
-    /// Sets the temperatures of the bodies, > 0.
-    #[must_use]
-    pub fn with_bulk(self, bulk: impl Into<Option<[Kelvin; 2]>>) -> Self {
-        Self { bulk: bulk.into(), ..self }
-    }
-
     /// Direction of sliding and friction, if there is friction.
     fn sliding(&self) -> Option<Sliding> {
         self.friction.map(|friction| Sliding { friction, direction: [1.0, 0.0] })
     }
 
-    /// Returns the data of an update that laws need besides the contact; `update` is the index of the distance at its end.
-    fn position_data(&self, update: usize) -> PositionData {
+    /// Returns the data of an update that laws need besides the contact; `update` is the index of the distance at its end, and `bulk` the temperature of each
+    /// body.
+    fn position_data(&self, update: usize, bulk: [Kelvin; 2]) -> PositionData {
         let before = if update == 0 { 0.0 } else { self.ends[update - 1] };
         let distance = self.ends[update] - before;
-        PositionData {
-            sliding: self.sliding(),
-            distance,
-            time: self.time(distance),
-            bulk: self.bulk.unwrap_or([f64::NAN; 2]),
-        }
+        PositionData { sliding: self.sliding(), distance, time: self.time(distance), bulk }
     }
 
     /// Time to slide a distance; NaN if the speed is unknown.
@@ -175,7 +164,7 @@ pub struct SlidingContact {
     params: Params,
     solver: Box<dyn ContactSolver>,
     interiors: [Interior; 2],
-    laws: Vec<Box<dyn Law>>,
+    changes: Changes,
     heat: Option<SteadyTemperature>,
     pair: Pair,
 }
@@ -205,7 +194,7 @@ impl SlidingContact {
         Ok(Self {
             solver: slide.regime().solver(&pair, &operators, shape, params.device)?,
             interiors: Interior::of_bodies([shape; 2], boundary, Strategy::Overlap, 0.0),
-            laws: vec![Box::new(Truncation)],
+            changes: Changes::by(Truncation),
             heat: None,
             slide,
             boundary,
@@ -214,35 +203,26 @@ impl SlidingContact {
         })
     }
 
-    /// Adds a `law` by which updates change the bodies, after the existing laws. Plastic deformation is the first.
-    pub fn with_law(self, law: impl Law + 'static) -> Self {
-        self.with_laws(vec![Box::new(law)])
-    }
-
-    /// Adds several laws, as [`Self::with_law`] does.
-    pub fn with_laws(mut self, laws: Vec<Box<dyn Law>>) -> Self {
-        for mut law in laws {
-            law.prepare(&mut self.pair);
-            self.laws.push(law);
-        }
-        self
-    }
-
-    /// Adds frictional heating of bodies with these thermal constants, lower one first, to the steady temperature of each
-    /// update. The contact is stationary on the upper body and moves over the lower one at the sliding speed.
+    /// Sets what updates do to the bodies, besides plastic deformation, which acts first. The contact is stationary on the upper body, and its
+    /// heat moves over the lower one at the sliding speed.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] without friction, a speed or temperatures of the bodies, and the errors of
-    /// [`SteadyTemperature::new`].
-    pub fn with_heat(mut self, thermal: [Thermal; 2]) -> Result<Self> {
-        let Slide { friction: Some(_), bulk: Some(bulk), speed: Some(speed), .. } = self.slide else {
-            return Err(Error::Unsupported(
-                "a flash temperature needs friction, a speed and the temperatures of the bodies",
-            ));
-        };
+    /// [`Error::Unsupported`] for heat without friction, a speed or temperatures of the bodies, for an extrapolation and for memories of load
+    /// cycles; the errors of [`SteadyTemperature::new`].
+    pub fn with_changes(mut self, mut changes: Changes) -> Result<Self> {
+        if changes.jumps() || !changes.memories.is_empty() {
+            return Err(Error::Unsupported("sliding in place has no cycles to extrapolate or to remember"));
+        }
+        changes.prepare(&mut self.pair)?;
         let (grid, boundary) = (self.pair.lower_grid(), self.boundary);
-        self.heat = Some(SteadyTemperature::new(grid, thermal, boundary, [-speed, 0.0], bulk)?);
-        Ok(self)
+        let speed = self.slide.speed.filter(|_| self.slide.friction.is_some());
+        let heated = changes.heated(speed.is_some())?.zip(speed);
+        let steady = heated.map(|(FrictionalHeat { thermal, .. }, speed)| {
+            SteadyTemperature::new(grid, thermal, boundary, [-speed, 0.0], changes.bulk)
+        });
+        self.heat = steady.transpose()?;
+        changes.laws.insert(0, Box::new(Truncation));
+        Ok(Self { changes, ..self })
     }
 
     /// The bodies before sliding.
@@ -302,7 +282,7 @@ impl SlidingContact {
         let record = UpdateRecord {
             distance: 0.0,
             time: self.slide.time(0.0),
-            lost: law::nothing_lost(&self.laws),
+            lost: law::nothing_lost(&self.changes.laws),
             ..self.record(&state.pair, &pressed.contact, flash.as_ref())
         };
         Ok(state.after(pressed, record, 0.0))
@@ -310,8 +290,8 @@ impl SlidingContact {
 
     /// Solves the update that ends at the distance of this `index`.
     fn advance(&mut self, mut state: SlidingState, index: usize, watch: &dyn Watch) -> Result<Updated> {
-        let position_data = self.slide.position_data(index);
-        let nothing = law::nothing(&self.laws, &state.pair);
+        let position_data = self.slide.position_data(index, self.changes.bulk);
+        let nothing = law::nothing(&self.changes.laws, &state.pair);
         let mut compliance = self.compliance(&state.pair, &nothing, position_data.distance, &state.pressure);
         let (mut stats, mut solutions) = (Stats::default(), 0);
         let time = position_data.time;
@@ -343,8 +323,8 @@ impl SlidingContact {
         let before = state.updates.last().expect("the contact before it slides");
         let mut lost = before.lost.clone();
         let work = before.friction_work + contact.tangential_force.abs() * position_data.distance;
-        law::advance(&self.laws, &mut state.pair, &sums, 1.0, &self.interiors, &mut lost);
-        worn_away::check_cells(&state.pair, &self.laws)?;
+        law::advance(&self.changes.laws, &mut state.pair, &sums, 1.0, &self.interiors, &mut lost);
+        worn_away::check_cells(&state.pair, &self.changes.laws)?;
         let distance = self.slide.ends[index];
         let record = UpdateRecord {
             update: index + 1,
@@ -401,7 +381,7 @@ impl SlidingContact {
     /// sums; nothing where the attraction of the bodies pulls by this `pressure`.
     fn compliance(&self, pair: &Pair, sums: &[Sums], distance: Metre, pressure: &Field) -> CellValues {
         let friction = self.slide.friction.map_or(0.0, |friction| friction.coefficient);
-        let [lower, upper] = law::compliance(&self.laws, pair, sums, friction, distance);
+        let [lower, upper] = law::compliance(&self.changes.laws, pair, sums, friction, distance);
         let shape = pair.lower_grid().shape;
         let depths =
             opposing_values([&lower, &upper], [shape; 2], &pair.at_rest(), |lower, upper| lower + upper);
@@ -427,7 +407,7 @@ impl SlidingContact {
         let mut known =
             flash.map(|flash| |_: [&[u32]; 2], _: &Position, _: &[f64]| Ok(flash.temperature.clone()));
         let heat = known.as_mut().map(|known| known as &mut Heat);
-        Ok(law::sums(&self.laws, pair, std::slice::from_ref(contact), position_data, heat)?.0)
+        Ok(law::sums(&self.changes.laws, pair, std::slice::from_ref(contact), position_data, heat)?.0)
     }
 
     /// Returns the temperature of the cells in contact; `None` if it is not requested or nothing touches.
@@ -449,8 +429,7 @@ impl SlidingContact {
     fn record(&self, pair: &Pair, contact: &Contact, flash: Option<&FlashStep>) -> UpdateRecord {
         let cells = || contact.pressure.iter().map(|(cell, _)| *cell as usize);
         let mut laws = LawsInUpdate::default();
-        self.laws.iter().for_each(|law| law.record_update(pair, contact, &mut laws));
-        let bulk = self.slide.bulk.map_or(f64::NAN, |bulk| bulk[0].max(bulk[1]));
+        self.changes.laws.iter().for_each(|law| law.record_update(pair, contact, &mut laws));
         UpdateRecord {
             update: 0,
             distance: 0.0,
@@ -466,7 +445,7 @@ impl SlidingContact {
             laws,
             friction_power: contact.tangential_force.abs() * self.slide.speed.unwrap_or(f64::NAN),
             friction_work: 0.0,
-            max_temperature: flash.and_then(FlashStep::max_temperature).unwrap_or(bulk),
+            max_temperature: flash.and_then(FlashStep::max_temperature).unwrap_or(self.changes.warmer_bulk()),
             solutions: 1,
             iterations: contact.stats.iterations,
             convolutions: contact.stats.convolutions,

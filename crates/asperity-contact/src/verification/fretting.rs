@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::grid::{Field, Grid};
 use crate::material::Material;
 use crate::motion::{
-    Acceleration, ChangedBodies, Cycles, IncrementRecord, LoadedContact, Pair, Stage, StagedLoading,
+    Acceleration, ChangedBodies, Changes, Cycles, IncrementRecord, LoadedContact, Pair, Stage, StagedLoading,
 };
 use crate::operator::Boundary;
 use crate::reference::cattaneo::tangential_modulus;
@@ -74,8 +74,7 @@ impl Ball {
         let friction = Some(Friction::coulomb(FRICTION)?);
         let wear = Wear::new([Some(WearCoefficient::archard(coefficient)?), None], [None, None])?;
         StagedLoading::new(self.pair.clone(), Boundary::FREE, friction, stages, PARAMS)?
-            .with_law(wear)
-            .with_acceleration(acceleration)
+            .with_changes(Changes::by(wear).with_acceleration(acceleration))
             .run(None, &(), &mut [])
     }
 }

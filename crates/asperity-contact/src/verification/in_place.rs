@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::film::{Film, FilmLaw, FilmStress, Films};
 use crate::grid::{Field, Grid};
 use crate::material::Material;
-use crate::motion::{Pair, Slide, SlidingContact, SlidingOutcome, UpdateRecord};
+use crate::motion::{Changes, Pair, Slide, SlidingContact, SlidingOutcome, UpdateRecord};
 use crate::operator::{Boundary, FreeFft, Operator};
 use crate::solver::Control;
 use crate::surface::Form;
@@ -95,17 +95,19 @@ fn amplitude(updates: usize, under: Option<(WearCoefficient, &Film)>, exact: f64
     let pair = Pair::new(waves, Form::Flat.on(&grid)?, [&steel, &steel])?;
     let control = Control::Load(1.5 * PI * pair.modulus() * AMPLITUDE / LENGTH * grid.area());
     let ends = (1..=updates).map(|update| DISTANCE * update as f64 / updates as f64).collect();
-    let slide = Slide::to(ends, control).with_speed(1.0).with_bulk([373.15; 2]);
+    let slide = Slide::to(ends, control).with_speed(1.0);
     let mut contact = SlidingContact::new(pair, Boundary::PERIODIC, slide, PARAMS)?;
     contact = match under {
         None => {
             let coefficient = Some(WearCoefficient::archard(0.5 * decay()?)?);
-            contact.with_law(Wear::new([coefficient; 2], [None, None])?)
+            contact.with_changes(Changes::by(Wear::new([coefficient; 2], [None, None])?))?
         }
         Some((coefficient, film)) => {
             let films = [Some(*film), Some(*film)];
             let law = Films::new(films, contact.pair())?;
-            contact.with_law(Wear::new([Some(coefficient); 2], films)?).with_law(law)
+            contact.with_changes(
+                Changes::by(Wear::new([Some(coefficient); 2], films)?).with_law(law).with_bulk([373.15; 2]),
+            )?
         }
     };
     let worn = contact.run(None, &(), &mut [])?.state.pair;
@@ -135,7 +137,7 @@ fn flat() -> Result<Vec<Check>> {
         let coefficient = Some(WearCoefficient::archard(stiffest / 0.1)?);
         let slide = Slide::to(ends, Control::Load(mean * grid.area()));
         let contact = SlidingContact::new(pair, Boundary::FREE, slide, PARAMS)?;
-        let contact = contact.with_law(Wear::new([coefficient, None], [None, None])?);
+        let contact = contact.with_changes(Changes::by(Wear::new([coefficient, None], [None, None])?))?;
         let worn = contact.run(None, &(), &mut [])?;
         let mut shape = worn.state.pair.lower.heights.clone();
         shape -= shape.mean().unwrap_or(f64::NAN);
@@ -174,7 +176,7 @@ fn worn_ball(stations: &[usize]) -> Result<Vec<[f64; 3]>> {
     slide.ends.sort_by(f64::total_cmp);
     slide.ends.dedup_by(|one, other| (*one - *other).abs() < 1e-9);
     let contact = SlidingContact::new(pair, Boundary::FREE, slide, PARAMS)?;
-    let contact = contact.with_law(Wear::new([None, coefficient], [None, None])?);
+    let contact = contact.with_changes(Changes::by(Wear::new([None, coefficient], [None, None])?))?;
     let SlidingOutcome { state, .. } = contact.run(None, &(), &mut [])?;
     let at = |distance: &Metre| {
         let near = |update: &&UpdateRecord| (update.distance - distance).abs() < 1e-9;

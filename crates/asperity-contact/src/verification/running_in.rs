@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::film::{FILM, Film, FilmLaw, FilmStress, Films};
 use crate::grid::Grid;
 use crate::material::Material;
-use crate::motion::{Acceleration, LoadControl, Motion, Pair, Simulation, Strategy};
+use crate::motion::{Acceleration, Changes, LoadControl, Motion, Pair, Simulation, Strategy};
 use crate::operator::Boundary;
 use crate::solver::{Control, Params};
 use crate::surface::Form;
@@ -58,9 +58,9 @@ fn depth(passes: usize, jump: usize) -> Result<f64> {
     let params = Params::default().with_tolerance(1e-10);
     let acceleration =
         Acceleration::default().with_tolerance(1e6).with_max_wear(f64::INFINITY).with_max_jump(jump);
-    let mut simulation = Simulation::new(pair, Boundary::PERIODIC, motion, params)?
-        .with_law(Wear::new([coefficient; 2], [None, None])?)
-        .with_acceleration(acceleration)?;
+    let mut simulation = Simulation::new(pair, Boundary::PERIODIC, motion, params)?.with_changes(
+        Changes::by(Wear::new([coefficient; 2], [None, None])?).with_acceleration(acceleration),
+    )?;
     simulation.run(&(), &mut [])?;
     let gap = &simulation.pair().upper.heights - &simulation.pair().lower.heights;
     let part = |wave: fn(f64) -> f64| -> f64 {
@@ -95,12 +95,10 @@ fn thickness(jump: usize) -> Result<f64> {
     let motion = Motion::new(SLIDE, Control::Load(pressure * grid.area()))
         .with_passes(PASSES)
         .with_stride(8)
-        .with_load_control(LoadControl::Step)
-        .with_bulk([373.15; 2]);
+        .with_load_control(LoadControl::Step);
     let acceleration = Acceleration::default().with_tolerance(1e9).with_max_jump(jump);
     let mut simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default())?
-        .with_law(films)
-        .with_acceleration(acceleration)?;
+        .with_changes(Changes::by(films).with_bulk([373.15; 2]).with_acceleration(acceleration))?;
     simulation.run(&(), &mut [])?;
     let rate = growth / max_thickness + removal * pressure * speed;
     let time = PASSES as f64 * grid.extent()[0] / speed;

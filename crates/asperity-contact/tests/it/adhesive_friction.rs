@@ -7,7 +7,8 @@ use asperity_base::{Error, Field, Grid};
 use asperity_contact::adhesion::{Adhesion, Potential};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    Acceleration, Cycles, LoadedContact, Pair, SlipRegime, Stage, StagedLoading, load_in_stages, press,
+    Acceleration, Changes, Cycles, LoadedContact, Pair, SlipRegime, Stage, StagedLoading, load_in_stages,
+    press,
 };
 use asperity_contact::operator::{Boundary, CoupledOperator, CoupledSum};
 use asperity_contact::reference::cattaneo::tangential_modulus;
@@ -207,8 +208,7 @@ fn fretted(attraction: f64, wear: f64, cycles: usize, acceleration: Acceleration
     let law = Wear::new([Some(WearCoefficient::archard(wear).unwrap()), None], [None, None]).unwrap();
     StagedLoading::new(pair, Boundary::FREE, Some(friction()), stages, PARAMS)
         .unwrap()
-        .with_law(law)
-        .with_acceleration(acceleration)
+        .with_changes(Changes::by(law).with_acceleration(acceleration))
         .run(None, &(), &mut [])
         .unwrap()
 }

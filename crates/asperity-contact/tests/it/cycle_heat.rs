@@ -5,7 +5,9 @@ use std::sync::{Arc, Mutex};
 
 use asperity_base::{Error, Field, Grid};
 use asperity_contact::material::Material;
-use asperity_contact::motion::{ContactCells, Cycles, Law, LoadedContact, Pair, Stage, StagedLoading};
+use asperity_contact::motion::{
+    Changes, ContactCells, Cycles, Law, LoadedContact, Pair, Stage, StagedLoading,
+};
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Coupling, Friction, Loading, Params, Tangential};
 use asperity_contact::temperature::Thermal;
@@ -49,11 +51,11 @@ fn slid(cells: usize, period: Option<f64>) -> Result<(LoadedContact, Vec<f64>), 
     let stages = vec![stage(50e-6, 1), stage(-50e-6, 2).with_cycles(Some(Cycles { count: 3, period }))];
     let friction = Friction::coulomb(0.3).unwrap().with_coupling(Coupling::None);
     let seen = Arc::new(Mutex::new(Vec::new()));
+    let thermal = Thermal::new(CONDUCTIVITY, 460.0, 7850.0).unwrap();
+    let changes = Changes::by(Thermometer(seen.clone())).with_bulk([BULK; 2]).with_heat([thermal; 2], 1);
     let loading = StagedLoading::new(pair, Boundary::FREE, Some(friction), stages, Params::default())
         .unwrap()
-        .with_bulk([BULK; 2])
-        .with_heat([Thermal::new(CONDUCTIVITY, 460.0, 7850.0).unwrap(); 2])
-        .with_law(Thermometer(seen.clone()));
+        .with_changes(changes);
     let contact = loading.run(None, &(), &mut [])?;
     let seen = seen.lock().unwrap().clone();
     Ok((contact, seen))

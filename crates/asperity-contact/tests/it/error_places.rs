@@ -3,7 +3,7 @@
 use asperity_base::error::Error::{AtPass, AtPosition, AtUpdate, NotConverged};
 use asperity_base::{Error, Grid};
 use asperity_contact::material::Material;
-use asperity_contact::motion::{Motion, Pair, Simulation, Slide, SlidingContact, Strategy};
+use asperity_contact::motion::{Changes, Motion, Pair, Simulation, Slide, SlidingContact, Strategy};
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Method, Params};
 use asperity_contact::wear::{Wear, WearCoefficient};
@@ -48,7 +48,8 @@ fn a_contact_without_equilibrium_names_its_place() {
     let params = Params::default().with_max_convolutions(4);
     let wear = WearCoefficient::archard(1e-10).unwrap();
     let simulation = Simulation::new(pair(), Boundary::PERIODIC, motion, params).unwrap();
-    let simulation = simulation.with_law(Wear::new([Some(wear), None], [None, None]).unwrap());
+    let simulation =
+        simulation.with_changes(Changes::by(Wear::new([Some(wear), None], [None, None]).unwrap())).unwrap();
     let error = simulation.solve(&()).map(|_| ()).unwrap_err();
     let AtPass { pass: 1, source } = &error else { panic!("{error:?}") };
     assert!(not_converged(source), "{error:?}");

@@ -8,8 +8,8 @@ use asperity_contact::adhesion::Adhesion;
 use asperity_contact::film::{FILM, Film, FilmLaw, FilmStress, Films};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    ContactCells, Law, Output, Pair, Slide, SlidingContact, SlidingOutcome, SlidingState, SlipRegime, Stage,
-    StageTime, State, Step, load_in_stages, press,
+    Changes, ContactCells, Law, Output, Pair, Slide, SlidingContact, SlidingOutcome, SlidingState,
+    SlipRegime, Stage, StageTime, State, Step, load_in_stages, press,
 };
 use asperity_contact::operator::{
     Boundary, Compliant, CoupledSum, DirectSum, FreeFft, Operator, PeriodicFft,
@@ -253,10 +253,13 @@ fn an_update_wears_by_the_pressure_that_it_leaves() {
         // From much less to much more than the compliance of a cell.
         let k = 10.0f64.powf(draw.between(-2.0, 2.0)) * PITCH / pair.modulus() / 0.2;
         let ks = [k, 0.3 * k];
-        let slide = Slide::to(vec![0.2], Control::Load(load)).with_speed(0.1).with_bulk([300.0; 2]);
+        let slide = Slide::to(vec![0.2], Control::Load(load)).with_speed(0.1);
         let coefficient = |k: f64| Some(WearCoefficient::archard(k).unwrap().with_film(0.1 * k).unwrap());
         let wear = Wear::new(ks.map(coefficient), [Some(frozen()), Some(frozen())]).unwrap();
-        let contact = SlidingContact::new(pair, boundary, slide, EXACT).unwrap().with_law(wear);
+        let contact = SlidingContact::new(pair, boundary, slide, EXACT)
+            .unwrap()
+            .with_changes(Changes::by(wear).with_bulk([300.0; 2]))
+            .unwrap();
         let SlidingOutcome { state, solution, .. } = contact.run(None, &(), &mut []).unwrap();
         // On the bodies after the update the pressure is that of the update.
         assert!(difference(&state.pressure, &solution.pressure) < 1e-6, "case {case}");
@@ -301,8 +304,10 @@ fn an_update_under_coupled_shear_wears_by_the_pressure_that_it_leaves() {
         let worn = |friction: Friction| {
             let slide = Slide::to(vec![0.2], Control::Load(load)).with_friction(friction);
             let wear = Wear::new([Some(WearCoefficient::archard(k).unwrap()), None], [None, None]).unwrap();
-            let contact =
-                SlidingContact::new(pair.clone(), Boundary::FREE, slide, EXACT).unwrap().with_law(wear);
+            let contact = SlidingContact::new(pair.clone(), Boundary::FREE, slide, EXACT)
+                .unwrap()
+                .with_changes(Changes::by(wear))
+                .unwrap();
             contact.run(None, &(), &mut []).unwrap().state
         };
         let state = worn(friction);
@@ -341,16 +346,14 @@ fn growing() -> Film {
 /// A contact with yielding, wear proportional to the frictional energy, film growth and heating.
 fn everything(pair: Pair, updates: usize) -> SlidingContact {
     let thermal = Thermal::new(46.0, 460.0, 7850.0).unwrap();
-    let slide = Slide::graded(2.0, updates, Control::Load(0.08))
-        .with_friction(coulomb())
-        .with_speed(0.5)
-        .with_bulk([373.15; 2]);
+    let slide = Slide::graded(2.0, updates, Control::Load(0.08)).with_friction(coulomb()).with_speed(0.5);
     let films = [Some(growing()), Some(growing())];
     let coefficient = |k: f64| Some(WearCoefficient::energy(k).unwrap().with_film(0.1 * k).unwrap());
     let law = Films::new(films, &pair).unwrap();
     let contact = SlidingContact::new(pair, Boundary::FREE, slide, Params::default()).unwrap();
-    let contact = contact.with_law(Wear::new([4e-16, 2e-16].map(|k| coefficient(10.0 * k)), films).unwrap());
-    contact.with_law(law).with_heat([thermal; 2]).unwrap()
+    let wear = Wear::new([4e-16, 2e-16].map(|k| coefficient(10.0 * k)), films).unwrap();
+    let changes = Changes::by(wear).with_law(law).with_bulk([373.15; 2]).with_heat([thermal; 2], 1);
+    contact.with_changes(changes).unwrap()
 }
 
 #[test]
@@ -396,7 +399,8 @@ fn the_volume_is_archards_whatever_the_updates() {
             Wear::new([4e-15, 1e-15].map(|k| Some(WearCoefficient::archard(k).unwrap())), [None, None]);
         let contact = SlidingContact::new(pair, Boundary::FREE, slide, Params::default())
             .unwrap()
-            .with_law(wear.unwrap());
+            .with_changes(Changes::by(wear.unwrap()))
+            .unwrap();
         let state = contact.run(None, &(), &mut []).unwrap().state;
         let last = state.updates.last().unwrap();
         for (body, k) in [4e-15, 1e-15].into_iter().enumerate() {
@@ -451,7 +455,10 @@ fn at_an_approach_wear_takes_the_load_away() {
             .unwrap();
     let slide = Slide::graded(50.0, 20, Control::Approach(pressed.record.approach));
     let wear = Wear::new([Some(WearCoefficient::archard(1e-14).unwrap()), None], [None, None]).unwrap();
-    let contact = SlidingContact::new(pair, Boundary::FREE, slide, Params::default()).unwrap().with_law(wear);
+    let contact = SlidingContact::new(pair, Boundary::FREE, slide, Params::default())
+        .unwrap()
+        .with_changes(Changes::by(wear))
+        .unwrap();
     let updates = contact.run(None, &(), &mut []).unwrap().state.updates;
     assert!((updates[0].load / 0.05 - 1.0).abs() < 1e-6);
     assert!(updates.windows(2).all(|pair| pair[1].load < pair[0].load));
@@ -489,8 +496,10 @@ fn a_law_that_does_not_tell_its_coefficient_is_explicit_and_the_implicit_one_sta
         let contact = SlidingContact::new(pair, Boundary::FREE, slide, Params::default()).unwrap();
         let coefficient = Some(WearCoefficient::archard(k).unwrap());
         let contact = match implicit {
-            true => contact.with_law(Wear::new([coefficient, None], [None, None]).unwrap()),
-            false => contact.with_law(Blunt(k)),
+            true => contact
+                .with_changes(Changes::by(Wear::new([coefficient, None], [None, None]).unwrap()))
+                .unwrap(),
+            false => contact.with_changes(Changes::by(Blunt(k))).unwrap(),
         };
         contact.run(None, &(), &mut []).unwrap().state
     };
@@ -525,7 +534,8 @@ fn what_has_no_meaning_is_refused() {
     let thermal = Thermal::new(46.0, 460.0, 7850.0).unwrap();
     let cold =
         SlidingContact::new(pair(), Boundary::FREE, Slide::graded(1.0, 3, load), Params::default()).unwrap();
-    assert!(matches!(cold.with_heat([thermal; 2]), Err(Error::Unsupported(_))));
+    let changes = Changes::default().with_heat([thermal; 2], 1);
+    assert!(matches!(cold.with_changes(changes), Err(Error::Unsupported(_))));
 }
 
 /// The pressure of flat periodic bodies is uniform: f = f₀ − k p s until the film is used up, and the body wears by k(f).
@@ -545,7 +555,12 @@ fn a_solid_lubricant_is_worn_off_and_the_body_after_it() {
         let films = Films::new([Some(film), None], &pair()).unwrap();
         let slide = Slide::graded(distance, updates, Control::Load(pressure * grid.area()));
         let contact = SlidingContact::new(pair(), Boundary::PERIODIC, slide, Params::default()).unwrap();
-        let state = contact.with_law(wear).with_law(films).run(None, &(), &mut []).unwrap().state;
+        let state = contact
+            .with_changes(Changes::by(wear).with_law(films))
+            .unwrap()
+            .run(None, &(), &mut [])
+            .unwrap()
+            .state;
         let left = thickness * (1.0 - share).max(0.0);
         // ∫ f ds over the distance, for a film that is used up after its share.
         let covered = thickness * gone * if share < 1.0 { share - 0.5 * share * share } else { 0.5 };
@@ -590,7 +605,10 @@ fn attracted(attraction: f64, load: f64, distance: f64, updates: usize) -> (Slid
         Wear::new([Some(WearCoefficient::archard(ATTRACTED_WEAR).unwrap()), None], [None, None]).unwrap();
     let slide = Slide::graded(distance, updates, Control::Load(load));
     let params = Params::default().with_tolerance(1e-9);
-    let contact = SlidingContact::new(pair, Boundary::FREE, slide, params).unwrap().with_law(wear);
+    let contact = SlidingContact::new(pair, Boundary::FREE, slide, params)
+        .unwrap()
+        .with_changes(Changes::by(wear))
+        .unwrap();
     let mut kept = Pressures::default();
     let outcome = contact.run(None, &(), &mut [&mut kept]).unwrap();
     (outcome, kept.0)
@@ -645,7 +663,10 @@ fn rubber_ball(speed: f64, updates: usize, wear: f64, relaxes: bool) -> (Sliding
     let slide = Slide::graded(10e-3, updates, Control::Load(2e-3)).with_speed(speed);
     let law = Wear::new([Some(WearCoefficient::archard(wear).unwrap()), None], [None, None]).unwrap();
     let params = Params::default().with_tolerance(1e-9);
-    let contact = SlidingContact::new(pair.clone(), Boundary::FREE, slide, params).unwrap().with_law(law);
+    let contact = SlidingContact::new(pair.clone(), Boundary::FREE, slide, params)
+        .unwrap()
+        .with_changes(Changes::by(law))
+        .unwrap();
     let mut kept = Pressures::default();
     let outcome = contact.run(None, &(), &mut [&mut kept]).unwrap();
     (outcome, kept.0, pair)

@@ -3,8 +3,8 @@
 use asperity_base::{Error, Field, Grid, Result};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    Acceleration, Contact, Law, LoadControl, Motion, OffsetY, Output, Pair, PassRecord, Path, PlasticUpdate,
-    Simulation, Step, StepRecord, Strategy, Stroke,
+    Acceleration, Changes, Contact, Law, LoadControl, Motion, OffsetY, Output, Pair, PassRecord, Path,
+    PlasticUpdate, Simulation, Step, StepRecord, Strategy, Stroke,
 };
 use asperity_contact::operator::{Boundary, Edge, Operators};
 use asperity_contact::solver::{Bounds, Control, Friction, Method, Params, solve_normal};
@@ -131,7 +131,8 @@ fn surfaces_between_columns_meet_and_wear_as_by_dense_interpolation() {
         let mut kept = Kept::default();
         let mut simulation = Simulation::new(before.clone(), case.boundary, motion, params)
             .unwrap()
-            .with_law(archard(case.wear));
+            .with_changes(Changes::by(archard(case.wear)))
+            .unwrap();
         simulation.run(&(), &mut [&mut kept]).unwrap_or_else(|error| panic!("{error}: {case:?}"));
         // The positions share one round.
         let stride = columns as f64 / columns.div_ceil(case.stride) as f64;
@@ -227,7 +228,11 @@ fn grooves_along_the_sliding_wear_as_by_whole_cells() {
         let k = 1e-15 / (1.0 - speed_lower);
         let params = Params::default().with_tolerance(1e-10);
         let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, params).unwrap();
-        simulation.with_law(archard([k, 2.0 * k])).run(&(), &mut [&mut kept]).unwrap();
+        simulation
+            .with_changes(Changes::by(archard([k, 2.0 * k])))
+            .unwrap()
+            .run(&(), &mut [&mut kept])
+            .unwrap();
         kept
     };
     let whole = run(0.0);
@@ -256,7 +261,7 @@ fn two(columns: [usize; 2], materials: [&Material; 2], seed: u64) -> Pair {
 fn run(pair: Pair, boundary: Boundary, motion: Motion, wear: [f64; 2]) -> Kept {
     let mut kept = Kept::default();
     let simulation = Simulation::new(pair, boundary, motion, Params::default().with_tolerance(1e-9)).unwrap();
-    simulation.with_law(archard(wear)).run(&(), &mut [&mut kept]).unwrap();
+    simulation.with_changes(Changes::by(archard(wear))).unwrap().run(&(), &mut [&mut kept]).unwrap();
     kept
 }
 
@@ -373,7 +378,7 @@ fn jumps_are_where_passes_repeat() {
     let accelerated = |motion: Motion| {
         let simulation =
             Simulation::new(pair.clone(), Boundary::PERIODIC, motion, Params::default()).unwrap();
-        simulation.with_law(archard([1e-15; 2])).with_acceleration(Acceleration::default())
+        simulation.with_changes(Changes::by(archard([1e-15; 2])).with_acceleration(Acceleration::default()))
     };
     let refused = [motion, motion.with_path(Path::Reciprocating).with_offset_y(OffsetY::Cells(2))];
     for motion in refused {
@@ -456,7 +461,7 @@ fn a_fresh_counter_body_begins_anew_in_each_pass() {
         motion.with_passes(4),
         Params::default().with_tolerance(1e-9),
     );
-    let simulation = simulation.unwrap().with_law(archard([2e-15, 1e-15]));
+    let simulation = simulation.unwrap().with_changes(Changes::by(archard([2e-15, 1e-15]))).unwrap();
     let virgin = simulation.pair().upper.clone();
     let counter = move |pass: usize| {
         let mut body = virgin.clone();
@@ -481,7 +486,9 @@ fn a_fresh_counter_body_begins_anew_in_each_pass() {
         pair.lower = a.lower.clone();
     }
     let again = Simulation::new(pair, Boundary::FREE, motion, Params::default()).unwrap();
-    let again = again.with_law(archard([1e-15; 2])).with_acceleration(Acceleration::default()).unwrap();
+    let again = again
+        .with_changes(Changes::by(archard([1e-15; 2])).with_acceleration(Acceleration::default()))
+        .unwrap();
     assert!(matches!(again.with_counter(|_| unreachable!()), Err(Error::Unsupported(_))));
 }
 
@@ -495,12 +502,15 @@ fn a_pass_there_and_back_is_heated_without_a_break() {
             .with_control(Control::Load(0.02))
             .with_stride(1)
             .with_friction(Friction::coulomb(0.3).unwrap())
-            .with_bulk([300.0; 2])
             .with_path(path);
         let pair = two([16, 16], [&steel(f64::INFINITY); 2], 4);
         let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
         let mut kept = Kept::default();
-        simulation.with_heat([thermal; 2], 1).unwrap().run(&(), &mut [&mut kept]).unwrap();
+        simulation
+            .with_changes(Changes::default().with_bulk([300.0; 2]).with_heat([thermal; 2], 1))
+            .unwrap()
+            .run(&(), &mut [&mut kept])
+            .unwrap();
         kept.steps.iter().map(|step| step.heat.unwrap().max_flash_temperature - 300.0).collect::<Vec<_>>()
     };
     let (there, both) = (run(Path::OneWay), run(Path::Reciprocating));
@@ -517,9 +527,9 @@ fn heat_of_what_goes_round_is_not_that_of_a_free_edge() {
     let thermal = Thermal::new(46.0, 460.0, 7850.0).unwrap();
     let motion = OVERLAP
         .with_strategy(Strategy::Shift { speed_lower: 0.0, speed_upper: 2.0 })
-        .with_friction(Friction::coulomb(0.3).unwrap())
-        .with_bulk([300.0; 2]);
+        .with_friction(Friction::coulomb(0.3).unwrap());
     let pair = two([16, 16], [&steel(f64::INFINITY); 2], 4);
     let simulation = Simulation::new(pair, Boundary::FREE, motion, Params::default()).unwrap();
-    assert!(matches!(simulation.with_heat([thermal; 2], 1), Err(Error::Unsupported(_))));
+    let changes = Changes::default().with_bulk([300.0; 2]).with_heat([thermal; 2], 1);
+    assert!(matches!(simulation.with_changes(changes), Err(Error::Unsupported(_))));
 }

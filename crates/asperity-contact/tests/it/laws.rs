@@ -3,7 +3,7 @@
 use asperity_base::{Field, Grid, Result};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    Acceleration, ContactCells, Law, LoadControl, Motion, Output, Pair, PassRecord, PlasticUpdate,
+    Acceleration, Changes, ContactCells, Law, LoadControl, Motion, Output, Pair, PassRecord, PlasticUpdate,
     Simulation, State, Step, Strategy,
 };
 use asperity_contact::operator::Boundary;
@@ -83,7 +83,7 @@ fn run(hardness: f64, update: PlasticUpdate) -> Kept {
         .with_friction(None);
     let mut kept = Kept::default();
     let simulation = Simulation::new(pair(hardness), Boundary::FREE, motion, Params::default());
-    simulation.unwrap().with_law(Wear).run(&(), &mut [&mut kept]).unwrap();
+    simulation.unwrap().with_changes(Changes::by(Wear)).unwrap().run(&(), &mut [&mut kept]).unwrap();
     kept
 }
 
@@ -140,11 +140,16 @@ fn an_interrupted_motion_goes_on_with_the_state_of_its_laws() {
     }
     let mut first = Warm(Kept::default(), None);
     let begun = Simulation::new(pair(4e9), Boundary::FREE, motion(1), Params::default()).unwrap();
-    begun.with_law(Wear).run(&(), &mut [&mut first]).unwrap();
+    begun.with_changes(Changes::by(Wear)).unwrap().run(&(), &mut [&mut first]).unwrap();
     let left = first.0.pairs.pop().unwrap();
     let mut rest = Kept::default();
     let goes_on = Simulation::new(left, Boundary::FREE, motion(3), Params::default()).unwrap();
-    goes_on.with_law(Wear).resumed(1, first.1.unwrap()).run(&(), &mut [&mut rest]).unwrap();
+    goes_on
+        .with_changes(Changes::by(Wear))
+        .unwrap()
+        .resumed(1, first.1.unwrap())
+        .run(&(), &mut [&mut rest])
+        .unwrap();
     for (found, expected) in rest.pairs.iter().zip(&whole.pairs[1..]) {
         assert_eq!(found.lower, expected.lower);
         assert_eq!(found.upper, expected.upper);
@@ -207,12 +212,12 @@ fn oxidised(warmed: bool) -> (Vec<PassRecord>, Field) {
         .with_passes(1000)
         .with_stride(2)
         .with_load_control(LoadControl::Step)
-        .with_friction(Friction::coulomb(0.1).unwrap())
-        .with_bulk([400.0, 500.0]);
+        .with_friction(Friction::coulomb(0.1).unwrap());
     let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
-    let simulation = simulation.with_law(Oxidation).with_acceleration(Acceleration::default()).unwrap();
     let thermal = Thermal::new(46.0, 460.0, 7850.0).unwrap();
-    let mut simulation = if warmed { simulation.with_heat([thermal; 2], 1).unwrap() } else { simulation };
+    let changes = Changes::by(Oxidation).with_bulk([400.0, 500.0]).with_acceleration(Acceleration::default());
+    let changes = if warmed { changes.with_heat([thermal; 2], 1) } else { changes };
+    let mut simulation = simulation.with_changes(changes).unwrap();
     let mut kept = Kept::default();
     simulation.run(&(), &mut [&mut kept]).unwrap();
     let after = kept.pairs.pop().unwrap();

@@ -6,8 +6,8 @@ use asperity_base::{Field, Grid, Result};
 use asperity_contact::film::{FILM, Film, FilmLaw, FilmStress, Films};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    Acceleration, ContactCells, Law, LoadControl, Motion, Output, Pair, PassRecord, Path, Simulation, Step,
-    Strategy,
+    Acceleration, Changes, ContactCells, Law, LoadControl, Motion, Output, Pair, PassRecord, Path,
+    Simulation, Step, Strategy,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Coupling, Friction, Params};
@@ -94,7 +94,8 @@ fn grooves(passes: usize, jump: usize, exponent: f64) -> f64 {
     let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, params).unwrap();
     let acceleration =
         Acceleration::default().with_tolerance(1e6).with_max_wear(f64::INFINITY).with_max_jump(jump);
-    let kept = Kept::of(simulation.with_law(archard(k)).with_acceleration(acceleration).unwrap());
+    let kept =
+        Kept::of(simulation.with_changes(Changes::by(archard(k)).with_acceleration(acceleration)).unwrap());
     assert_eq!(kept.represented(), passes);
     let [lower, upper] = kept.heights();
     let gap = upper - lower;
@@ -135,7 +136,7 @@ fn run_in(hardness: f64, passes: usize, acceleration: Acceleration) -> Kept {
     let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(passes).with_stride(4);
     let simulation =
         Simulation::new(rough(hardness, 16), Boundary::PERIODIC, motion, Params::default()).unwrap();
-    Kept::of(simulation.with_law(archard(4e-15)).with_acceleration(acceleration).unwrap())
+    Kept::of(simulation.with_changes(Changes::by(archard(4e-15)).with_acceleration(acceleration)).unwrap())
 }
 
 #[test]
@@ -166,7 +167,7 @@ fn steadily_worn_passes_begin_where_the_last_ones_lead() {
     let motion = Motion::new(SLIDE, Control::Load(0.8)).with_passes(8).with_stride(16);
     let simulation =
         Simulation::new(rough(f64::INFINITY, 64), Boundary::PERIODIC, motion, Params::default()).unwrap();
-    let kept = Kept::of(simulation.with_law(archard(1e-15)));
+    let kept = Kept::of(simulation.with_changes(Changes::by(archard(1e-15))).unwrap());
     let convolutions: Vec<f64> = kept.passes.iter().map(|pass| pass.convolutions / 4.0).collect();
     // Two changes are known after the third pass.
     assert!(
@@ -218,12 +219,15 @@ fn flat_film(passes: usize, jump: usize, removal: f64, law: Option<FilmLaw>) -> 
     let control = Control::Load(1e9 * grid.area());
     let motion =
         Motion::new(SLIDE, control).with_passes(passes).with_stride(4).with_load_control(LoadControl::Step);
-    let motion = motion.with_bulk([373.15; 2]);
     let film = law.map_or_else(|| zddp(removal), |law| Film::new(law, 10e-9, None).unwrap());
     let films = Films::new([Some(film), None], &pair).unwrap();
     let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
     let acceleration = Acceleration::default().with_tolerance(1e9).with_max_jump(jump);
-    let kept = Kept::of(simulation.with_law(films).with_acceleration(acceleration).unwrap());
+    let kept = Kept::of(
+        simulation
+            .with_changes(Changes::by(films).with_bulk([373.15; 2]).with_acceleration(acceleration))
+            .unwrap(),
+    );
     let film = &kept.pair.as_ref().unwrap().lower.state[FILM].values;
     let mean = film.mean().unwrap();
     assert!(film.iter().all(|f| *f >= 0.0 && (f - mean).abs() <= 1e-9 * mean));
@@ -304,9 +308,9 @@ impl Law for Once {
 fn a_law_that_does_not_repeat_acts_once_in_a_jump_wherever_it_is_added() {
     let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(20).with_stride(4);
     let simulation = Simulation::new(rough(f64::INFINITY, 16), Boundary::PERIODIC, motion, Params::default());
-    let simulation = simulation.unwrap().with_law(archard(4e-15)).with_law(Once);
+    let changes = Changes::by(archard(4e-15)).with_law(Once).with_acceleration(Acceleration::default());
     // Its volume counts like plastic deformation: the wear of an extrapolation must exceed it.
-    let kept = Kept::of(simulation.with_acceleration(Acceleration::default()).unwrap());
+    let kept = Kept::of(simulation.unwrap().with_changes(changes).unwrap());
     assert_eq!(kept.represented(), 20);
     let volume = 256.0 * PITCH * PITCH * 1e-9;
     assert!(kept.passes.iter().all(|pass| (pass.lost("once")[0] / volume - 1.0).abs() < 1e-9));
@@ -328,7 +332,8 @@ fn what_is_not_accelerated_keeps_nothing_for_jumps() {
         let simulation =
             Simulation::new(rough(f64::INFINITY, 16), Boundary::PERIODIC, motion, Params::default()).unwrap();
         let mut warm = Warm(Vec::new());
-        let mut simulation = simulation.with_law(archard(4e-15)).with_acceleration(acceleration).unwrap();
+        let mut simulation =
+            simulation.with_changes(Changes::by(archard(4e-15)).with_acceleration(acceleration)).unwrap();
         simulation.run(&(), &mut [&mut warm]).unwrap();
         assert_eq!(warm.0, [keeps; 2]);
     }
@@ -358,7 +363,7 @@ fn checkerboard(wear: f64, passes: usize, by_law: bool) -> f64 {
     let params = Params::default().with_tolerance(1e-9);
     let mut simulation = Simulation::new(pair, Boundary::PERIODIC, motion, params).unwrap();
     if by_law {
-        simulation = simulation.with_law(archard(coefficient));
+        simulation = simulation.with_changes(Changes::by(archard(coefficient))).unwrap();
     }
     let mut left = f64::NAN;
     for _ in 0..passes {
@@ -388,7 +393,8 @@ fn a_custom_law_is_extrapolated_as_one_that_is_built_in() {
         let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(PASSES).with_stride(4);
         let simulation =
             Simulation::new(rough(f64::INFINITY, 16), Boundary::PERIODIC, motion, Params::default()).unwrap();
-        let mut simulation = simulation.with_acceleration(acceleration).unwrap();
+        let mut simulation =
+            simulation.with_changes(Changes::default().with_acceleration(acceleration)).unwrap();
         let mut kept = Kept::default();
         while simulation.represented() < PASSES {
             let mut pass = simulation.solve(&()).unwrap();
@@ -457,7 +463,7 @@ fn an_interrupted_run_goes_on_with_the_same_jumps() {
     let begin = |pair: Pair| {
         let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(100).with_stride(4);
         let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
-        simulation.with_law(archard(4e-15)).with_acceleration(acceleration).unwrap()
+        simulation.with_changes(Changes::by(archard(4e-15)).with_acceleration(acceleration)).unwrap()
     };
     let whole = Kept::of(begin(rough(1.5e9, 16)));
     let mut kept = Kept::default();
@@ -477,17 +483,15 @@ fn heated(speed: f64, passes: usize, every: usize) -> Kept {
 
     let friction = Friction::coulomb(0.1).unwrap().with_coupling(Coupling::None);
     let strategy = Strategy::Shift { speed_lower: 0.0, speed_upper: speed };
-    let motion = Motion::new(strategy, Control::Load(0.05))
-        .with_passes(passes)
-        .with_stride(4)
-        .with_friction(friction)
-        .with_bulk([373.15; 2]);
+    let motion =
+        Motion::new(strategy, Control::Load(0.05)).with_passes(passes).with_stride(4).with_friction(friction);
     let pair = rough(1.5e9, 16);
     let films = Films::new([Some(zddp(0.0)), None], &pair).unwrap();
-    let simulation =
-        Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap().with_law(films);
+    let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
     let steel = Thermal::new(46.0, 460.0, 7850.0).unwrap();
-    Kept::of(if every > 0 { simulation.with_heat([steel; 2], every).unwrap() } else { simulation })
+    let changes = Changes::by(films).with_bulk([373.15; 2]);
+    let changes = if every > 0 { changes.with_heat([steel; 2], every) } else { changes };
+    Kept::of(simulation.with_changes(changes).unwrap())
 }
 
 #[test]
@@ -549,7 +553,11 @@ fn a_pass_solved_with_its_wear_presses_the_bodies_that_it_leaves() {
             .with_stride(4)
             .with_speed((strategy == Strategy::Overlap).then_some(0.5));
         let begin = |pair: Pair, motion: Motion| Simulation::new(pair, boundary, motion, params).unwrap();
-        let worn = begin(pair.clone(), motion).with_law(archard(coefficient)).solve(&()).unwrap();
+        let worn = begin(pair.clone(), motion)
+            .with_changes(Changes::by(archard(coefficient)))
+            .unwrap()
+            .solve(&())
+            .unwrap();
         let load =
             worn.contacts().iter().map(|contact| contact.load).sum::<f64>() / worn.contacts().len() as f64;
         assert!((load / 0.02 - 1.0).abs() < 1e-8, "{load}");
@@ -594,8 +602,7 @@ fn a_solid_lubricant_lasts_as_long_as_its_thickness_over_k_p() {
                 .with_load_control(LoadControl::Step);
             let mut simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default())
                 .unwrap()
-                .with_law(films)
-                .with_acceleration(acceleration)
+                .with_changes(Changes::by(films).with_acceleration(acceleration))
                 .unwrap();
             simulation.run(&(), &mut []).unwrap();
             let film = &simulation.pair().lower.state[FILM].values;
@@ -634,7 +641,8 @@ fn a_round_of_a_shift_has_the_length_of_the_bodies_at_any_stride() {
                 .with_friction(friction);
         let mut simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default())
             .unwrap()
-            .with_law(archard(COEFFICIENT));
+            .with_changes(Changes::by(archard(COEFFICIENT)))
+            .unwrap();
         let mut lost = [0.0; 2];
         for pass in 1..=2 {
             let solved = simulation.solve(&()).unwrap();

@@ -4,7 +4,8 @@ use crate::support::dense::{dense, mean_compliance, relaxation};
 use asperity_base::Result;
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    LoadControl, Motion, Output, Pair, Path, Simulation, SolvedPass, Step, StepRecord, Strategy, WarmStart,
+    Changes, LoadControl, Motion, Output, Pair, Path, Simulation, SolvedPass, Step, StepRecord, Strategy,
+    WarmStart,
 };
 use asperity_contact::operator::{Boundary, Operators};
 use asperity_contact::solver::{Control, Friction, Params};
@@ -343,7 +344,10 @@ fn rubber_wears_in_passes_by_what_its_pressures_say_and_not_by_more_than_they_be
     let motion = Motion::new(ROUND, Control::Load(load)).with_passes(3).with_load_control(LoadControl::Step);
     let worn = |k: f64| {
         let wear = Wear::new([Some(WearCoefficient::archard(k).unwrap()), None], [None, None]).unwrap();
-        Simulation::new(pair.clone(), Boundary::PERIODIC, motion, FINE).unwrap().with_law(wear)
+        Simulation::new(pair.clone(), Boundary::PERIODIC, motion, FINE)
+            .unwrap()
+            .with_changes(Changes::by(wear))
+            .unwrap()
     };
     let k = 1e-12;
     let mut simulation = worn(k);

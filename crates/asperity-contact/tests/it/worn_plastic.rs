@@ -6,10 +6,10 @@ use std::sync::Arc;
 use asperity_base::{Field, Grid, Result};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    Contact, ContactCells, Cycles, Law, LoadControl, LoadedContact, Motion, Output, Pair, PassRecord,
-    PlasticPath, PlasticUpdate, PlasticVolume, Point, Simulation, SlipRegime, Stage, StagedLoading, Step,
-    StepRecord, Strategy, SweepState, YieldingBodies, load_in_stages, press_elasto_plastic,
-    sweep_elasto_plastic,
+    Changes, Contact, ContactCells, Cycles, Law, LoadControl, LoadedContact, Motion, Output, Pair,
+    PassRecord, PlasticPath, PlasticUpdate, PlasticVolume, Point, Simulation, SlipRegime, Stage,
+    StagedLoading, Step, StepRecord, Strategy, SweepState, YieldingBodies, load_in_stages,
+    press_elasto_plastic, sweep_elasto_plastic,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::plasticity::{Hardening, J2, Layers, PlasticBody, PlasticParams, Volume};
@@ -50,7 +50,6 @@ fn motion(load: f64, passes: usize) -> Motion {
     Motion::new(SLIDES, Control::Load(load))
         .with_load_control(LoadControl::Step)
         .with_friction(Friction::coulomb(0.1).unwrap())
-        .with_bulk(BULK)
         .with_passes(passes)
 }
 
@@ -142,8 +141,12 @@ fn undeformed(kept: &Kept, pass: usize) -> Field {
 #[test]
 fn the_worn_volume_is_that_of_archard_and_the_strain_stays_with_its_material() {
     const WEAR: f64 = 2e-14;
-    let kept =
-        run(yielding(simulation(pair([f64::INFINITY; 2]), motion(4.0, 3)).with_law(Archard(WEAR)), 1.5e9));
+    let kept = run(yielding(
+        simulation(pair([f64::INFINITY; 2]), motion(4.0, 3))
+            .with_changes(Changes::by(Archard(WEAR)))
+            .unwrap(),
+        1.5e9,
+    ));
     let mut before = Field::zeros(SHAPE);
     for (pass, record) in kept.passes.iter().enumerate() {
         let work: f64 = kept.contacts[pass].iter().map(|contact| contact.load * PITCH).sum();
@@ -169,7 +172,7 @@ fn the_worn_volume_is_that_of_archard_and_the_strain_stays_with_its_material() {
 fn milling_a_layer_off_brings_the_strain_up_by_a_layer_and_all_of_them_leave_a_plane() {
     let body = || simulation(pair([f64::INFINITY; 2]), motion(4.0, 1));
     let as_it_was = run(yielding(body(), 1.5e9));
-    let milled = run(yielding(body().with_law(Milling(LAYER)), 1.5e9));
+    let milled = run(yielding(body().with_changes(Changes::by(Milling(LAYER))).unwrap(), 1.5e9));
     let [was, is] = [&as_it_was, &milled].map(|kept| &kept.volumes[0][0].state);
     assert!(was.accumulated.iter().any(|strain| *strain > 0.0));
     for ((layer, component, ix, iy), now) in is.strain.indexed_iter() {
@@ -181,14 +184,19 @@ fn milling_a_layer_off_brings_the_strain_up_by_a_layer_and_all_of_them_leave_a_p
     let mut alone = flowing(1.5e9);
     alone.restore(is);
     assert!((alone.displacement() - &milled.volumes[0][0].displacement).iter().all(|d| d.abs() < 1e-18));
-    let through = run(yielding(body().with_law(Milling(10.0 * LAYER)), 1.5e9));
+    let through = run(yielding(body().with_changes(Changes::by(Milling(10.0 * LAYER))).unwrap(), 1.5e9));
     assert!(through.volumes[0][0].state.strain.iter().all(|strain| strain.abs() < 1e-15));
     assert!((&through.pairs[0].lower.heights + 10.0 * LAYER).iter().all(|height| height.abs() < 1e-15));
 }
 
 #[test]
 fn a_pass_that_removes_too_much_for_its_contacts_is_refused() {
-    let worn = yielding(simulation(pair([f64::INFINITY; 2]), motion(4.0, 1)).with_law(Archard(1e-9)), 1.5e9);
+    let worn = yielding(
+        simulation(pair([f64::INFINITY; 2]), motion(4.0, 1))
+            .with_changes(Changes::by(Archard(1e-9)))
+            .unwrap(),
+        1.5e9,
+    );
     let error = worn.solve(&()).map(|_| ()).unwrap_err().to_string();
     assert!(error.contains("removes so much from bodies that creep or yield"), "{error}");
 }
@@ -216,9 +224,13 @@ fn temperatures(pair: &Pair, contacts: &[Contact]) -> Vec<Vec<f64>> {
 
 #[test]
 fn yielding_bodies_have_the_flash_temperature_of_their_own_contacts() {
-    let flows = simulation(pair([f64::INFINITY; 2]), motion(4.0, 2)).with_heat(thermal(), 1).unwrap();
+    let flows = simulation(pair([f64::INFINITY; 2]), motion(4.0, 2))
+        .with_changes(Changes::default().with_bulk(BULK).with_heat(thermal(), 1))
+        .unwrap();
     let motion = motion(4.0, 2).with_plastic_update(PlasticUpdate::Step);
-    let flattens = simulation(pair([2.5e9, f64::INFINITY]), motion).with_heat(thermal(), 1).unwrap();
+    let flattens = simulation(pair([2.5e9, f64::INFINITY]), motion)
+        .with_changes(Changes::default().with_bulk(BULK).with_heat(thermal(), 1))
+        .unwrap();
     for warm in [yielding(flows, 1.5e9), flattens] {
         let kept = run(warm);
         for (pass, contacts) in kept.contacts.iter().enumerate() {
@@ -239,7 +251,9 @@ fn yielding_bodies_have_the_flash_temperature_of_their_own_contacts() {
 fn heat_and_wear_at_each_position_are_those_after_the_pass_where_nothing_changes() {
     let of = |update, wear: f64| {
         let simulation = simulation(pair([60e9, f64::INFINITY]), motion(4.0, 1).with_plastic_update(update));
-        run(simulation.with_law(Archard(wear)).with_heat(thermal(), 1).unwrap())
+        run(simulation
+            .with_changes(Changes::by(Archard(wear)).with_bulk(BULK).with_heat(thermal(), 1))
+            .unwrap())
     };
     let [pass, step] = [PlasticUpdate::Pass, PlasticUpdate::Step].map(|update| of(update, 1e-22));
     for (pass, step) in pass.steps.iter().zip(&step.steps) {
@@ -368,7 +382,7 @@ fn fretted(yield_stress: Option<f64>, wear: f64, cycles: usize) -> LoadedContact
             loading.with_plastic([Some(flowing(stress)), None], PlasticParams::new(), Some(3)).unwrap()
         }
     };
-    loading.with_law(Archard(wear)).run(None, &(), &mut []).unwrap()
+    loading.with_changes(Changes::by(Archard(wear))).run(None, &(), &mut []).unwrap()
 }
 
 #[test]

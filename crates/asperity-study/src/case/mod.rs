@@ -233,7 +233,6 @@ impl Case {
     pub fn motion(&self, apparent_area: SquareMetre) -> Option<Motion> {
         Some(Motion {
             friction: self.friction.as_ref().map(|friction| friction.law),
-            bulk: self.temperature.map(|temperature| temperature.bulk),
             ..self.motion?.under(self.contact.prescribed().control(apparent_area))
         })
     }

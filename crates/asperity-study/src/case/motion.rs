@@ -211,7 +211,6 @@ impl MotionSpec {
             load_tolerance: self.load_tolerance,
             friction: None,
             speed: self.speed,
-            bulk: None,
             path: self.path,
             offset_y: self.offset_y(),
             pause: self.pause,

@@ -3,65 +3,29 @@
 use super::{Body, Case};
 use asperity_base::error::Result;
 use asperity_base::units::PerPascal;
-use asperity_contact::motion::{Acceleration, Law, Memory, Pair, Simulation, SlidingContact, StagedLoading};
+use asperity_contact::motion::{Acceleration, Changes, Memory, Pair};
 use asperity_contact::solver::Params;
 use asperity_contact::temperature::Thermal;
 use asperity_contact::with::{self, BodyLaw, Capability, Given, Listed};
 use asperity_contact::{each_capability, each_law};
 
 impl Case {
-    /// Adds to a motion the laws that change its bodies, and what capabilities remember of its passes.
+    /// Returns what the contacts of a `pair` do to its bodies: the laws, what capabilities remember of load cycles, and heat.
     ///
     /// # Errors
     /// The errors of the library, and of the capabilities.
-    pub(crate) fn running(&self, simulation: Simulation, params: Params) -> Result<Simulation> {
-        let laws = self.laws(simulation.pair())?;
-        let simulation = simulation.with_laws(laws);
-        let memories = self.memories(simulation.pair(), params)?;
-        let mut simulation = memories.into_iter().fold(simulation, Simulation::with_memory);
-        if let (Some(thermal), Some(temperature)) = (self.heated(), self.temperature) {
-            simulation = simulation.with_heat(thermal, temperature.every())?;
-        }
-        match self.acceleration {
-            Some(acceleration) => simulation.with_acceleration(acceleration),
-            None => Ok(simulation),
-        }
-    }
-
-    /// Adds the same laws to a contact that slides in place.
-    ///
-    /// # Errors
-    /// The errors of the library.
-    pub(crate) fn running_in_place(&self, contact: SlidingContact) -> Result<SlidingContact> {
-        let laws = self.laws(contact.pair())?;
-        let contact = contact.with_laws(laws);
-        match self.heated() {
-            Some(thermal) => contact.with_heat(thermal),
-            None => Ok(contact),
-        }
-    }
-
-    /// Adds the same laws to a loading in stages, and what capabilities remember of its cycles.
-    ///
-    /// # Errors
-    /// The errors of the library, and of the capabilities.
-    pub(crate) fn fretting(&self, loading: StagedLoading, params: Params) -> Result<StagedLoading> {
-        let laws = self.laws(loading.pair())?;
-        let loading = loading.with_laws(laws);
-        let memories = self.memories(loading.pair(), params)?;
-        let mut loading = memories.into_iter().fold(loading, StagedLoading::with_memory);
+    pub(crate) fn changes(&self, pair: &Pair, params: Params) -> Result<Changes> {
+        let mut changes = Changes::default()
+            .with_laws(with::laws([&self.lower.laws, &self.upper.laws], pair)?)
+            .with_memories(self.memories(pair, params)?)
+            .with_acceleration(self.acceleration.unwrap_or(Acceleration::NONE));
         if let Some(temperature) = self.temperature {
-            loading = loading.with_bulk(temperature.bulk);
+            changes = changes.with_bulk(temperature.bulk);
+            if let Some(thermal) = self.heated() {
+                changes = changes.with_heat(thermal, temperature.every());
+            }
         }
-        if let Some(thermal) = self.heated() {
-            loading = loading.with_heat(thermal);
-        }
-        Ok(loading.with_acceleration(self.acceleration.unwrap_or(Acceleration::NONE)))
-    }
-
-    /// Creates the laws of the bodies of a `pair`.
-    fn laws(&self, pair: &Pair) -> Result<Vec<Box<dyn Law>>> {
-        with::laws([&self.lower.laws, &self.upper.laws], pair)
+        Ok(changes)
     }
 
     /// Returns the thermal constants of bodies heated by friction; `None` if this is not computed.
@@ -74,7 +38,7 @@ impl Case {
     ///
     /// # Errors
     /// The errors of the capabilities.
-    pub(crate) fn memories(&self, pair: &Pair, params: Params) -> Result<Vec<Box<dyn Memory>>> {
+    fn memories(&self, pair: &Pair, params: Params) -> Result<Vec<Box<dyn Memory>>> {
         let given = Given { pair, surroundings: self.surroundings(), params };
         let mut memories = Vec::new();
         each_capability!(C => if let Some(asked) = C::of(&self.with) {

@@ -32,6 +32,6 @@ impl Case {
         let control = self.contact.prescribed().control(apparent_area);
         let slide = Slide::graded(distance, updates, control).with_speed(speed);
         let friction = self.friction.as_ref().map(|friction| friction.law);
-        Some(slide.with_friction(friction).with_bulk(self.temperature.map(|temperature| temperature.bulk)))
+        Some(slide.with_friction(friction))
     }
 }

@@ -8,7 +8,7 @@ use asperity_base::error::Error::{AtPass, AtUpdate, NotFinite};
 use asperity_base::grid::{Field, Grid};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    ContactCells, Law, LoadControl, Motion, Pair, Simulation, Slide, SlidingContact, State, Strategy,
+    Changes, ContactCells, Law, LoadControl, Motion, Pair, Simulation, Slide, SlidingContact, State, Strategy,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Params};
@@ -81,7 +81,7 @@ fn no_pass_and_no_update_that_is_no_number_is_handed_on() {
             .with_stride(4)
             .with_load_control(LoadControl::Step);
         let simulation = Simulation::new(ball(), Boundary::FREE, motion, Params::default()).unwrap();
-        let mut simulation = simulation.with_law(law(2));
+        let mut simulation = simulation.with_changes(Changes::by(law(2))).unwrap();
         let error = simulation.run(&(), &mut []).unwrap_err();
         let AtPass { pass: 2, source } = &error else { panic!("{error:?}") };
         let NotFinite { field: found, cell } = &**source else { panic!("{error:?}") };
@@ -91,7 +91,7 @@ fn no_pass_and_no_update_that_is_no_number_is_handed_on() {
 
         let slide = Slide::to(vec![1e-3, 2e-3, 3e-3], Control::Load(1e-3));
         let contact = SlidingContact::new(ball(), Boundary::FREE, slide, Params::default()).unwrap();
-        let error = contact.with_law(law(3)).run(None, &(), &mut []).unwrap_err();
+        let error = contact.with_changes(Changes::by(law(3))).unwrap().run(None, &(), &mut []).unwrap_err();
         let AtUpdate { update: 3, source } = &error else { panic!("{error:?}") };
         assert!(matches!(&**source, NotFinite { field: found, .. } if found == field), "{error:?}");
     }

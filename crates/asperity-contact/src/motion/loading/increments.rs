@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::course::{Course, Step, StepRow};
 use crate::motion::creeping;
-use crate::motion::fretting::{ChangedBodies, Changes};
+use crate::motion::fretting::{ChangedBodies, Fretting};
 use crate::motion::record::{CreepRecord, IncrementRecord};
 use crate::motion::stage::{Origin, Progress, Stage};
 use crate::motion::state::{Flattening, LoadedContact, LoadingState};
@@ -19,7 +19,7 @@ use crate::solver::{
 /// The increments of a loading, one after the other.
 pub(super) struct Increments {
     pub(super) loading: StagedLoading,
-    pub(super) changes: Option<Changes>,
+    pub(super) fretting: Option<Fretting>,
     /// State after the last increment; `None` before the first.
     pub(super) state: Option<LoadingState>,
     /// Elasto-plastic bodies under their last load, once it is reached.
@@ -131,7 +131,7 @@ impl Increments {
             }) => (Some(contact), flattening, increments, slip, dissipation_error, changed, memory),
             None => {
                 let deepest = Field::zeros(self.loading.gap.raw_dim());
-                let begun = self.changes.as_ref().map(|changes| changes.begin(self.loading.pair.clone()));
+                let begun = self.fretting.as_ref().map(|fretting| fretting.begin(self.loading.pair.clone()));
                 let pair = &self.loading.pair;
                 let memory = creeping::memory(pair);
                 (None, Flattening { kept: None, deepest }, Vec::new(), None, 0.0, begun, memory)
@@ -202,7 +202,7 @@ impl Increments {
         let area = pair.cell_area();
         let stage = &stages[next.stage];
         let (mut represented, mut gone) = (1, Vec::new());
-        if let (Some(changes), Some(changed)) = (&mut self.changes, &mut changed) {
+        if let (Some(fretting), Some(changed)) = (&mut self.fretting, &mut changed) {
             if next.begins_stage() {
                 (changed.last, changed.computed) = (None, 0);
             }
@@ -211,20 +211,22 @@ impl Increments {
             let period = stage.cycles.and_then(|cycles| cycles.period).unwrap_or(f64::NAN);
             if next.step > 0 {
                 if let Some(now) = contact.frictional() {
-                    changes.add(changed, now, before, if share > 0.0 { share * period } else { 0.0 });
+                    fretting.add(changed, now, before, if share > 0.0 { share * period } else { 0.0 });
                 }
                 changed.cycle_work += dissipation;
             }
             match stage.cycles {
                 Some(cycles) => {
-                    changes.see(changed, &contact, last.as_ref().filter(|_| next.step > 0));
+                    fretting.see(changed, &contact, last.as_ref().filter(|_| next.step > 0));
                     if next.ends_cycle(stages) {
-                        changes.warm(changed, contact.normal(), period)?;
+                        fretting.warm(changed, contact.normal(), period)?;
                         let volumes = match &mut *response {
-                            Response::Yielding(yielding) if changes.remembers() => yielding.volumes(),
+                            Response::Yielding(yielding) if !fretting.changes().memories.is_empty() => {
+                                yielding.volumes()
+                            }
                             _ => Vec::new(),
                         };
-                        changes.look(changed, &volumes, &|| watch.stop())?;
+                        fretting.look(changed, &volumes, &|| watch.stop())?;
                         let left = cycles.count - next.cycles;
                         let gap = match response {
                             Response::Elastic(_) => flattening.open(&gap),
@@ -239,20 +241,20 @@ impl Increments {
                         };
                         let cycles = [next.cycles, left];
                         (represented, gone) =
-                            changes.act_for_cycles(changed, now, (&gap, control), cycles)?;
+                            fretting.act_for_cycles(changed, now, (&gap, control), cycles)?;
                     }
                 }
-                None => gone = changes.act_once(changed)?,
+                None => gone = fretting.act_once(changed)?,
             }
             if let Response::Yielding(yielding) = response {
                 gone.iter().for_each(|depth| yielding.uncover(depth));
             }
         }
-        let removes = self.changes.as_ref().is_some_and(Changes::remove);
+        let removes = self.fretting.as_ref().is_some_and(|fretting| fretting.changes().remove());
         let following = next.after(stages, represented, removes);
-        let both = self.changes.as_ref().zip(changed.as_ref());
-        let fretting = both.map(|(changes, changed)| changes.record(changed));
-        let heat = both.and_then(|(changes, changed)| changes.heat_record(changed));
+        let both = self.fretting.as_ref().zip(changed.as_ref());
+        let changes = both.map(|(fretting, changed)| fretting.record(changed));
+        let heat = both.and_then(|(fretting, changed)| fretting.heat_record(changed));
         let creep = memory.as_ref().map(|_| {
             let before = increments.last().and_then(|last| last.creep).unwrap_or_default();
             CreepRecord { time: before.time + duration }
@@ -262,7 +264,7 @@ impl Increments {
             creep,
             stage: next.stage + 1,
             heat,
-            fretting,
+            fretting: changes,
             plastic_volume: area * flattening.total(plastic).sum(),
             dissipation,
             interface,

@@ -4,12 +4,10 @@ mod increments;
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
+use crate::motion::changes::Changes;
 use crate::motion::contact::facing;
 use crate::motion::course::{self, Output};
-use crate::motion::extrapolation::Acceleration;
-use crate::motion::fretting::Changes;
-use crate::motion::law::Law;
-use crate::motion::memory::Memory;
+use crate::motion::fretting::Fretting;
 use crate::motion::pair::Pair;
 use crate::motion::press::{shear_record, static_record};
 use crate::motion::record::{IncrementRecord, StaticRecord};
@@ -22,8 +20,6 @@ use crate::motion::yielding::Yielding;
 use crate::operator::Boundary;
 use crate::plasticity::{PlasticBody, PlasticParams};
 use crate::solver::{ContactSolver, Friction, Params};
-use crate::temperature::Thermal;
-use crate::units::Kelvin;
 
 use increments::Increments;
 
@@ -68,11 +64,7 @@ pub struct StagedLoading {
     params: Params,
     boundary: Boundary,
     stages: Vec<Stage>,
-    laws: Vec<Box<dyn Law>>,
-    memories: Vec<Box<dyn Memory>>,
-    acceleration: Acceleration,
-    bulk: [Kelvin; 2],
-    thermal: Option<[Thermal; 2]>,
+    changes: Changes,
 }
 
 /// How the bodies of a loading answer.
@@ -113,22 +105,8 @@ impl StagedLoading {
         let (operators, gap) = facing(&pair, boundary)?;
         let shape = pair.lower_grid().shape;
         let solver = SlipRegime::from(friction).solver(&pair, &operators, shape, params.device)?;
-        let (acceleration, bulk) = (Acceleration::NONE, [f64::NAN; 2]);
-        let (laws, memories) = (Vec::new(), Vec::new());
-        let (thermal, response) = (None, Response::Elastic(solver));
-        Ok(Self {
-            pair,
-            gap,
-            response,
-            params,
-            boundary,
-            stages,
-            laws,
-            memories,
-            acceleration,
-            bulk,
-            thermal,
-        })
+        let (response, changes) = (Response::Elastic(solver), Changes::default());
+        Ok(Self { pair, gap, response, params, boundary, stages, changes })
     }
 
     /// Adds plastic flow below the surfaces of the given `bodies`, lower one first, with the convergence criteria of a step. Their load is taken
@@ -153,43 +131,10 @@ impl StagedLoading {
         Ok(Self { response: Response::Yielding(Box::new(yielding)), ..self })
     }
 
-    /// Adds a `law` by which slip changes the bodies. It needs friction.
+    /// Sets what slip does to the bodies. It needs friction, and heat needs the periods of the cycles.
     #[must_use]
-    pub fn with_law(self, law: impl Law + 'static) -> Self {
-        self.with_laws(vec![Box::new(law)])
-    }
-
-    /// Adds several laws, as [`Self::with_law`] does.
-    #[must_use]
-    pub fn with_laws(mut self, laws: Vec<Box<dyn Law>>) -> Self {
-        self.laws.extend(laws);
-        self
-    }
-
-    /// Adds a `memory` of whole cycles.
-    #[must_use]
-    pub fn with_memory(mut self, memory: Box<dyn Memory>) -> Self {
-        self.memories.push(memory);
-        self
-    }
-
-    /// Lets computed cycles stand for several, within these limits.
-    #[must_use]
-    pub fn with_acceleration(self, acceleration: Acceleration) -> Self {
-        Self { acceleration, ..self }
-    }
-
-    /// Sets the temperatures of the bodies, > 0, which the growth of some films needs.
-    #[must_use]
-    pub fn with_bulk(self, bulk: [Kelvin; 2]) -> Self {
-        Self { bulk, ..self }
-    }
-
-    /// Adds frictional heating of bodies with these thermal constants, lower one first, to their cycles. Laws then see the steady temperature
-    /// by the mean heat of the last computed cycle; before there is one, that of the bodies. It needs their temperatures and the periods.
-    #[must_use]
-    pub fn with_heat(self, thermal: [Thermal; 2]) -> Self {
-        Self { thermal: Some(thermal), ..self }
+    pub fn with_changes(self, changes: Changes) -> Self {
+        Self { changes, ..self }
     }
 
     /// The bodies before the loading.
@@ -209,13 +154,13 @@ impl StagedLoading {
         outputs: &mut [&mut dyn Output],
     ) -> Result<LoadedContact> {
         let mut state = under_way;
-        let mut changes = self.changes()?;
-        if let (Some(changes), Some(changed)) =
-            (&mut changes, state.as_mut().and_then(|state| state.changed.as_mut()))
+        let mut fretting = self.fretting()?;
+        if let (Some(fretting), Some(changed)) =
+            (&mut fretting, state.as_mut().and_then(|state| state.changed.as_mut()))
         {
-            changes.resume(changed);
+            fretting.resume(changed)?;
         }
-        let mut increments = Increments { loading: self, changes, state, loaded: None };
+        let mut increments = Increments { loading: self, fretting, state, loaded: None };
         course::run(&mut increments, watch, outputs)?;
         let Increments { mut loading, state, loaded, .. } = increments;
         let state = state.ok_or(Error::Unsupported("a loading needs at least one increment"))?;
@@ -227,31 +172,31 @@ impl StagedLoading {
         })
     }
 
-    /// Prepares the bodies for the laws that change them and for the memories of their cycles; `None` without any.
-    fn changes(&mut self) -> Result<Option<Changes>> {
-        let (laws, memories) = (std::mem::take(&mut self.laws), std::mem::take(&mut self.memories));
-        if laws.is_empty() && memories.is_empty() && self.thermal.is_none() {
+    /// Prepares the bodies for what slip does to them; `None` if it does nothing.
+    fn fretting(&mut self) -> Result<Option<Fretting>> {
+        let changes = std::mem::take(&mut self.changes);
+        if changes.is_empty() {
             return Ok(None);
         }
-        if (!laws.is_empty() || self.thermal.is_some()) && !self.response.sticks() {
+        let heats = changes.heat.is_some();
+        if (!changes.laws.is_empty() || heats) && !self.response.sticks() {
             return Err(Error::Unsupported(
                 "laws change the bodies of a loading, and heat warms them, by slip, which needs friction",
             ));
         }
         let mut cycles = self.stages.iter().filter_map(|stage| stage.cycles);
-        if self.thermal.is_some() && cycles.any(|cycles| cycles.period.is_none()) {
+        if heats && cycles.any(|cycles| cycles.period.is_none()) {
             return Err(Error::Unsupported("a flash temperature in cycles needs the period of a cycle"));
         }
         let remembers = self.pair.creep().is_some() || matches!(self.response, Response::Yielding(_));
-        if remembers && self.acceleration.max_jump > 1 {
+        if remembers && changes.jumps() {
             return Err(Error::Unsupported(
                 "cycles of bodies that creep or flow below their surfaces are not extrapolated",
             ));
         }
         let (operators, _) = facing(&self.pair, self.boundary)?;
         let with = (&operators, self.boundary, self.params);
-        let heat = (self.bulk, self.thermal);
-        Changes::new(&mut self.pair, laws, memories, self.acceleration, heat, with).map(Some)
+        Fretting::new(&mut self.pair, changes, with).map(Some)
     }
 }
 

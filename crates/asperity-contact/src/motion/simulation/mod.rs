@@ -1,7 +1,6 @@
 //! The motion itself: pass after pass.
 
-mod changes; // changes of the bodies by laws
-mod memories; // memories of passes
+mod removal; // changes of the bodies after a pass
 mod search; // the approach of a pass
 mod solved; // a solved pass
 
@@ -11,14 +10,14 @@ use web_time::Instant;
 
 use crate::error::{Error, Result, check, check_in};
 use crate::motion::body::Body;
+use crate::motion::changes::{Changes, FrictionalHeat};
 use crate::motion::contact::Contact;
 use crate::motion::control::check_limit;
 use crate::motion::course::{self, Course, Output, Step};
 use crate::motion::creeping;
-use crate::motion::extrapolation::{Acceleration, GridCompliance, Removed};
+use crate::motion::extrapolation::{GridCompliance, Removed};
 use crate::motion::heat::PassHeat;
 use crate::motion::kinematics::{Motion, Strategy};
-use crate::motion::law::{Law, PositionData};
 use crate::motion::pair::Pair;
 use crate::motion::pass::{Pass, Solver};
 use crate::motion::path::{OffsetY, Position, Stroke};
@@ -26,16 +25,16 @@ use crate::motion::plastic_volume::PlasticVolume;
 use crate::motion::record::{DragRecord, RunningRecord, StepRecord};
 use crate::motion::rim::Interior;
 use crate::motion::together::memory_together;
+use crate::motion::truncation::Truncation;
 use crate::motion::volumes::Volumes;
 use crate::motion::warm_start::WarmStart;
 use crate::motion::watch::{Progress, Watch};
 use crate::operator::{Boundary, Operators};
 use crate::plasticity::{PlasticBody, PlasticParams, PlasticState};
 use crate::solver::{Control, Coupling, Device, Params};
-use crate::temperature::{FlashTemperature, Thermal};
+use crate::temperature::FlashTemperature;
 use crate::units::{Dimension, Newton};
 
-use changes::Changes;
 use solved::FinishedPass;
 pub use solved::SolvedPass;
 
@@ -53,8 +52,12 @@ pub struct Simulation {
     operators: Operators,
     boundary: Boundary,
     interiors: [Interior; 2],
-    /// Laws that change the bodies after a pass.
+    /// What a pass does to the bodies.
     changes: Changes,
+    /// Compliance of single cells; `None` if no law repeats, nothing is remembered, and passes are not extrapolated.
+    compliance_of_grid: Option<GridCompliance>,
+    /// The flash temperature over a pass, if requested.
+    heat: Option<PassHeat>,
     /// Whether the approach of a pass is found with all positions together, before they are solved one by one.
     together: bool,
     /// Source of the upper body of each pass after the first, if it differs from pass to pass.
@@ -114,7 +117,9 @@ impl Simulation {
             gaps: vec![false; positions.len()],
             boundary,
             interiors: interiors(&pair, boundary, &motion, 0.0),
-            changes: Changes::new(),
+            changes: Changes::by(Truncation),
+            compliance_of_grid: None,
+            heat: None,
             pair,
             motion,
             params,
@@ -157,8 +162,8 @@ impl Simulation {
         counter: impl Fn(usize) -> Result<Body> + Send + Sync + 'static,
     ) -> Result<Self> {
         let simulation = Self { counter: Some(Box::new(counter)), ..self };
-        let acceleration = simulation.changes.acceleration;
-        simulation.with_acceleration(acceleration)
+        simulation.check_jumps()?;
+        Ok(simulation)
     }
 
     /// Whether the next pass has the same positions and bodies as this one.
@@ -195,20 +200,56 @@ impl Simulation {
         Ok(Self { interiors: interiors(&self.pair, self.boundary, &self.motion, rim), ..self })
     }
 
-    /// Adds a `law` that changes the bodies after each pass. It acts after the existing laws, of which plastic deformation
-    /// is the first, but a law that does not repeat acts before those that do. The contacts of a pass are solved on the
+    /// Sets what each pass does to the bodies, besides plastic deformation, which acts first. The contacts of a pass are solved on the
     /// bodies before the pass or, under [`crate::motion::PlasticUpdate::Step`], before the position.
-    pub fn with_law(self, law: impl Law + 'static) -> Self {
-        self.with_laws(vec![Box::new(law)])
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`]; [`Error::Unsupported`] for an extrapolation if passes do not repeat, or if they change the bodies position by
+    /// position, and for heat without friction, a speed or temperatures of the bodies, or in a shift under a boundary that is free along x; also
+    /// the errors of [`FlashTemperature::new`].
+    pub fn with_changes(mut self, mut changes: Changes) -> Result<Self> {
+        changes.prepare(&mut self.pair)?;
+        let repeats = changes.laws.iter().any(|law| law.repeats());
+        let compliance = repeats || !changes.memories.is_empty() || changes.jumps();
+        self.compliance_of_grid = compliance.then(|| GridCompliance::of(&self.pair, self.boundary));
+        self.heat = self.heat_of(&changes)?;
+        changes.laws.insert(0, Box::new(Truncation));
+        let simulation = Self { changes, ..self };
+        simulation.check_jumps()?;
+        Ok(simulation)
     }
 
-    /// Adds several laws, as [`Self::with_law`] does.
-    pub fn with_laws(mut self, laws: Vec<Box<dyn Law>>) -> Self {
-        for mut law in laws {
-            law.prepare(&mut self.pair);
-            self.changes.add(law, || GridCompliance::of(&self.pair, self.boundary));
+    /// Returns the flash temperature of the passes, if it is requested.
+    fn heat_of(&self, changes: &Changes) -> Result<Option<PassHeat>> {
+        let cells = self.motion.stride.min(self.pair.lower.columns()) as f64;
+        let time = self.motion.time_of(cells, self.pair.pitch()[0]);
+        let heated = changes.heated(self.motion.friction.is_some() && time.is_finite())?;
+        let Some(FrictionalHeat { thermal, every }) = heated else { return Ok(None) };
+        check("every", every as f64, every > 0, "at least each computed pass")?;
+        self.pair.check_elastic()?;
+        if self.motion.strategy != Strategy::Overlap && !self.boundary.repeats(0) {
+            return Err(Error::Unsupported(
+                "a flash temperature in a shift needs a boundary that is periodic along x",
+            ));
         }
-        self
+        let grids = [&self.pair.lower_grid(), &self.pair.upper_grid()];
+        let positions = self.positions.len();
+        let flash = FlashTemperature::new(grids, thermal, self.boundary, positions, time, changes.bulk)?;
+        Ok(Some(PassHeat::new(flash, every)))
+    }
+
+    /// Checks whether passes may be extrapolated, if they are.
+    fn check_jumps(&self) -> Result<()> {
+        let refused = if !self.changes.jumps() {
+            return Ok(());
+        } else if !self.repeats() {
+            "extrapolation needs passes that repeat"
+        } else if self.changes_at_every_step() {
+            "extrapolation needs plastic deformation that is applied after each pass"
+        } else {
+            return Ok(());
+        };
+        Err(Error::Unsupported(refused))
     }
 
     /// Keeps the gap of the contact at each position whose index is `wanted` ([`Contact::gap`]), for outputs that need it.
@@ -219,30 +260,6 @@ impl Simulation {
         let gaps = self.gaps.iter_mut().enumerate();
         gaps.for_each(|(index, gap)| *gap = wanted(index) || wanted(last - index));
         self
-    }
-
-    /// Enables extrapolation of computed passes over several passes.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`], and [`Error::Unsupported`] if passes do not repeat, or if they change the bodies position by
-    /// position.
-    pub fn with_acceleration(mut self, acceleration: Acceleration) -> Result<Self> {
-        let acceleration = acceleration.checked()?;
-        if acceleration.max_jump > 1 {
-            self.changes
-                .compliance_of_grid
-                .get_or_insert_with(|| GridCompliance::of(&self.pair, self.boundary));
-            if !self.repeats() {
-                return Err(Error::Unsupported("extrapolation needs passes that repeat"));
-            }
-            if self.changes_at_every_step() {
-                return Err(Error::Unsupported(
-                    "extrapolation needs plastic deformation that is applied after each pass",
-                ));
-            }
-        }
-        self.changes.acceleration = acceleration;
-        Ok(self)
     }
 
     /// Whether the bodies change position by position.
@@ -265,7 +282,7 @@ impl Simulation {
         self.pair.interface().check_combined()?;
         self.pair.check_elastic()?;
         self.pair.check_flow(&bodies)?;
-        let refused = if self.changes.acceleration.max_jump > 1 {
+        let refused = if self.changes.jumps() {
             "elasto-plastic bodies do not support extrapolation over passes"
         } else if self.counter.is_some() && bodies[1].is_some() {
             "a fresh counter-body does not keep its plastic state"
@@ -304,35 +321,6 @@ impl Simulation {
     /// Returns the plastic state after the finished passes; empty for other than elasto-plastic bodies.
     pub fn plastic_volumes(&self) -> Vec<PlasticVolume> {
         self.volumes.as_ref().map_or(Vec::new(), Volumes::volumes)
-    }
-
-    /// Adds frictional heating of bodies with these thermal constants, lower one first. Laws then see the temperature of
-    /// the cells in contact, which begin each pass at that of the bodies. The temperature is computed in the first and in
-    /// every `every`-th computed pass, ≥ 1. In between, the cells have the mean temperature of their contacts in the last
-    /// such pass.
-    ///
-    /// # Errors
-    /// [`Error::Unsupported`] without friction, a speed or temperatures of the bodies, if the bodies change position by
-    /// position, and for a shift under a boundary that is free along x; also the errors of [`FlashTemperature::new`].
-    pub fn with_heat(mut self, thermal: [Thermal; 2], every: usize) -> Result<Self> {
-        check("every", every as f64, every > 0, "at least each computed pass")?;
-        let cells = self.motion.stride.min(self.pair.lower.columns()) as f64;
-        let time = self.motion.time_of(cells, self.pair.pitch()[0]);
-        let (Some(_), Some(bulk), true) = (self.motion.friction, self.motion.bulk, time.is_finite()) else {
-            return Err(Error::Unsupported(
-                "a flash temperature needs friction, a speed and the temperatures of the bodies",
-            ));
-        };
-        self.pair.check_elastic()?;
-        if self.motion.strategy != Strategy::Overlap && !self.boundary.repeats(0) {
-            return Err(Error::Unsupported(
-                "a flash temperature in a shift needs a boundary that is periodic along x",
-            ));
-        }
-        let grids = [&self.pair.lower_grid(), &self.pair.upper_grid()];
-        let heat = FlashTemperature::new(grids, thermal, self.boundary, self.positions.len(), time, bulk)?;
-        self.changes.heat = Some(PassHeat::new(heat, every));
-        Ok(self)
     }
 
     /// Number of finished passes of the motion, extrapolated ones included.
@@ -409,7 +397,7 @@ impl Simulation {
         let represented = self.represented() + running.map_or(1, |running: RunningRecord| running.represents);
         let interiors = self.interiors.clone();
         let wall_time = began.elapsed().as_secs_f64();
-        let distance = PositionData::of(&self.motion, &self.pair).distance * steps.len() as f64;
+        let distance = self.position_data().distance * steps.len() as f64;
         Ok(SolvedPass {
             outcome,
             hardness,
@@ -461,7 +449,7 @@ impl Simulation {
     fn finished(&self, mut pass: SolvedPass) -> FinishedPass {
         let (before, passes) = (self.warm.removed.as_ref(), self.warm.extrapolated_passes());
         if let Some(depth) = &pass.removed {
-            self.uncover(&mut pass.outcome, depth);
+            self.uncover(&mut pass.outcome, std::slice::from_ref(depth));
         }
         let removed = pass.removed.take().map(|depth| Removed::after(depth, before, passes));
         if let (Some(running), Some(removed)) = (&mut pass.running, &removed) {
@@ -500,7 +488,8 @@ impl Simulation {
             motion: &self.motion,
             interiors: &self.interiors,
             laws: &self.changes.laws,
-            heat: self.changes.heat.as_ref().map(|heat| (heat, self.passes_done)),
+            heat: self.heat.as_ref().map(|heat| (heat, self.passes_done)),
+            bulk: self.changes.bulk,
             gaps: &self.gaps,
             watch,
             progress,

@@ -1,4 +1,4 @@
-//! Changes of the bodies by the laws after a pass.
+//! Changes of the bodies after a pass: by the laws, over the passes of its extrapolation, and by what they remember.
 
 use std::ops::Range;
 
@@ -6,66 +6,14 @@ use super::Simulation;
 use crate::error::{Error, Result};
 use crate::grid::Field;
 use crate::motion::contact::Contact;
-use crate::motion::extrapolation::{
-    self, Acceleration, Bounds, Extrapolation, GridCompliance, LastExtrapolation, Removed,
-};
-use crate::motion::heat::PassHeat;
+use crate::motion::extrapolation::{self, Bounds, Extrapolation, GridCompliance, LastExtrapolation, Removed};
 use crate::motion::law::{self, Heat, Law, PositionData, Sums};
-use crate::motion::memory::{self, Memory};
+use crate::motion::memory::LoadCycle;
 use crate::motion::pass::Pass;
 use crate::motion::record::{HeatRecord, LawsInPass, RunningRecord, StepRecord};
-use crate::motion::truncation::Truncation;
 use crate::motion::watch::Watch;
 use crate::motion::worn_away;
 use crate::units::CubicMetre;
-
-/// Laws that change the bodies after a pass, and the extrapolation over passes.
-pub(super) struct Changes {
-    /// The laws, in their order.
-    pub(super) laws: Vec<Box<dyn Law>>,
-    /// The memories of passes.
-    pub(super) memories: Vec<Box<dyn Memory>>,
-    pub(super) acceleration: Acceleration,
-    /// Compliance of single cells; set once a law repeats, if there is a memory, or if passes are extrapolated.
-    pub(super) compliance_of_grid: Option<GridCompliance>,
-    /// The flash temperature over a pass, if requested.
-    pub(super) heat: Option<PassHeat>,
-}
-
-impl Changes {
-    /// Plastic deformation alone.
-    pub(super) fn new() -> Self {
-        let laws: Vec<Box<dyn Law>> = vec![Box::new(Truncation)];
-        Self {
-            laws,
-            memories: Vec::new(),
-            acceleration: Acceleration::NONE,
-            compliance_of_grid: None,
-            heat: None,
-        }
-    }
-
-    /// Adds a law.
-    pub(super) fn add(&mut self, law: Box<dyn Law>, compliance_of_grid: impl FnOnce() -> GridCompliance) {
-        if law.repeats() {
-            self.compliance_of_grid.get_or_insert_with(compliance_of_grid);
-            self.laws.push(law);
-        } else {
-            // Laws that act once per computed pass come first, because the extrapolation depends on their results.
-            self.laws.insert(law::once(&self.laws), law);
-        }
-    }
-
-    /// Adds a memory.
-    pub(super) fn remember(
-        &mut self,
-        memory: Box<dyn Memory>,
-        compliance_of_grid: impl FnOnce() -> GridCompliance,
-    ) {
-        self.compliance_of_grid.get_or_insert_with(compliance_of_grid);
-        self.memories.push(memory);
-    }
-}
 
 /// Message for a pass whose removal is beyond what can be solved with it.
 const DEEP_REMOVAL: &str = "a single pass removes more than the width of a cell from a whole body, far beyond the model: check its coefficient, \
@@ -92,10 +40,10 @@ impl Simulation {
         outcome: &mut Pass,
         watch: &dyn Watch,
     ) -> Result<Option<PassRemoval>> {
-        let Some(compliance_of_grid) = self.changes.compliance_of_grid else { return Ok(None) };
-        let position_data = PositionData::of(&self.motion, &self.pair);
+        let Some(compliance_of_grid) = self.compliance_of_grid else { return Ok(None) };
+        let position_data = self.position_data();
         let friction = self.motion.friction.map_or(0.0, |friction| friction.coefficient);
-        let laws = &self.changes.laws[law::once(&self.changes.laws)..];
+        let [_, laws] = self.changes.once_and_repeated();
         if laws.is_empty() {
             return Ok(Some(PassRemoval { compliance_of_grid, stable: f64::INFINITY, explicit: None }));
         }
@@ -137,23 +85,21 @@ impl Simulation {
         steps: &mut [StepRecord],
         removal: Option<&PassRemoval>,
     ) -> Result<(Option<RunningRecord>, Option<LastExtrapolation>)> {
-        let position_data = PositionData::of(&self.motion, &self.pair);
-        let once = law::once(&self.changes.laws);
-        let (flow, laws) = self.changes.laws.split_at(once);
-        let jumps = self.changes.acceleration.max_jump > 1;
-        let is_simple = laws.is_empty() && self.changes.heat.is_none() && !jumps;
+        let position_data = self.position_data();
+        let [flow, laws] = self.changes.once_and_repeated();
+        let jumps = self.changes.jumps();
+        let is_simple = laws.is_empty() && self.heat.is_none() && !jumps;
         if let Some(taken) = pass.taken.take() {
             self.add_heat(pass, steps, &position_data);
             worn_away::check_cells(&pass.pair, laws)?;
-            self.remember(pass, 1, law::uncovered(laws, &taken));
+            let worn = law::uncovered(laws, &taken);
+            let gone = self.changes.follow(&mut pass.pair, worn, 1, &self.interiors, &mut pass.lost);
+            self.uncover(pass, &gone);
             let running = (!is_simple).then(|| self.running(pass, steps, &taken, Extrapolation::ONE));
             return Ok((running, None));
         }
-        let mut heat = self
-            .changes
-            .heat
-            .as_ref()
-            .map(|heat| heat.of_pass(self.passes_done, &pass.pair, position_data.bulk));
+        let mut heat =
+            self.heat.as_ref().map(|heat| heat.of_pass(self.passes_done, &pass.pair, position_data.bulk));
         let step = heat.as_deref_mut().map(|heat| heat as &mut Heat);
         let (mut sums, warm) =
             law::sums(&self.changes.laws, &pass.pair, &pass.contacts, &position_data, step)?;
@@ -162,14 +108,9 @@ impl Simulation {
             contact.temperature = Some(temperature);
         }
         self.add_heat(pass, steps, &position_data);
-        let repeated = sums.split_off(once);
+        let repeated = sums.split_off(flow.len());
         let mut lost = std::mem::take(&mut pass.lost);
-        law::advance(flow, &mut pass.pair, &sums, 1.0, &self.interiors, &mut lost[..once]);
-        if is_simple {
-            pass.lost = lost;
-            self.remember(pass, 1, None);
-            return Ok((None, None));
-        }
+        law::advance(flow, &mut pass.pair, &sums, 1.0, &self.interiors, &mut lost[..flow.len()]);
         let flown = lost.iter().flat_map(|lost| lost.whole).sum();
         let mut extrapolation = match removal {
             // Implicit and explicit Euler steps have equal errors of opposite sign.
@@ -182,26 +123,46 @@ impl Simulation {
         };
         let (passes, mean) = (extrapolation.passes, extrapolation.mean.take());
         let mean = mean.as_deref().unwrap_or(&repeated);
-        let taken =
-            law::advance(laws, &mut pass.pair, mean, passes as f64, &self.interiors, &mut lost[once..]);
+        let times = [passes; 2];
+        let taken = self.changes.act(laws, &mut pass.pair, mean, times, &self.interiors, &mut lost);
         pass.lost = lost;
         worn_away::check_cells(&pass.pair, laws)?;
-        self.remember(pass, passes, law::uncovered(laws, &taken));
-        let running = self.running(pass, steps, &taken, extrapolation);
+        self.uncover(pass, &taken.gone);
+        if is_simple {
+            return Ok((None, None));
+        }
+        let running = self.running(pass, steps, &taken.by_laws, extrapolation);
         let extrapolation = jumps.then_some(LastExtrapolation { passes, sums: repeated });
         Ok((Some(running), extrapolation))
     }
 
-    /// Moves the plastic strain below the surfaces up where the depth `worn` of the material above it has gone.
-    pub(super) fn uncover(&self, pass: &mut Pass, worn: &[Field; 2]) {
+    /// Returns the data of the positions of a pass that laws need besides its contacts.
+    pub(super) fn position_data(&self) -> PositionData {
+        PositionData::of(&self.motion, &self.pair, self.changes.bulk)
+    }
+
+    /// Lets the memories look at a solved pass.
+    pub(super) fn look(&self, outcome: &mut Pass, watch: &dyn Watch) -> Result<()> {
+        let cycle = LoadCycle {
+            number: self.passes_done + 1,
+            plastic_volumes: outcome.plastic_pass.as_ref().map_or(&[], |pass| &pass.volumes),
+            extrapolated: self.warm.extrapolated_passes(),
+            stop: &|| watch.stop(),
+            ..LoadCycle::of_pass(&outcome.contacts, &self.motion)
+        };
+        self.changes.look(&cycle, &mut outcome.pair)
+    }
+
+    /// Moves the plastic strain below the surfaces up where material above it has gone, by these depths one after the other.
+    pub(super) fn uncover(&self, pass: &mut Pass, gone: &[[Field; 2]]) {
         if let (Some(volumes), Some(plastic)) = (&self.volumes, &mut pass.plastic_pass) {
-            volumes.uncover(&mut plastic.volumes, &mut pass.pair, worn);
+            gone.iter().for_each(|depth| volumes.uncover(&mut plastic.volumes, &mut pass.pair, depth));
         }
     }
 
     /// Adds the heat of friction at each position to the `steps`, and to the bodies the temperature for passes without their own computation.
     fn add_heat(&self, pass: &mut Pass, steps: &mut [StepRecord], position_data: &PositionData) {
-        let Some(heat) = &self.changes.heat else { return };
+        let Some(heat) = &self.heat else { return };
         let PositionData { distance, time, bulk, .. } = *position_data;
         for (step, contact) in steps.iter_mut().zip(&pass.contacts) {
             let warmest = contact.temperature.iter().flatten().copied().reduce(f64::max);
@@ -221,8 +182,8 @@ impl Simulation {
         taken: &[[Field; 2]],
         Extrapolation { passes, error, .. }: Extrapolation,
     ) -> RunningRecord {
-        let position_data = PositionData::of(&self.motion, &self.pair);
-        let laws = &self.changes.laws[law::once(&self.changes.laws)..];
+        let position_data = self.position_data();
+        let [_, laws] = self.changes.once_and_repeated();
         let mut of_laws = LawsInPass::default();
         laws.iter().zip(taken).for_each(|(law, taken)| law.record_pass(&pass.pair, taken, &mut of_laws));
         let positions = self.positions.len() as f64;
@@ -247,19 +208,6 @@ impl Simulation {
         }
     }
 
-    /// Lets plastic strain and the memories go on by a number of passes in which laws that uncover material have taken the depth `worn` from both
-    /// bodies, `None` without such laws.
-    fn remember(&self, pass: &mut Pass, passes: usize, worn: Option<[Field; 2]>) {
-        if let Some(worn) = &worn {
-            self.uncover(pass, worn);
-        }
-        let (memories, worn) = (&self.changes.memories, worn.as_ref());
-        for (lost, depth) in memory::advance(memories, &mut pass.pair, passes as f64, worn, &self.interiors) {
-            pass.lost.push(lost);
-            self.uncover(pass, &depth);
-        }
-    }
-
     /// Chooses the number of passes of the extrapolation from the sums of the `laws` and from the plastic volume.
     fn extrapolate(
         &self,
@@ -269,9 +217,7 @@ impl Simulation {
         flown: CubicMetre,
         removal: &PassRemoval,
     ) -> Extrapolation {
-        let Some(before) =
-            self.warm.extrapolation.as_ref().filter(|_| self.changes.acceleration.max_jump > 1)
-        else {
+        let Some(before) = self.warm.extrapolation.as_ref().filter(|_| self.changes.jumps()) else {
             return Extrapolation::ONE;
         };
         let one = law::tried(laws, &pass.pair, sums, 1);
@@ -289,12 +235,8 @@ impl Simulation {
             deepest: deepest(&one) + by_custom(&|custom| deepest(std::slice::from_ref(&custom.depth))),
             stable: custom.map_or(f64::INFINITY, |custom| custom.within(allowed)).min(removal.stable),
         };
-        let mut passes = self
-            .changes
-            .acceleration
-            .most(&bounds, before)
-            .min(memory::most_cycles(&self.changes.memories, &pass.pair))
-            .max(1);
+        let mut passes =
+            self.changes.acceleration.most(&bounds, before).min(self.changes.most_cycles(&pass.pair)).max(1);
         while passes > 1 {
             let mean = extrapolation::extrapolated(sums, before, passes);
             let error = law::difference(
