@@ -19,7 +19,7 @@ NOT_ENGLISH = {
     r"\bone's own\b": "say custom, user-defined or your own",
     r"\bwhat faces\b|\bfaces all\b": "say overlap",
     r"\b(?:foretells?|foretold)\b": "say predict or estimate",
-    r"\bthat others used\b|\bfor which there was no machine\b": "belongs to docs/notes.md",
+    r"\bthat others used\b|\bfor which there was no machine\b": "belongs to benches/NOTES.md",
     r"\bfrom there on\b": "say from here on",
     r"\bwhat has flowed\b|\bbodies (?:that|which) flow\b": "say plastic state, elasto-plastic bodies",
     r"\bat rest\b": "say static",

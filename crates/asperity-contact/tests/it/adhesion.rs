@@ -9,9 +9,7 @@ use asperity_contact::material::Material;
 use asperity_contact::motion::{Pair, Stage, load_in_stages};
 use asperity_contact::operator::{Boundary, FreeFft, Operator, PeriodicFft};
 use asperity_contact::reference::{KendallPunch, MaugisSphere};
-use asperity_contact::solver::{
-    Bounds, Control, Loading, Params, Solution, Tangential, solve_adhesive, solve_normal,
-};
+use asperity_contact::solver::{Bounds, Control, Loading, Params, Solution, solve_adhesive, solve_normal};
 use asperity_surface::{Amplitude, SelfAffine, Topography};
 
 const ELASTIC: CellValues = CellValues::Uniform(f64::INFINITY);
@@ -191,11 +189,9 @@ fn a_pair_is_pulled_until_adhesion_does_not_hold() {
     let body = Material::elastic(1.5, 0.0).unwrap();
     let pair = Pair::new(flat, tip, [&body, &body]).unwrap().with_interface(Arc::new(exponential(1.5)));
     assert!((pair.modulus() - MODULUS).abs() < 1e-12);
-    let stage = |load| {
-        Stage::new(Loading { normal: Control::Load(load), tangential: Tangential::Force([0.0; 2]) }, 1)
-    };
     let load = |loads: &[f64]| {
-        let stages: Vec<Stage> = loads.iter().map(|load| stage(*load)).collect();
+        let stage = |load: &f64| Stage::new(Loading::pressing(Control::Load(*load)), 1);
+        let stages: Vec<Stage> = loads.iter().map(stage).collect();
         load_in_stages(&pair, Boundary::FREE, None, &stages, &Params::new(), None, &(), &mut [])
     };
     let contact = load(&[0.5, 0.0, -1.0, -1.5, -1.6]).unwrap();
@@ -299,7 +295,7 @@ const ROUGH_128: [Rough; 4] = [
 ];
 
 /// Goes to the three approaches and back, and compares each state.
-#[expect(clippy::print_stdout, reason = "docs/notes.md has these numbers")]
+#[expect(clippy::print_stdout, reason = "benches/NOTES.md has these numbers")]
 fn rough_states(cells: usize, gap: &[u8], approach: f64, known: &Rough) {
     let mut heights =
         gap.chunks_exact(4).map(|bytes| f64::from(f32::from_le_bytes(bytes.try_into().unwrap())));
