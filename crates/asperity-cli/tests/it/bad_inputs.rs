@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use crate::support::{as_promised, asperity, folder_with, moving, run};
-use crate::support::{files, refused, stderr};
+use crate::support::{as_promised, asperity, assert_has, files, folder_with, moving, refused, run};
+use crate::support::{set, stderr};
 
 /// Each case of `data/` begins with the exit code, the error and the hint that it must produce.
 #[test]
@@ -49,7 +49,7 @@ fn bad_usage_of_run_is_exit_code_2() {
     {
         refused(&run(&folder, arguments));
     }
-    assert_eq!(files(folder.path()), ["case.toml".to_owned()].into());
+    assert_eq!(files(folder.path()), set("case.toml"));
 }
 
 #[test]
@@ -70,14 +70,10 @@ fn a_topography_where_a_case_is_expected_is_named_with_the_commands_for_it() {
             ("broken.toml", "unclosed table"),
         ] {
             let error = refused(&asperity(&folder, &format!("{command} {file}")));
-            assert!(error.contains(told), "{command} {file}: {error}");
-            let is_topography = told.contains("topography");
+            assert_has(&error, told);
+            let describes = format!("`asperity surface info {file}` describes it");
             assert_eq!(error.contains(expected), file != "broken.toml", "{error}");
-            assert_eq!(
-                error.contains(&format!("`asperity surface info {file}` describes it")),
-                is_topography,
-                "{error}"
-            );
+            assert_eq!(error.contains(&describes), told.contains("topography"), "{error}");
         }
     }
 }

@@ -5,16 +5,8 @@ use std::path::{Path, PathBuf};
 
 use asperity::study::{Case, Demand, SurfaceInput, demand};
 use serde_json::Value;
-use tempfile::TempDir;
 
-use crate::support::asperity;
-
-/// What the command prints in `folder`.
-fn printed(folder: &TempDir, arguments: &str) -> String {
-    let output = asperity(folder, arguments);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
-}
+use crate::support::{asperity, assert_has, ok};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
@@ -103,17 +95,11 @@ fn films_heat_and_kept_pressures_count() {
     let none_kept = demand_of("running-in", &[("pressure_every = 4", "pressure_every = 0")], 1);
     assert!(seldom.effort < whole.effort && none_kept.effort < whole.effort);
     assert!(none_kept.drawing < whole.drawing, "neither the page nor the animation has pressures then");
-    let without_films = |text: String| -> String {
-        let tables: Vec<&str> = text.split("\n[").filter(|table| !table.contains(".film]")).collect();
-        tables
-            .join("\n[")
-            .lines()
-            .filter(|line| !line.starts_with("under_film"))
-            .map(|l| format!("{l}\n"))
-            .collect()
-    };
-    let case =
-        Case::parse(&without_films(text_of("running-in")), Path::new("case.toml"), Path::new("")).unwrap();
+    let text = text_of("running-in");
+    let tables: Vec<&str> = text.split("\n[").filter(|table| !table.contains(".film]")).collect();
+    let text = tables.join("\n[");
+    let lines: Vec<&str> = text.lines().filter(|line| !line.starts_with("under_film")).collect();
+    let case = Case::parse(&lines.join("\n"), Path::new("case.toml"), Path::new("")).unwrap();
     let bare = demand(&case, &SurfaceInput::default(), 1).unwrap();
     assert!(bare.effort < 0.6 * whole.effort, "films take most: {} of {}", bare.effort, whole.effort);
 }
@@ -130,9 +116,9 @@ fn threads_share_positions_and_figures_but_not_increments() {
 
 #[test]
 fn check_describes_the_laws_that_a_case_follows() {
-    let folder = TempDir::new().unwrap();
-    printed(&folder, "example running-in --out r");
-    let page = printed(&folder, "check r/case.toml");
+    let folder = tempfile::tempdir().unwrap();
+    ok(&asperity(&folder, "example running-in --out r"));
+    let page = ok(&asperity(&folder, "check r/case.toml"));
     for part in [
         "\nwear     of both bodies 2e-8 mm³/(N m) per load and distance, 2e-9 mm³/(N m) under the film\n",
         "\nfilm     of both bodies Arrhenius growth up to 150 nm, pressure up to 2 GPa where it is thickest\n",
@@ -141,10 +127,10 @@ fn check_describes_the_laws_that_a_case_follows() {
         " to solve and write, ",
         " for figures and page\n",
     ] {
-        assert!(page.contains(part), "{part}: {page}");
+        assert_has(&page, part);
     }
-    printed(&folder, "example quickstart --out q");
-    let page = printed(&folder, "check q/case.toml");
+    ok(&asperity(&folder, "example quickstart --out q"));
+    let page = ok(&asperity(&folder, "check q/case.toml"));
     let laws = ["wear ", "film ", "heat ", "passes "];
     assert!(!page.lines().any(|line| laws.iter().any(|law| line.starts_with(law))), "{page}");
 }

@@ -6,15 +6,16 @@ use std::time::{Duration, Instant};
 use asperity::io::fields::Fields;
 
 use crate::support::{BALL, PUSH, folder_with, moving, pushed, run, set};
-use crate::support::{asperity, command, files, limited, ok, refused, send, spawn, stderr, wait_for};
+use crate::support::{asperity, assert_has, assert_refused, command, failed, files, limited, ok, refused};
+use crate::support::{send, spawn, wait_for};
 
 #[test]
 fn results_are_replaced_only_on_request_and_strangers_never() {
     let folder = folder_with("case.toml", &moving(2, 8));
     ok(&run(&folder, "case.toml --out out"));
-    let error = refused(&run(&folder, "case.toml --out out"));
-    assert!(error.starts_with("error: out already holds results"), "{error}");
-    assert!(error.contains("hint: --overwrite replaces them, --resume goes on from them"), "{error}");
+    let told =
+        "error: out already holds results … hint: --overwrite replaces them, --resume goes on from them";
+    assert_refused(&folder, [("run case.toml --out out", told)]);
 
     fs::write(folder.path().join("out/notes.txt"), "mine").unwrap();
     fs::write(folder.path().join("case.toml"), BALL).unwrap();
@@ -27,15 +28,19 @@ fn results_are_replaced_only_on_request_and_strangers_never() {
 #[test]
 fn a_directory_of_something_else_is_left_alone() {
     let folder = folder_with("case.toml", &moving(1, 8));
-    fs::create_dir(folder.path().join("photos")).unwrap();
-    fs::write(folder.path().join("photos/passes.csv"), "mine").unwrap();
-    for flag in ["", " --overwrite", " --resume"] {
-        let error = refused(&run(&folder, &format!("case.toml --out photos{flag}")));
-        assert!(error.contains("photos is not empty, and holds no results of asperity"), "{flag}: {error}");
-        assert!(error.contains("hint: --out names another directory"), "{error}");
-        assert_eq!(files(&folder.path().join("photos")), ["passes.csv".to_owned()].into());
+    for (place, mine) in [("photos", "passes.csv"), ("harvest", "fields/wheat.txt")] {
+        let path = folder.path().join(place).join(mine);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(&path, "mine").unwrap();
+        let told = "is not empty, and holds no results of asperity … hint: --out names another directory";
+        for flag in ["", " --overwrite", " --resume"] {
+            let command = format!("run case.toml --out {place}{flag}");
+            assert_refused(&folder, [(&command, &format!("{place} {told}"))]);
+            // Not even a lock is there.
+            assert_eq!(files(&folder.path().join(place)), set(mine));
+        }
+        assert_eq!(fs::read(path).unwrap(), b"mine");
     }
-    assert_eq!(fs::read(folder.path().join("photos/passes.csv")).unwrap(), b"mine");
     fs::create_dir(folder.path().join("empty")).unwrap();
     ok(&run(&folder, "case.toml --out empty"));
 }
@@ -48,9 +53,8 @@ fn results_do_not_lie_within_others_and_leave_no_empty_folder() {
     assert!(!out.join("fields").exists());
     let before = files(&out);
     for within in ["out/second", "out/fields/deep/er"] {
-        let error = refused(&run(&folder, &format!("ball.toml --out {within}")));
-        assert!(error.contains(&format!("{within} lies within the results in ")), "{error}");
-        assert!(error.contains("hint: --out names another directory"), "{error}");
+        let told = format!("{within} lies within the results in  … hint: --out names another directory");
+        assert_refused(&folder, [(&format!("run ball.toml --out {within}"), &told)]);
     }
     assert_eq!(files(&out), before);
     assert!(!out.join("second").exists() && !out.join("fields").exists());
@@ -60,15 +64,18 @@ fn results_do_not_lie_within_others_and_leave_no_empty_folder() {
 fn a_place_where_nothing_can_be_written_is_named() {
     let folder = folder_with("case.toml", &moving(1, 8));
     fs::write(folder.path().join("file"), "mine").unwrap();
-    let error = refused(&run(&folder, "case.toml --out file"));
-    assert!(error.starts_with("error: file: not a directory"), "{error}");
-    let error = refused(&run(&folder, "case.toml --out file/inside"));
-    assert!(error.starts_with("error: file/inside: Not a directory"), "{error}");
+    assert_refused(
+        &folder,
+        [
+            ("run case.toml --out file", "error: file: not a directory"),
+            ("run case.toml --out file/inside", "error: file/inside: Not a directory"),
+        ],
+    );
     assert_eq!(fs::read(folder.path().join("file")).unwrap(), b"mine");
     if cfg!(target_os = "linux") {
         // Nobody, root neither, makes a directory there.
-        let error = refused(&run(&folder, "case.toml --out /proc/asperity"));
-        assert!(error.starts_with("error: /proc/asperity: No such file or directory"), "{error}");
+        let told = "error: /proc/asperity: No such file or directory";
+        assert_refused(&folder, [("run case.toml --out /proc/asperity", told)]);
     }
 }
 
@@ -83,14 +90,15 @@ fn a_page_is_made_again_from_the_results_alone_and_replaced_whole_or_not_at_all(
     assert_eq!(ok(&asperity(&folder, "report out --out page.html")), "page.html\n");
     assert!(page("page.html") == written, "it shows something else than the results");
 
-    let output = limited(&folder, "-f 16", "report out");
-    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    assert!(stderr(&output).contains("out/report.html: File too large"), "{}", stderr(&output));
+    let error = failed(&limited(&folder, "-f 16", "report out"), 1);
+    assert_has(&error, "out/report.html: File too large");
     assert!(page("out/report.html") == written, "the page that was there is gone");
-
-    assert!(refused(&asperity(&folder, "report nowhere")).contains("no case.json"));
-    assert!(
-        refused(&asperity(&folder, "report out --out no/such.html")).contains("its directory does not exist")
+    assert_refused(
+        &folder,
+        [
+            ("report nowhere", "no case.json"),
+            ("report out --out no/such.html", "its directory does not exist"),
+        ],
     );
 }
 
@@ -105,7 +113,7 @@ fn the_page_of_an_interrupted_run_shows_what_is_done() {
     send("INT", &child);
     assert_eq!(child.wait_with_output().unwrap().status.code(), Some(130));
     let text = fs::read_to_string(&page).unwrap();
-    assert!(text.contains("of 100000 passes are there") && text.contains("--resume"));
+    assert_has(&text, "of 100000 passes are there … --resume");
 
     // What is computed anew has no page of what was there before.
     let mut child = spawn(&folder, "run case.toml --out out --overwrite");
@@ -186,12 +194,11 @@ fn an_animation_is_an_mp4_where_there_is_ffmpeg() {
     let bytes: usize = fs::read_to_string(folder.path().join("bytes")).unwrap().trim().parse().unwrap();
     assert!(bytes > frame && bytes.is_multiple_of(frame), "{bytes} bytes in frames of {frame}");
 
-    assert!(refused(&plot(&programs)).contains("--overwrite replaces the figures that are there"));
+    assert_has(&refused(&plot(&programs)), "--overwrite replaces the figures that are there");
     put("#!/bin/sh\ncat > /dev/null; echo no codec >&2; exit 3\n");
     let again = "plot out --only pressure.mp4 --overwrite";
-    let output = command(&folder, again).env("PATH", &programs).output().unwrap();
-    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    assert!(stderr(&output).contains("no codec") && fs::read(&drawn).unwrap() == b"film");
+    assert_has(&failed(&command(&folder, again).env("PATH", &programs).output().unwrap(), 1), "no codec");
+    assert_eq!(fs::read(&drawn).unwrap(), b"film");
 }
 
 #[test]
@@ -200,18 +207,15 @@ fn a_full_disk_is_an_error_that_leaves_no_half_written_file() {
     let folder = folder_with("case.toml", &moving(1, 8));
     let out = folder.path().join("out");
     // The first file that is larger than so many KiB is not there.
-    let limited = |limit: usize, arguments: &str| {
-        let output = limited(&folder, &format!("-f {limit}"), arguments);
-        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-        stderr(&output)
-    };
+    let limited =
+        |limit: usize, arguments: &str| failed(&limited(&folder, &format!("-f {limit}"), arguments), 1);
     let error = limited(8, "run case.toml --out out");
     assert_eq!(error, "error: out/fields/initial.h5: File too large (os error 27)\n");
-    assert_eq!(files(&out), set([".lock", "case.json"]));
+    assert_eq!(files(&out), set(".lock case.json"));
 
     let error = limited(48, "run case.toml --out out --overwrite");
     assert_eq!(error, "error: out/fields/pass-0001.h5: File too large (os error 27)\n");
-    assert_eq!(files(&out), set([".lock", "case.json", "fields/initial.h5"]));
+    assert_eq!(files(&out), set(".lock case.json fields/initial.h5"));
 
     // With room again, the run goes on.
     ok(&run(&folder, "case.toml --out out --resume"));

@@ -3,10 +3,10 @@
 use std::fs;
 
 use assert_cmd::Command;
-use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::support::{asperity, change, ok, refused, stderr, summary};
+use crate::support::{asperity, assert_has, assert_refused, change, command, failed, json, ok, refused, set};
+use crate::support::{stderr, summary};
 
 /// A folder with two surfaces of different pitch and size, and one without a pitch.
 fn files() -> TempDir {
@@ -27,9 +27,7 @@ fn two_files_become_a_case_and_its_results() {
         at("contact disc.x3p plate.x3p --load 20mN --material steel,bearing-steel --hardness 4GPa,inf");
     assert!(ok(&output).contains("contact area"));
     let told = stderr(&output);
-    for part in ["lower: disc.x3p", "upper: plate.x3p", "tilt removed", "brought to 48 × 40 of 1 µm"] {
-        assert!(told.contains(part), "{part}: {told}");
-    }
+    assert_has(&told, "lower: disc.x3p … upper: plate.x3p … tilt removed … brought to 48 × 40 of 1 µm");
     let results = folder.path().join("disc-plate-contact");
     let found = summary(&results);
     assert_eq!(found["case"]["lower"]["young"], 210e9);
@@ -37,15 +35,13 @@ fn two_files_become_a_case_and_its_results() {
     assert_eq!(found["case"]["upper"]["young"], 207.9e9);
     assert!((found["static"]["load"].as_f64().unwrap() - 0.02).abs() < 1e-6);
     // The case beside the results is the same contact, in any folder from which it is called.
-    let again = "run disc-plate-contact/case.toml --out again";
-    ok(&at(again));
+    ok(&at("run disc-plate-contact/case.toml --out again"));
     assert_eq!(summary(&folder.path().join("again"))["static"], found["static"]);
     // What is there is kept.
     let error = refused(&at("contact disc.x3p plate.x3p --load 20mN --material steel"));
     assert!(error.contains("already holds results") && !error.contains("--resume"), "{error}");
     change(&results.join("case.toml"), "20mN", "30mN");
-    let error = refused(&at("run disc-plate-contact/case.toml"));
-    assert!(error.contains("--overwrite"), "{error}");
+    assert_refused(&folder, [("run disc-plate-contact/case.toml", "--overwrite")]);
     ok(&at("run disc-plate-contact/case.toml --overwrite"));
     assert!((summary(&results)["static"]["load"].as_f64().unwrap() - 0.03).abs() < 1e-6);
 }
@@ -67,33 +63,30 @@ fn a_file_passes_over_another_and_goes_round_with_periodic_surfaces() {
 fn mistakes_name_the_argument_and_leave_nothing() {
     let folder = files();
     let at = |arguments: &str| asperity(&folder, arguments);
-    for (arguments, part) in [
-        ("contact disc.x3p plate.npy --load 1mN --material steel", "--pitch"),
-        (
-            "contact disc.x3p plate.npy --pitch 10nm --load 1mN --material steel",
-            "less than 4 cells of `disc.x3p`",
-        ),
-        ("contact disc.x3p nothing.x3p --load 1mN --material steel", "nothing.x3p"),
-        ("contact disc.x3p plate.x3p --load 1um --material steel", "a force such as 0.5N"),
-        ("contact disc.x3p plate.x3p --load 1mN --material stele", "no material `stele`"),
-        ("contact disc.x3p plate.x3p --load 1mN", "--material"),
-        ("contact disc.x3p plate.x3p --load 1mN --material steel --hardness 4um", "--hardness"),
-        ("slide disc.x3p plate.x3p --load 1mN --material steel --passes 0", "--passes"),
-    ] {
-        let error = refused(&at(arguments));
-        assert!(error.contains(part), "{arguments}: {error}");
-    }
+    assert_refused(
+        &folder,
+        [
+            ("contact disc.x3p plate.npy --load 1mN --material steel", "--pitch"),
+            (
+                "contact disc.x3p plate.npy --pitch 10nm --load 1mN --material steel",
+                "less than 4 cells of `disc.x3p`",
+            ),
+            ("contact disc.x3p nothing.x3p --load 1mN --material steel", "nothing.x3p"),
+            ("contact disc.x3p plate.x3p --load 1um --material steel", "a force such as 0.5N"),
+            ("contact disc.x3p plate.x3p --load 1mN --material stele", "no material `stele`"),
+            ("contact disc.x3p plate.x3p --load 1mN", "--material"),
+            ("contact disc.x3p plate.x3p --load 1mN --material steel --hardness 4um", "--hardness"),
+            ("slide disc.x3p plate.x3p --load 1mN --material steel --passes 0", "--passes"),
+        ],
+    );
     // A load that cannot be carried is found out after the case is written.
-    let output = at("contact disc.x3p plate.x3p --load 1kN --material bearing-steel --out heavy");
-    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    let left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-    assert_eq!(left.len(), 3, "{left:?}");
+    failed(&at("contact disc.x3p plate.x3p --load 1kN --material bearing-steel --out heavy"), 1);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3);
     // Results that stay keep their case.
     ok(&at("contact disc.x3p plate.x3p --load 1mN --material bearing-steel --out kept"));
     let case = || fs::read_to_string(folder.path().join("kept/case.toml")).unwrap();
     let before = case();
-    let output = at("contact disc.x3p plate.x3p --load 1kN --material bearing-steel --out kept --overwrite");
-    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    failed(&at("contact disc.x3p plate.x3p --load 1kN --material bearing-steel --out kept --overwrite"), 1);
     assert_eq!(case(), before);
 }
 
@@ -101,18 +94,15 @@ fn mistakes_name_the_argument_and_leave_nothing() {
 fn five_answers_make_a_case() {
     let folder = files();
     let init = |arguments: &str, answers: &str| {
-        let words = arguments.split_whitespace();
-        let mut command = Command::cargo_bin("asperity").unwrap();
-        command.arg("init").args(words).current_dir(folder.path());
+        let mut command = Command::from_std(command(&folder, &format!("init {arguments}")));
         command.write_stdin(answers.to_owned()).output().unwrap()
     };
     let at = |arguments: &str| asperity(&folder, arguments);
     ok(&init("", "disc.x3p\nplate.x3p\nsteel\n20 mN\n3\n"));
-    let check = ok(&at("check case.toml"));
-    assert!(check.contains("plate on disc") && check.contains("3 passes"), "{check}");
+    assert_has(&ok(&at("check case.toml")), "plate on disc … 3 passes");
     // Empty answers are those in brackets, and a wrong one is asked again.
     ok(&init("other.toml", "\n\nstele\n\n\n\n"));
-    assert!(ok(&at("check other.toml")).contains("256 × 256 cells"));
+    assert_has(&ok(&at("check other.toml")), "256 × 256 cells");
     ok(&init("all.toml --lower disc.x3p --upper disc.x3p --material glass --load 5MPa --passes 0", ""));
     ok(&at("check all.toml"));
     // Each comment that is a table becomes part of a valid case, and none has the marks of Markdown.
@@ -126,8 +116,7 @@ fn five_answers_make_a_case() {
             tables.insert(comment.split_whitespace().nth(1).unwrap().to_owned());
         }
     }
-    let tables: Vec<_> = tables.iter().map(String::as_str).collect();
-    assert_eq!(tables, ["conductance", "film", "flow", "friction", "output", "wear"]);
+    assert_eq!(tables, set("conductance film flow friction output wear"));
     assert!(refused(&init("", "")).contains("`case.toml` exists"));
     assert!(refused(&init("new.toml --lower disc.x3p", "")).contains("give --upper"));
 }
@@ -136,12 +125,11 @@ fn five_answers_make_a_case() {
 fn materials_completions_and_the_manual_are_printed() {
     let folder = TempDir::new().unwrap();
     let at = |arguments: &str| asperity(&folder, arguments);
-    let all: Value = serde_json::from_str(&ok(&at("materials --json"))).unwrap();
-    assert!(all.as_array().unwrap().len() >= 20);
-    assert!(ok(&at("materials")).contains("bearing-steel"));
-    assert!(ok(&at("materials steel")).contains("EN 1993-1-1"));
+    assert!(json(&at("materials --json")).as_array().unwrap().len() >= 20);
+    assert_has(&ok(&at("materials")), "bearing-steel");
+    assert_has(&ok(&at("materials steel")), "EN 1993-1-1");
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
-        assert!(ok(&at(&format!("completions {shell}"))).contains("asperity"), "{shell}");
+        assert_has(&ok(&at(&format!("completions {shell}"))), "asperity");
     }
     let manual = ok(&at("man"));
     assert!(manual.starts_with(".ie") && manual.contains("asperity\\-slide"), "{manual}");
@@ -159,10 +147,8 @@ fn many_missing_heights_are_a_warning_of_the_result() {
     write("flat.asc", 0);
     for (missing, share) in [(12, None), (13, Some("20.31 %")), (63, Some("98.44 %"))] {
         write("few.asc", missing);
-        ok(&asperity(
-            &folder,
-            "contact few.asc flat.asc --load 1mN --material steel --out out --overwrite --quiet",
-        ));
+        let pressed = "contact few.asc flat.asc --load 1mN --material steel --out out --overwrite --quiet";
+        ok(&asperity(&folder, pressed));
         let warnings = summary(&folder.path().join("out"))["warnings"].to_string();
         let told = warnings.contains("of the heights of the lower surface are missing");
         assert_eq!(told, share.is_some(), "{warnings}");

@@ -1,7 +1,6 @@
 //! Flow and conductance of maps from files.
 
 use std::fs;
-use std::path::Path;
 use std::process::Output;
 
 use asperity::io::fields::{Fields, read_field};
@@ -10,7 +9,8 @@ use asperity::{Field, Grid};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::support::{asperity, command, files, ok, refused, stderr};
+use crate::support::{asperity, assert_has, assert_refused, command, files, folder_with, json, ok, set};
+use crate::support::{stderr, summary};
 
 /// A rough surface on a flat one, with film and gas on the spots, and oil in the gap.
 const CASE: &str = r#"
@@ -35,17 +35,9 @@ jump = "0.3 um"
 viscosity = "80 mPa s"
 "#;
 
-fn folder() -> TempDir {
-    tempfile::tempdir().unwrap()
-}
-
 /// Runs the command with one argument for each of these words.
 fn words(folder: &TempDir, words: &[&str]) -> Output {
     command(folder, "").args(words).output().unwrap()
-}
-
-fn json(output: &Output) -> Value {
-    serde_json::from_str(&ok(output)).unwrap()
 }
 
 fn near(one: &Value, other: &Value, within: f64) -> bool {
@@ -53,29 +45,30 @@ fn near(one: &Value, other: &Value, within: f64) -> bool {
     (one - other).abs() <= within * other.abs()
 }
 
-fn write(path: &Path, rows: &[&str]) {
-    fs::write(path, rows.join("\n")).unwrap();
-}
-
-/// Writes a field as a topography file.
-fn store(path: &Path, field: Field) {
-    let grid = Grid::new([field.nrows(), field.ncols()], [1e-6; 2]).unwrap();
-    Topography::new(grid, field).unwrap().write(path).unwrap();
+/// A folder with maps of these rows.
+fn maps(maps: &[(&str, &str)]) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, rows) in maps {
+        fs::write(folder.path().join(name), rows).unwrap();
+    }
+    folder
 }
 
 #[test]
 fn maps_from_files_have_the_numbers_of_the_case() {
-    let folder = folder();
-    fs::write(folder.path().join("case.toml"), CASE).unwrap();
+    let folder = folder_with("case.toml", CASE);
     ok(&asperity(&folder, "run case.toml --out results --quiet"));
     let at = |name: &str| folder.path().join(name);
-    let summary: Value =
-        serde_json::from_str(&fs::read_to_string(at("results/summary.json")).unwrap()).unwrap();
+    let summary = summary(&at("results"));
     let field = |name: &str| read_field(&at("results/fields.h5"), name).unwrap().into_field().unwrap();
+    let store = |name: &str, field: Field| {
+        let grid = Grid::new([field.nrows(), field.ncols()], [1e-6; 2]).unwrap();
+        Topography::new(grid, field).unwrap().write(at(name)).unwrap();
+    };
     let (pressure, mut gap) = (field("pressure"), field("gap"));
     gap.zip_mut_with(&pressure, |gap, p| *gap = if *p > 0.0 { 0.0 } else { *gap });
-    store(&at("gap.x3p"), gap);
-    store(&at("pressure.npy"), pressure);
+    store("gap.x3p", gap);
+    store("pressure.npy", pressure);
 
     let found = json(&asperity(
         &folder,
@@ -90,9 +83,7 @@ fn maps_from_files_have_the_numbers_of_the_case() {
         assert!(near(&along["critical_position"][0], &row["critical_x"], 1e-9), "{along} {row}");
     }
     assert!(near(&found["mean_gap"], &summary["flow"][0]["mean_gap"], 1e-9));
-    let expected =
-        ["fields.h5", "flow.json", "flow_x.png", "flow_y.png"].map(str::to_owned).into_iter().collect();
-    assert_eq!(files(&at("leak")), expected);
+    assert_eq!(files(&at("leak")), set("fields.h5 flow.json flow_x.png flow_y.png"));
     let kept = Fields::open(&at("leak/fields.h5")).unwrap();
     for name in ["flow_x", "flow_y", "fluid_pressure_x", "fluid_pressure_y"] {
         let [own, of_case] = [kept.read(name).unwrap(), read_field(&at("results/fields.h5"), name).unwrap()];
@@ -100,8 +91,7 @@ fn maps_from_files_have_the_numbers_of_the_case() {
         let differs = |(one, other): (&f64, &f64)| (one - other).abs() > 1e-9 * largest;
         assert!(own.unit == of_case.unit && !own.values.iter().zip(&of_case.values).any(differs), "{name}");
     }
-    let error = refused(&asperity(&folder, "flow gap.x3p --out leak"));
-    assert!(error.contains("`leak` exists") && error.contains("--overwrite"), "{error}");
+    assert_refused(&folder, [("flow gap.x3p --out leak", "`leak` exists … --overwrite")]);
     ok(&asperity(&folder, "flow gap.x3p --out leak --overwrite --along y --format svg"));
 
     let conducts = [
@@ -130,158 +120,107 @@ fn maps_from_files_have_the_numbers_of_the_case() {
         assert!(near(&found[key], &row[column], 1e-6), "{key}: {found} {row}");
     }
     assert!(found["full_resistance"].is_null());
-    let expected = ["conductance.json", "fields.h5", "flux.png"].map(str::to_owned).into_iter().collect();
-    assert_eq!(files(&at("heat")), expected);
+    assert_eq!(files(&at("heat")), set("conductance.json fields.h5 flux.png"));
     let text = ok(&words(&folder, &conducts));
-    for part in ["32 × 24 cells of 1 µm × 1 µm", " spots, median ", "joint conductance", " of the resistance"]
-    {
-        assert!(text.contains(part), "{text}");
-    }
+    assert_has(
+        &text,
+        "32 × 24 cells of 1 µm × 1 µm …  spots, median  … joint conductance …  of the resistance",
+    );
 }
 
 #[test]
-fn plates_leak_as_poiseuille_says() {
-    let folder = folder();
-    write(&folder.path().join("gap.txt"), &["2 2 2", "2 2 2", "2 2 2", "2 2 2"]);
-    let flow =
-        |more: &str| json(&asperity(&folder, &format!("flow gap.txt --unit 1um --pitch 1um --json {more}")));
-    let liquid = flow("--viscosity 0.02mPas --pressure 2bar");
-    let shape: Vec<f64> = liquid["shape"].as_array().unwrap().iter().map(|n| n.as_f64().unwrap()).collect();
-    // K ΔP/12η times width over length.
-    for (axis, aspect) in [("x", shape[1] / shape[0]), ("y", shape[0] / shape[1])] {
-        let expected = 8e-18 * 2e5 / (12.0 * 2e-5) * aspect;
-        assert!(near(&liquid["along"][axis]["leakage"], &expected.into(), 1e-9), "{liquid}");
-    }
-    assert!(near(&liquid["permeability"][0][0], &8e-18.into(), 1e-9));
+fn flow_takes_the_pressures_ends_and_direction_that_are_named() {
+    let folder = maps(&[("gap.txt", "2 2 2\n2 2 2\n2 2 2\n2 2 2")]);
+    let flow = |more: &str| asperity(&folder, &format!("flow gap.txt --unit 1um --pitch 1um {more}"));
+    let leakage = |more: &str| json(&flow(&format!("--json --viscosity 0.02mPas --pressure 2bar {more}")));
+    let liquid = leakage("");
     // (9 − 1)/2 bar in place of 2 bar.
-    let gas = flow("--viscosity 0.02mPas --pressure 2bar --outlet 1bar --ends reservoirs --along x");
-    let leakage = |found: &Value| found["along"]["x"]["leakage"].as_f64().unwrap();
-    assert!((leakage(&gas) / leakage(&liquid) - 2.0).abs() < 1e-9 && gas["along"].get("y").is_none());
-    assert!(gas["permeability"].is_null() && flow("")["along"]["x"]["leakage"].is_null());
-    let text = ok(&asperity(&folder, "flow gap.txt --unit 1um --pitch 1um"));
-    assert!(
-        text.contains("4 cells of 1 µm × 1 µm; mean 2 µm, 0 % closed") || text.contains("3 cells of"),
-        "{text}"
+    let gas = leakage("--outlet 1bar --ends reservoirs --along x");
+    let of = |found: &Value| found["along"]["x"]["leakage"].as_f64().unwrap();
+    assert!((of(&gas) / of(&liquid) - 2.0).abs() < 1e-9 && gas["along"].get("y").is_none());
+    assert!(gas["permeability"].is_null() && json(&flow("--json"))["along"]["x"]["leakage"].is_null());
+    let text = ok(&flow(""));
+    assert_has(
+        &text,
+        "3 × 4 cells of 1 µm × 1 µm; mean 2 µm, 0 % closed … flow along x … permeability 8 µm³",
     );
-    assert!(text.contains("flow along x") && text.contains("permeability 8 µm³"), "{text}");
 }
 
 #[test]
 fn maps_without_path_contact_or_gap_have_an_answer() {
-    let folder = folder();
-    let at = |name: &str| folder.path().join(name);
-    let both = |name: &str| {
-        [
-            asperity(&folder, &format!("flow {name} --pitch 1um --viscosity 1Pas --pressure 1bar")),
-            asperity(&folder, &format!("conductance {name} --pitch 1um --conductivity 46")),
-        ]
-        .map(|output| ok(&output))
+    let folder = maps(&[("zero.txt", "0 0 0\n0 0 0"), ("one.txt", "1"), ("row.txt", "1 0 1 1")]);
+    let flow = |map: &str| {
+        ok(&asperity(&folder, &format!("flow {map}.txt --pitch 1um --viscosity 1Pas --pressure 1bar")))
     };
-    write(&at("zero.txt"), &["0 0 0", "0 0 0"]);
-    let [flow, heat] = both("zero.txt");
-    assert!(flow.contains("leakage along x   none: no path through the gap"), "{flow}");
-    assert!(heat.contains("conductance       0 W/K"), "{heat}");
-    write(&at("one.txt"), &["1"]);
-    let [flow, heat] = both("one.txt");
-    assert!(flow.contains("1 × 1 cells") && !flow.contains("none"), "{flow}");
-    assert!(heat.contains("one spot") && heat.contains("100 % in contact"), "{heat}");
-    write(&at("row.txt"), &["1 0 1 1"]);
-    let [flow, heat] = both("row.txt");
-    assert_eq!(flow.matches("none: no path").count(), 1, "{flow}");
-    assert!(heat.contains("2 spots"), "{heat}");
-    let full = asperity(&folder, "conductance one.txt --pitch 1um --conductivity 46 --boundary periodic");
-    assert!(ok(&full).contains("no resistance: all cells touch without a film"));
-    let mixed = "conductance row.txt --pitch 1um --conductivity inf,46 --boundary periodic,free --json";
-    assert!(json(&asperity(&folder, mixed))["conductance"].as_f64().unwrap() > 0.0);
+    let heat = |arguments: &str| asperity(&folder, &format!("conductance {arguments} --pitch 1um"));
+    assert_has(&flow("zero"), "leakage along x   none: no path through the gap");
+    assert_has(&ok(&heat("zero.txt --conductivity 46")), "conductance       0 W/K");
+    let one = flow("one");
+    assert!(one.contains("1 × 1 cells") && !one.contains("none"), "{one}");
+    assert_has(&ok(&heat("one.txt --conductivity 46")), "one spot … 100 % in contact");
+    let row = flow("row");
+    assert_eq!(row.matches("none: no path").count(), 1, "{row}");
+    assert_has(&ok(&heat("row.txt --conductivity 46")), "2 spots");
+    let full = ok(&heat("one.txt --conductivity 46 --boundary periodic"));
+    assert_has(&full, "no resistance: all cells touch without a film");
+    let mixed = heat("row.txt --conductivity inf,46 --boundary periodic,free --json");
+    assert!(json(&mixed)["conductance"].as_f64().unwrap() > 0.0);
 }
 
 #[test]
 fn an_image_has_a_threshold() {
-    let folder = folder();
-    write(&folder.path().join("image.txt"), &["10 200 200", "10 200 30", "200 200 200"]);
-    let share = |option: &str| {
-        let found = format!("conductance image.txt --pitch 1um --conductivity 46 --json {option}");
-        json(&asperity(&folder, &found))["contact_fraction"].as_f64().unwrap()
+    let folder = maps(&[("image.txt", "10 200 200\n10 200 30\n200 200 200")]);
+    let heat = |option: &str| {
+        asperity(&folder, &format!("conductance image.txt --pitch 1um --conductivity 46 {option}"))
     };
-    assert_eq!(
-        ["", "--above 100", "--below 20", "--below 100"].map(share),
-        [1.0, 6.0 / 9.0, 2.0 / 9.0, 3.0 / 9.0]
-    );
-    let warned = asperity(&folder, "conductance image.txt --pitch 1um --conductivity 46 --below 20");
-    assert!(
-        stderr(&warned).contains("warning: the median spot of contact has 2 cells"),
-        "{}",
-        stderr(&warned)
-    );
+    let share = |option: &str| json(&heat(&format!("--json {option}")))["contact_fraction"].as_f64().unwrap();
+    let options = ["", "--above 100", "--below 20", "--below 100"];
+    assert_eq!(options.map(share), [1.0, 6.0 / 9.0, 2.0 / 9.0, 3.0 / 9.0]);
+    assert_has(&stderr(&heat("--below 20")), "warning: the median spot of contact has 2 cells");
 }
 
 #[test]
 fn a_mistake_names_its_option() {
-    let folder = folder();
-    let at = |name: &str| folder.path().join(name);
-    write(&at("map.txt"), &["1 0", "2 1"]);
-    write(&at("holes.txt"), &["1 nan", "2 1"]);
-    write(&at("other.txt"), &["1 0 1", "2 1 1"]);
+    let folder = maps(&[("map.txt", "1 0\n2 1"), ("holes.txt", "1 nan\n2 1"), ("other.txt", "1 0 1\n2 1 1")]);
     for (arguments, parts) in [
-        ("flow map.txt", &["need a pitch", "--pitch"][..]),
-        ("flow map.txt --pitch 1um --viscosity 1Pas", &["--pressure"]),
-        ("flow map.txt --pitch 1um --pressure 1bar", &["--viscosity"]),
+        ("map.txt", "need a pitch … --pitch"),
+        ("map.txt --pitch 1um --viscosity 1Pas", "--pressure"),
+        ("map.txt --pitch 1um --pressure 1bar", "--viscosity"),
+        ("map.txt --pitch 1um --viscosity 0 --pressure 1bar", "--viscosity … expected a viscosity of 1e-9"),
         (
-            "flow map.txt --pitch 1um --viscosity 0 --pressure 1bar",
-            &["--viscosity", "expected a viscosity of 1e-9"],
+            "map.txt --pitch 1um --viscosity 1m --pressure 1bar",
+            "--viscosity … a length, expected a viscosity",
         ),
-        (
-            "flow map.txt --pitch 1um --viscosity 1m --pressure 1bar",
-            &["--viscosity", "is a length, expected a viscosity"],
-        ),
-        (
-            "flow map.txt --pitch 1um --viscosity 1Pas --pressure=-1bar",
-            &["--pressure", "expected 0, or a pressure"],
-        ),
-        ("flow map.txt --pitch 1um --viscosity 1Pas --pressure 1bar --outlet 0", &["--outlet"]),
-        ("flow map.txt --pitch 1um --ends open", &["--ends", "reservoirs"]),
-        ("flow map.txt --pitch 1um --overwrite", &["--out"]),
-        ("flow holes.txt --pitch 1um", &["1 of 4 samples are undefined", "--fill"]),
-        ("flow nowhere.npy --pitch 1um", &["nowhere.npy"]),
-        ("conductance map.txt --pitch 1um", &["--conductivity"]),
-        ("conductance map.txt --conductivity 46", &["need a pitch", "--pitch"]),
-        (
-            "conductance map.txt --pitch 1um --conductivity 0",
-            &["--conductivity", "expected a thermal conductivity of"],
-        ),
-        (
-            "conductance map.txt --pitch 1um --conductivity inf",
-            &["--conductivity", "finite conductivity of one body"],
-        ),
-        ("conductance map.txt --pitch 1um --conductivity 1,2,3", &["--conductivity", "one value, or two"]),
-        ("conductance map.txt --pitch 1um --conductivity 1MS/m", &["--conductivity"]),
-        ("conductance map.txt --pitch 1um --conductivity 46 --film=-1", &["--film", "expected 0, or"]),
-        ("conductance map.txt --pitch 1um --conductivity 46 --film 1V", &["--film"]),
-        ("conductance map.txt --pitch 1um --conductivity 46 --gas 0.026", &["--gap"]),
-        ("conductance map.txt --pitch 1um --conductivity 46 --jump 1um", &["--gas"]),
-        ("conductance map.txt --pitch 1um --conductivity 46 --gap map.txt", &["--gas"]),
-        ("conductance map.txt --pitch 1um --conductivity 46 --gas 0 --gap map.txt", &["--gas"]),
-        (
-            "conductance map.txt --pitch 1um --conductivity 46 --gas 1 --gap other.txt",
-            &["--gap `other.txt` has", "same cells"],
-        ),
-        ("conductance map.txt --pitch 1um --conductivity 46 --gas 1 --gap holes.txt", &["undefined"]),
-        (
-            "conductance map.txt --pitch 1um --kind electrical --conductivity 1MS/m --gas 1 --gap map.txt",
-            &["--gas", "--kind electrical"],
-        ),
-        (
-            "conductance map.txt --pitch 1um --conductivity 46 --boundary open",
-            &["--boundary", "free or periodic"],
-        ),
-        ("conductance map.txt --pitch 1um --conductivity 46 --above 1 --below 2", &["--above", "--below"]),
-        ("conductance map.txt --pitch 1um --conductivity 46 --above nan", &["--above", "expected a number"]),
-        ("conductance holes.txt --pitch 1um --conductivity 46", &["undefined", "--fill"]),
+        ("map.txt --pitch 1um --viscosity 1Pas --pressure=-1bar", "--pressure … expected 0, or a pressure"),
+        ("map.txt --pitch 1um --viscosity 1Pas --pressure 1bar --outlet 0", "--outlet"),
+        ("map.txt --pitch 1um --ends open", "--ends … reservoirs"),
+        ("map.txt --pitch 1um --overwrite", "--out"),
+        ("holes.txt --pitch 1um", "1 of 4 samples are undefined … --fill"),
+        ("nowhere.npy --pitch 1um", "nowhere.npy"),
     ] {
-        let error = refused(&asperity(&folder, arguments));
-        for part in parts {
-            assert!(error.contains(part), "{arguments}: {error}");
-        }
+        assert_refused(&folder, [(&format!("flow {arguments}"), parts)]);
     }
-    assert!(!at("leak").exists());
+    for (arguments, parts) in [
+        ("map.txt", "--conductivity"),
+        ("map.txt --conductivity 0", "--conductivity … expected a thermal conductivity of"),
+        ("map.txt --conductivity inf", "--conductivity … finite conductivity of one body"),
+        ("map.txt --conductivity 1,2,3", "--conductivity … one value, or two"),
+        ("map.txt --conductivity 1MS/m", "--conductivity"),
+        ("map.txt --conductivity 46 --film=-1", "--film … expected 0, or"),
+        ("map.txt --conductivity 46 --film 1V", "--film"),
+        ("map.txt --conductivity 46 --gas 0.026", "--gap"),
+        ("map.txt --conductivity 46 --jump 1um", "--gas"),
+        ("map.txt --conductivity 46 --gap map.txt", "--gas"),
+        ("map.txt --conductivity 46 --gas 0 --gap map.txt", "--gas"),
+        ("map.txt --conductivity 46 --gas 1 --gap other.txt", "--gap `other.txt` has … same cells"),
+        ("map.txt --conductivity 46 --gas 1 --gap holes.txt", "undefined"),
+        ("map.txt --kind electrical --conductivity 1MS/m --gas 1 --gap map.txt", "--gas … --kind electrical"),
+        ("map.txt --conductivity 46 --boundary open", "--boundary … free or periodic"),
+        ("map.txt --conductivity 46 --above 1 --below 2", "--above … --below"),
+        ("map.txt --conductivity 46 --above nan", "--above … expected a number"),
+        ("holes.txt --conductivity 46", "undefined … --fill"),
+    ] {
+        assert_refused(&folder, [(&format!("conductance {arguments} --pitch 1um"), parts)]);
+    }
+    assert_refused(&folder, [("conductance map.txt --conductivity 46", "need a pitch … --pitch")]);
 }

@@ -1,46 +1,41 @@
 //! Runs that go on after an interruption.
 
 use std::fs;
-use std::process::Command;
 use std::time::{Duration, Instant};
 
-use asperity::io::fields::Fields;
 use asperity::study::PASS_COLUMNS;
 use asperity::study::Results;
-use asperity::surface::ReadOptions;
 
-use crate::support::{BALL, assert_same_passes, field, folder_with, moving, run, summary, table_of};
-use crate::support::{asperity, change, files, ok, program, refused, send, spawn, stderr, wait_for};
+use crate::support::{BALL, assert_same_passes, folder_with, moving, run, summary, table_of};
+use crate::support::{asperity, assert_has, assert_refused, change, command, files, ok, refused};
+use crate::support::{send, spawn, stderr, wait_for};
 
 #[test]
 fn more_passes_are_appended_to_finished_ones() {
     let folder = folder_with("case.toml", &moving(3, 4));
+    let path = |name: &str| folder.path().join(name);
     ok(&run(&folder, "case.toml --out whole"));
-    change(&folder.path().join("case.toml"), "passes = 3", "passes = 1");
+    change(&path("case.toml"), "passes = 3", "passes = 1");
     ok(&run(&folder, "case.toml --out parts"));
-    change(&folder.path().join("case.toml"), "passes = 1", "passes = 3");
+    change(&path("case.toml"), "passes = 1", "passes = 3");
     let output = run(&folder, "case.toml --out parts --resume");
-    assert!(stderr(&output).contains("continues after pass 1 of 3\n"), "{}", stderr(&output));
+    assert_has(&stderr(&output), "continues after pass 1 of 3\n");
     let table = ok(&output);
     assert_eq!(table.lines().count(), 7, "{table}");
-    assert_same_passes(&folder.path().join("parts"), &folder.path().join("whole"));
-    assert_eq!(summary(&folder.path().join("parts"))["case"]["motion"]["passes"], 3);
+    assert_same_passes(&path("parts"), &path("whole"));
+    assert_eq!(summary(&path("parts"))["case"]["motion"]["passes"], 3);
     // Nothing is left to do, and nothing is done.
-    let steps = fs::read(folder.path().join("parts/steps.csv")).unwrap();
+    let steps = fs::read(path("parts/steps.csv")).unwrap();
     assert_eq!(ok(&run(&folder, "case.toml --out parts --resume")), table);
-    assert!(fs::read(folder.path().join("parts/steps.csv")).unwrap() == steps);
+    assert!(fs::read(path("parts/steps.csv")).unwrap() == steps);
     // Fewer passes than there are.
-    change(&folder.path().join("case.toml"), "passes = 3", "passes = 2");
+    change(&path("case.toml"), "passes = 3", "passes = 2");
     let output = run(&folder, "case.toml --out parts --resume");
     assert_eq!(ok(&output), table);
-    let told = [
-        "all 3 passes are finished\n",
-        "the results hold 3 finished passes, more than `passes = 2` of the case",
-    ];
-    assert!(told.iter().all(|told| stderr(&output).contains(told)), "{}", stderr(&output));
-    for file in ["summary.json", "case.json"] {
-        let text = fs::read_to_string(folder.path().join("parts").join(file)).unwrap();
-        assert!(text.contains("\"passes\": 3,"), "{file}");
+    let more = "the results hold 3 finished passes, more than `passes = 2` of the case";
+    assert_has(&stderr(&output), &format!("all 3 passes are finished\n … {more}"));
+    for file in ["parts/summary.json", "parts/case.json"] {
+        assert_has(&fs::read_to_string(path(file)).unwrap(), "\"passes\": 3,");
     }
 }
 
@@ -50,37 +45,22 @@ fn the_fields_of_results_are_topographies() {
     ok(&run(&folder, "case.toml --out moved"));
     // The body's material stays; its surface is that of the results.
     let motion = moving(1, 8);
-    let start = motion.find("upper = {").unwrap();
-    let start = start + motion[start..].find("topography = {").unwrap();
-    let end = start + motion[start..].find("} }").unwrap();
-    let mut next = motion;
-    next.replace_range(
-        start..end,
-        "topography = { file = \"moved/fields/pass-0001.h5\", channel = \"upper\" ",
-    );
-    fs::write(folder.path().join("next.toml"), next).unwrap();
+    let upper = motion.find("upper = {").unwrap();
+    let (before, after) = motion[upper..].split_once("topography = {").unwrap();
+    let after = after.split_once("} }").unwrap().1;
+    let source = "topography = { file = \"moved/fields/pass-0001.h5\", channel = \"upper\" } }";
+    fs::write(folder.path().join("next.toml"), format!("{}{before}{source}{after}", &motion[..upper]))
+        .unwrap();
     let said = ok(&asperity(&folder, "check next.toml"));
-    assert!(said.contains("results `upper`, 32 × 32 samples, an underside, mounted as it is"), "{said}");
-    fs::write(folder.path().join("case.toml"), BALL).unwrap();
-    ok(&run(&folder, "case.toml --out pressed"));
-    for (file, channels) in [
-        ("moved/fields/initial.h5", "lower, upper"),
-        ("moved/fields/pass-0001.h5", "lower, upper"),
-        ("pressed/fields.h5", "lower, upper, displacement, gap, plastic"),
-    ] {
-        let told = ok(&asperity(&folder, &format!("surface info {file} --channel lower")));
-        assert!(told.starts_with("format    results\nchannel   lower\n"), "{told}");
-        assert!(told.contains(&format!("channels  {channels}\n")), "{told}");
-        let told = ok(&asperity(&folder, &format!("surface info {file} --channel upper")));
-        assert!(told.contains("an underside: as [upper] it is mounted as it is"), "{told}");
-        ok(&asperity(&folder, &format!("surface convert {file} out.npy --channel upper --overwrite")));
-        let found = ReadOptions::default().scan(folder.path().join("out.npy")).unwrap();
-        let expected = field(&Fields::open(&folder.path().join(file)).unwrap(), "upper", "m");
-        assert!(found.heights.iter().eq(expected.values.iter()), "{file}");
-    }
-    let refused = refused(&asperity(&folder, "surface info pressed/fields.h5 --channel pressure"));
-    assert!(refused.contains("no height channel `pressure`"), "{refused}");
-    assert!(refused.contains("it holds `lower`, `upper`"), "{refused}");
+    assert_has(&said, "results `upper`, 32 × 32 samples, an underside, mounted as it is");
+    let info = |channel: &str| format!("surface info moved/fields/pass-0001.h5 --channel {channel}");
+    let told = ok(&asperity(&folder, &info("lower")));
+    assert!(told.starts_with("format    results\nchannel   lower\n"), "{told}");
+    assert_has(&told, "channels  lower, upper\n");
+    let told = ok(&asperity(&folder, &info("upper")));
+    assert_has(&told, "an underside: as [upper] it is mounted as it is");
+    let told = "no height channel `pressure` … it holds `lower`, `upper`";
+    assert_refused(&folder, [(&info("pressure"), told)]);
 }
 
 #[test]
@@ -111,27 +91,12 @@ fn a_motion_without_what_its_next_pass_begins_with_is_not_resumed() {
 }
 
 #[test]
-fn the_results_of_another_case_are_not_resumed() {
-    let folder = folder_with("case.toml", &moving(1, 8));
-    ok(&run(&folder, "case.toml --out out"));
-    let before = files(&folder.path().join("out"));
-    change(&folder.path().join("case.toml"), "20 mN", "21 mN");
-    let error = refused(&run(&folder, "case.toml --out out --resume"));
-    assert!(error.starts_with("error: out holds the results of another case"), "{error}");
-    assert!(error.contains("hint: "), "{error}");
-    assert_eq!(files(&folder.path().join("out")), before);
-    let error = refused(&run(&folder, "case.toml --out out --resume --overwrite"));
-    assert!(error.contains("cannot be used with"), "{error}");
-}
-
-#[test]
 fn a_case_is_known_again_from_another_folder_and_by_numbers_of_any_length() {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("sub")).unwrap();
     let at = |arguments: &str| asperity(&folder, arguments);
-    ok(&at(
-        "surface generate low-pass --shape 32x32 --pitch 1um --sq 35nm --cutoff 8um --seed 1 --out sub/a.npy",
-    ));
+    let made = "surface generate low-pass --shape 32x32 --pitch 1um --sq 35nm --cutoff 8um";
+    ok(&at(&format!("{made} --seed 1 --out sub/a.npy")));
     let case = moving(1, 8)
         .replace(
             "generate = \"low-pass\", shape = [32, 32], pitch = \"1 um\", sq = \"35 nm\", cutoff = \"8 um\", seed = 1",
@@ -144,12 +109,8 @@ fn a_case_is_known_again_from_another_folder_and_by_numbers_of_any_length() {
     fs::write(folder.path().join("sub/case.toml"), case).unwrap();
     ok(&at("run sub/case.toml --out out"));
     ok(&at("run sub/case.toml --out out --resume"));
-    let inside = Command::new(program())
-        .args(["run", "case.toml", "--out", "../out", "--resume"])
-        .current_dir(folder.path().join("sub"))
-        .output()
-        .unwrap();
-    ok(&inside);
+    let mut inside = command(&folder, "run case.toml --out ../out --resume");
+    ok(&inside.current_dir(folder.path().join("sub")).output().unwrap());
 }
 
 #[test]

@@ -74,9 +74,39 @@ pub(crate) fn ok(output: &Output) -> String {
 /// What is on stderr after exit code 2, with nothing on stdout.
 #[track_caller]
 pub(crate) fn refused(output: &Output) -> String {
-    assert_eq!(output.status.code(), Some(2), "{}", stderr(output));
     assert!(output.stdout.is_empty());
+    failed(output, 2)
+}
+
+/// What is on stderr after this exit code.
+#[track_caller]
+pub(crate) fn failed(output: &Output, code: i32) -> String {
+    assert_eq!(output.status.code(), Some(code), "{}", stderr(output));
     stderr(output)
+}
+
+/// Asserts that a text has each of the parts that " … " separates.
+#[track_caller]
+pub(crate) fn assert_has(text: &str, parts: &str) {
+    for part in parts.split(" … ") {
+        assert!(text.contains(part), "no {part:?} in {text}");
+    }
+}
+
+/// Asserts that each command is refused with a message that has the parts beside it.
+#[track_caller]
+pub(crate) fn assert_refused<const N: usize>(folder: &TempDir, cases: [(&str, &str); N]) {
+    for (arguments, parts) in cases {
+        let output = asperity(folder, arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {}", stderr(&output));
+        assert_has(&refused(&output), parts);
+    }
+}
+
+/// The JSON on stdout after success.
+#[track_caller]
+pub(crate) fn json(output: &Output) -> Value {
+    serde_json::from_str(&ok(output)).unwrap()
 }
 
 /// Changes a text in `file`, in which it must be.
@@ -169,8 +199,16 @@ pub(crate) fn keys(value: &Value) -> BTreeSet<String> {
     value.as_object().unwrap().keys().cloned().collect()
 }
 
-pub(crate) fn set<const N: usize>(names: [&str; N]) -> BTreeSet<String> {
-    names.map(str::to_owned).into()
+/// Names that blanks separate.
+pub(crate) fn set(names: &str) -> BTreeSet<String> {
+    names.split_whitespace().map(str::to_owned).collect()
+}
+
+/// Files of results: these, those that each run leaves, and pictures by their names alone.
+pub(crate) fn promised(names: &str, pictures: &str) -> BTreeSet<String> {
+    let of_each = set(".lock case.json report.html results.csv summary.json");
+    let pictures = set(pictures).into_iter().map(|name| format!("figures/{name}.png"));
+    set(names).into_iter().chain(of_each).chain(pictures).collect()
 }
 
 pub(crate) fn number(value: &Value) -> f64 {

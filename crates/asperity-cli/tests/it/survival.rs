@@ -1,7 +1,7 @@
 //! Results that survive: directories that killed and refused runs leave, a second run, damage, full disks, closed
 //! streams, and kills at any moment.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -10,7 +10,8 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::support::{asperity, change, files, limited, ok, program, refused, send, spawn, stderr, wait_for};
+use crate::support::{asperity, assert_has, assert_refused, change, failed, files, limited, ok, program};
+use crate::support::{refused, send, spawn, stderr, wait_for};
 
 // ---- directories -----------------------------------------------------------------------------------------
 
@@ -26,16 +27,6 @@ fn what_a_run_leaves_that_was_killed_before_its_case_is_as_good_as_nothing() {
         ok(&asperity(&folder, &format!("run case.toml --out out{flag}")));
         assert!(temporary(&out).is_empty(), "{flag}: {:?}", temporary(&out));
         assert!(out.join("summary.json").exists());
-    }
-    // What is someone's is not touched, not even by a lock.
-    let folder = folder_with(&motion(1, ""));
-    let out = folder.path().join("out");
-    fs::create_dir_all(out.join("fields")).unwrap();
-    fs::write(out.join("fields/wheat.txt"), "mine").unwrap();
-    for flag in ["", " --overwrite", " --resume"] {
-        let error = refused(&asperity(&folder, &format!("run case.toml --out out{flag}")));
-        assert!(error.contains("is not empty, and holds no results"), "{error}");
-        assert_eq!(files(&out), BTreeSet::from(["fields/wheat.txt".to_owned()]));
     }
 }
 
@@ -59,10 +50,7 @@ fn temporary_files_are_swept_from_every_folder_that_is_written_to() {
     assert!(temporary(&out).is_empty(), "{:?}", temporary(&out));
 
     half("made/.asperity-a");
-    ok(&asperity(
-        &folder,
-        "surface generate low-pass --shape 16x16 --pitch 1um --sq 35nm --cutoff 8um --out made/a.npy",
-    ));
+    ok(&asperity(&folder, &format!("{SURFACE} --out made/a.npy")));
     assert!(temporary(&folder.path().join("made")).is_empty());
     half("drawn/.asperity-a");
     ok(&asperity(&folder, "surface plot made/a.npy --pitch 1um --out drawn --overwrite"));
@@ -71,8 +59,7 @@ fn temporary_files_are_swept_from_every_folder_that_is_written_to() {
     half("made/.asperity-a");
     let held = fs::File::options().write(true).open(folder.path().join("made/.asperity-a")).unwrap();
     held.lock().unwrap();
-    let again = "surface generate low-pass --shape 16x16 --pitch 1um --sq 35nm --cutoff 8um --out made/b.npy";
-    ok(&asperity(&folder, again));
+    ok(&asperity(&folder, &format!("{SURFACE} --out made/b.npy")));
     assert_eq!(temporary(&folder.path().join("made")).len(), 1);
 }
 
@@ -83,9 +70,8 @@ fn a_second_run_in_one_directory_is_refused_as_long_as_the_first_lives() {
     let mut first = spawn(&folder, "run case.toml --out out");
     wait_for(&mut first, &out.join("passes.csv"));
     for flag in ["", " --overwrite", " --resume"] {
-        let error = refused(&asperity(&folder, &format!("run case.toml --out out{flag}")));
         let told = if flag.is_empty() { "already holds results" } else { "out is in use: another run" };
-        assert!(error.contains(told), "{flag}: {error}");
+        assert_refused(&folder, [(&format!("run case.toml --out out{flag}"), told)]);
     }
     // Who only reads is welcome.
     ok(&asperity(&folder, "plot out --overwrite"));
@@ -123,14 +109,10 @@ fn a_run_is_resumed_only_from_its_own_whole_results() {
     let folder = folder_with(&motion(2, ""));
     let path = |name: &str| folder.path().join(name);
     let surface = |seed: usize| {
-        let made = format!(
-            "surface generate low-pass --shape 16x16 --pitch 1um --sq 35nm --cutoff 8um --seed {seed}"
-        );
-        ok(&asperity(&folder, &format!("{made} --out a.npy --overwrite")));
+        ok(&asperity(&folder, &format!("{SURFACE} --seed {seed} --out a.npy --overwrite")));
     };
     surface(1);
-    let generate = "generate = \"low-pass\", shape = [16, 16], pitch = \"1 um\", sq = \"35 nm\", cutoff = \"8 um\", seed = 1";
-    change(&folder.path().join("case.toml"), generate, "file = \"a.npy\", pitch = \"1 um\"");
+    change(&folder.path().join("case.toml"), GENERATED, "file = \"a.npy\", pitch = \"1 um\"");
     ok(&asperity(&folder, "run case.toml --out out"));
     change(&folder.path().join("case.toml"), "20 mN", "21 mN");
     ok(&asperity(&folder, "run case.toml --out other"));
@@ -144,11 +126,7 @@ fn a_run_is_resumed_only_from_its_own_whole_results() {
     let resume = || asperity(&folder, "run case.toml --out out --resume");
     let refused_for = |reason: &str| {
         let before = contents(&path("out"));
-        let error = refused(&resume());
-        assert!(
-            error.contains(reason) && error.contains("hint: --overwrite computes all"),
-            "{reason}: {error}"
-        );
+        assert_has(&refused(&resume()), &format!("{reason} … hint: --overwrite computes all"));
         assert!(contents(&path("out")) == before, "{reason}");
         restore();
     };
@@ -167,8 +145,7 @@ fn a_run_is_resumed_only_from_its_own_whole_results() {
     for name in ["fields/pass-0001.h5", "fields/pass-0002.h5"] {
         let bytes = &whole[name];
         fs::write(path("out").join(name), &bytes[..bytes.len() / 2]).unwrap();
-        let error = refused(&resume());
-        assert!(error.contains(&format!("out/{name}: ")), "{error}");
+        assert_has(&refused(&resume()), &format!("out/{name}: "));
         restore();
     }
     let rows = String::from_utf8(whole["steps.csv"].clone()).unwrap();
@@ -206,10 +183,7 @@ fn a_run_is_resumed_only_from_its_own_whole_results() {
 fn what_cannot_be_written_to_stdout_is_an_error_and_a_closed_pipe_is_none() {
     let folder = folder_with(&ball(""));
     fs::write(folder.path().join("moving.toml"), motion(1, "")).unwrap();
-    ok(&asperity(
-        &folder,
-        "surface generate low-pass --shape 16x16 --pitch 1um --sq 35nm --cutoff 8um --out a.npy",
-    ));
+    ok(&asperity(&folder, &format!("{SURFACE} --out a.npy")));
     ok(&asperity(&folder, "run case.toml --out there"));
     let shell = |script: &str| {
         let script = script.replace("asperity", &program());
@@ -230,10 +204,8 @@ fn what_cannot_be_written_to_stdout_is_an_error_and_a_closed_pipe_is_none() {
         "verify",
     ];
     for command in commands {
-        let output = shell(&format!("asperity {command} > /dev/full"));
-        assert_eq!(output.status.code(), Some(1), "{command}: {}", stderr(&output));
-        let told = "error: standard output: No space left on device";
-        assert!(stderr(&output).contains(told), "{command}: {}", stderr(&output));
+        let said = failed(&shell(&format!("asperity {command} > /dev/full")), 1);
+        assert_has(&said, "error: standard output: No space left on device");
     }
     // The results are whole all the same.
     for directory in ["full", "moving"] {
@@ -253,8 +225,8 @@ fn what_cannot_be_written_to_stdout_is_an_error_and_a_closed_pipe_is_none() {
 fn threads_are_as_many_as_there_is_use_for_and_room() {
     let folder = folder_with(&ball(""));
     for count in ["0", "1025"] {
-        let error = refused(&asperity(&folder, &format!("run case.toml --out out --threads {count}")));
-        assert!(error.contains("expected a whole number from 1 to 1024"), "{error}");
+        let told = "expected a whole number from 1 to 1024";
+        assert_refused(&folder, [(&format!("run case.toml --out out --threads {count}"), told)]);
     }
     let output = asperity(&folder, "run case.toml --out out --threads 300");
     ok(&output);
@@ -265,9 +237,7 @@ fn threads_are_as_many_as_there_is_use_for_and_room() {
             let limit = "-v 500000; export RUST_MIN_STACK=67108864";
             limited(&folder, limit, &format!("run case.toml --out out --overwrite --threads {threads}"))
         };
-        let output = limited(1000);
-        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-        assert!(stderr(&output).contains("error: threads cannot be made: "), "{}", stderr(&output));
+        assert_has(&failed(&limited(1000), 1), "error: threads cannot be made: ");
         ok(&limited(1));
     }
 }
@@ -281,10 +251,10 @@ fn ctrl_c_counts_while_figures_are_drawn() {
     let mut child = spawn(&folder, "run case.toml --out out");
     wait_for(&mut child, &out.join("figures/topographies.png"));
     send("INT", &child);
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
-    let told = "error: interrupted before all figures were drawn\nhint: the results are whole; `asperity plot out --overwrite` draws";
-    assert!(stderr(&output).contains(told), "{}", stderr(&output));
+    let said = failed(&child.wait_with_output().unwrap(), 130);
+    let told = "error: interrupted before all figures were drawn\n\
+                hint: the results are whole; `asperity plot out --overwrite` draws";
+    assert_has(&said, told);
     assert!(out.join("summary.json").exists() && !out.join("figures/approach.png").exists());
     ok(&asperity(&folder, "plot out --overwrite"));
     assert!(out.join("figures/approach.png").exists());
@@ -308,8 +278,7 @@ fn what_is_no_file_is_named_as_what_it_is_and_waited_for_by_nobody() {
             assert!(error.starts_with(told), "{error}");
         }
     }
-    let generate = "generate = \"low-pass\", shape = [16, 16], pitch = \"1 um\", sq = \"35 nm\", cutoff = \"8 um\", seed = 1";
-    change(&folder.path().join("case.toml"), generate, "file = \"a.npy\", pitch = \"1 um\"");
+    change(&folder.path().join("case.toml"), GENERATED, "file = \"a.npy\", pitch = \"1 um\"");
     let error = refused(&asperity(&folder, "check case.toml"));
     assert!(error.starts_with("error: a.npy: is a pipe (FIFO), expected a topography file"), "{error}");
     let error = refused(&asperity(&folder, "surface info a.npy"));
@@ -484,11 +453,7 @@ fn a_run_that_is_killed_at_a_call_that_changes_a_file_is_resumed_to_the_same_bit
                 let output = asperity(&folder, "run case.toml --out out --quiet --resume --threads 1");
                 if !flag.is_empty() && output.status.code() == Some(2) {
                     // Nothing is lost yet of the other case's results.
-                    assert!(
-                        stderr(&output).contains("holds the results of another case"),
-                        "{}",
-                        stderr(&output)
-                    );
+                    assert_has(&stderr(&output), "holds the results of another case");
                     ok(&asperity(&folder, "run case.toml --out out --quiet --overwrite --threads 1"));
                 } else {
                     ok(&output);
@@ -548,8 +513,7 @@ fn a_run_that_met_a_full_disk_is_resumed_to_the_same_bits() {
         let largest = largest.unwrap().div_ceil(1024);
         for limit in [1, 2, largest / 2, largest - 1] {
             let output = limited(&folder, &format!("-f {limit}"), "run case.toml --out out --quiet");
-            assert_eq!(output.status.code(), Some(1), "{name}, {limit} KiB: {}", stderr(&output));
-            assert!(stderr(&output).contains("File too large"), "{}", stderr(&output));
+            assert_has(&failed(&output, 1), "File too large");
             assert!(temporary(&folder.path().join("out")).is_empty());
             ok(&asperity(&folder, "run case.toml --out out --resume"));
             assert_same(&bits(&folder.path().join("out")), &whole, &format!("{name}, {limit} KiB"));
@@ -589,14 +553,18 @@ fn assert_same(found: &BTreeMap<String, Vec<u8>>, expected: &BTreeMap<String, Ve
 
 // ---- helpers ---------------------------------------------------------------------------------------------
 
+/// The command for the surface that is generated below.
+const SURFACE: &str = "surface generate low-pass --shape 16x16 --pitch 1um --sq 35nm --cutoff 8um";
+
+const GENERATED: &str = "generate = \"low-pass\", shape = [16, 16], pitch = \"1 um\", sq = \"35 nm\", \
+                         cutoff = \"8 um\", seed = 1";
+
 /// Two rough steel surfaces of 16 × 16 cells that yield a little, with what follows.
 pub(crate) fn motion(passes: usize, tables: &str) -> String {
     let body = |name: &str, seed: usize| {
-        format!(
-            "{name} = {{ young = \"210 GPa\", poisson = 0.3, hardness = \"4 GPa\", topography = {{ \
-             generate = \"low-pass\", shape = [16, 16], pitch = \"1 um\", sq = \"35 nm\", cutoff = \"8 um\", \
-             seed = {seed} }} }}\n"
-        )
+        let topography = GENERATED.replace("seed = 1", &format!("seed = {seed}"));
+        let steel = "young = \"210 GPa\", poisson = 0.3, hardness = \"4 GPa\"";
+        format!("{name} = {{ {steel}, topography = {{ {topography} }} }}\n")
     };
     format!(
         "{}{}contact = {{ load = \"20 mN\" }}\nmotion = {{ passes = {passes}, stride = 2 }}\n\
@@ -617,9 +585,7 @@ pub(crate) fn ball(tables: &str) -> String {
 }
 
 pub(crate) fn folder_with(case: &str) -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("case.toml"), case).unwrap();
-    folder
+    crate::support::folder_with("case.toml", case)
 }
 
 /// Every file beneath, by its path relative to `folder`.

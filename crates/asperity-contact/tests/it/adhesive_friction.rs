@@ -16,8 +16,9 @@ use asperity_contact::reference::{CattaneoMindlin, HertzSphere};
 use asperity_contact::solver::{
     Control, Coupling, Creep, Friction, FrictionalSolution, HardWall, Loading, Params, Rolling, Tangential,
 };
-use asperity_contact::wear::{Wear, WearCoefficient};
 use asperity_surface::{Amplitude, SelfAffine, Topography};
+
+use crate::support::{archard, largest};
 
 const COEFFICIENT: f64 = 0.4;
 const PARAMS: Params = Params::new().with_tolerance(1e-9);
@@ -205,7 +206,7 @@ fn fretted(attraction: f64, wear: f64, cycles: usize, acceleration: Acceleration
         Stage::new(Loading { normal: Control::Load(unit), tangential }, 2)
     };
     let stages = vec![stage(0.3), stage(-0.3).with_cycles(Some(Cycles { count: cycles, period: None }))];
-    let law = Wear::new([Some(WearCoefficient::archard(wear).unwrap()), None], [None, None]).unwrap();
+    let law = archard([wear, 0.0]);
     StagedLoading::new(pair, Boundary::FREE, Some(friction()), stages, PARAMS)
         .unwrap()
         .with_changes(Changes::by(law).with_acceleration(acceleration))
@@ -237,8 +238,8 @@ fn a_faint_attraction_frets_as_hard_walls_do() {
         &before - &contact.changed.unwrap().pair.lower.heights
     };
     let hard = worn(0.0);
-    let most = |depth: &Field| depth.iter().fold(0.0_f64, |most, depth| most.max(depth.abs()));
-    let [faint, fainter] = [1e-3, 1e-5].map(|attraction| most(&(&hard - &worn(attraction))) / most(&hard));
+    let [faint, fainter] =
+        [1e-3, 1e-5].map(|attraction| largest(&(&hard - &worn(attraction))) / largest(&hard));
     assert!(faint < 0.02 && (90.0..110.0).contains(&(faint / fainter)), "{faint:e} {fainter:e}");
     // The attraction presses what touches together: more of it sticks under the same push, and less is worn.
     assert!(worn(1.0).sum() < 0.2 * hard.sum());

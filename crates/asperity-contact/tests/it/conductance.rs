@@ -97,7 +97,7 @@ fn conduct(operator: &mut dyn Operator, contact: &Solution) -> Conductance {
 }
 
 #[test]
-fn rough_joints_conduct_as_those_of_an_independent_program_and_nearly_as_by_the_correlations() {
+fn rough_joints_conduct_as_in_an_independent_program_and_nearly_as_by_correlations() {
     let data = data();
     for seed in ["1", "2"] {
         let heights = surface(&data, seed, 128);

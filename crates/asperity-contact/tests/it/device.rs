@@ -3,14 +3,14 @@
 use asperity_base::{CellValues, Error, Field, Grid};
 use asperity_contact::kernel::response;
 use asperity_contact::material::{Coating, Material};
-use asperity_contact::motion::{
-    LoadControl, Motion, Output, Pair, PassRecord, PlasticUpdate, Simulation, Step, StepRecord, Strategy,
-};
+use asperity_contact::motion::{LoadControl, Motion, Pair, PlasticUpdate, Simulation, Strategy};
 use asperity_contact::operator::{Boundary, Deferred, Edge, Operator, Operators};
 use asperity_contact::solver::{Bounds, Control, Device, Method, Params, Solution, residual, solve_normal};
-use asperity_surface::{Amplitude, SelfAffine, Topography};
+use asperity_surface::{Amplitude, SelfAffine};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+
+use crate::support::{Kept, largest, self_affine, steel};
 
 const TOLERANCE: f64 = 1e-7;
 
@@ -87,7 +87,6 @@ fn random_contacts_agree_with_those_of_the_processor() {
             [Device::Host, Device::Cpu].map(|device| solve(&drawn, device, None).unwrap_or_else(fail));
         convolutions =
             [convolutions[0] + found.stats.convolutions, convolutions[1] + expected.stats.convolutions];
-        let largest = |field: &Field| field.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let error = largest(&(&found.pressure - &expected.pressure)) / largest(&expected.pressure);
         let scale = largest(&expected.displacement);
         let approach = (found.approach - expected.approach).abs() / scale;
@@ -125,7 +124,7 @@ fn coated_contacts_agree_with_those_of_the_processor() {
         let drawn = Drawn { operators, control, grid, ..plain };
         let [found, expected] =
             [Device::Host, Device::Cpu].map(|device| solve(&drawn, device, None).unwrap());
-        let error = (&found.pressure - &expected.pressure).iter().fold(0.0, |m: f64, e| m.max(e.abs()));
+        let error = largest(&(&found.pressure - &expected.pressure));
         assert!(error < 1e-4 * expected.max_pressure(), "{boundary:?}: {error:e}");
     }
 }
@@ -204,31 +203,11 @@ fn an_operator_that_is_computed_when_needed_is_the_operator() {
     assert_eq!(one, other);
 }
 
-/// The records of a motion.
-#[derive(Default)]
-struct Records {
-    passes: Vec<PassRecord>,
-    steps: Vec<StepRecord>,
-}
-
-impl Output for Records {
-    fn step(&mut self, step: &Step<'_>) -> Result<(), Error> {
-        if let Some(pass) = step.pass() {
-            self.passes.push(pass.record.clone());
-            self.steps.extend_from_slice(pass.steps);
-        }
-        Ok(())
-    }
-}
-
 /// Two rough bodies of steel that yield, 32 × 24 cells of 1 µm.
 fn pair() -> Pair {
     let grid = Grid::new([32, 24], [1e-6; 2]).unwrap();
-    let form =
-        SelfAffine { hurst: 0.8, rolloff: None, shortest: Some(6e-6), amplitude: Amplitude::Sq(60e-9) };
-    let surface = |seed| Topography::new(grid, form.generate(&grid, seed).unwrap().into_heights()).unwrap();
-    let steel = Material::new(210e9, 0.3, 4e9).unwrap();
-    Pair::new(surface(1), surface(2), [&steel, &steel]).unwrap()
+    let [lower, upper] = [1, 2].map(|seed| self_affine(&grid, Amplitude::Sq(60e-9), Some(6e-6), seed));
+    Pair::new(lower, upper, [&steel(4e9); 2]).unwrap()
 }
 
 #[test]
@@ -250,10 +229,7 @@ fn passes_in_one_batch_are_those_of_the_processor() {
                 .with_plastic_update(update)
                 .with_load_tolerance(1e-6);
             let params = Params::new().with_tolerance(1e-8).with_device(device);
-            let mut records = Records::default();
-            let mut simulation = Simulation::new(pair(), boundary, motion, params).unwrap();
-            simulation.run(&(), &mut [&mut records]).unwrap();
-            records
+            Kept::of(Simulation::new(pair(), boundary, motion, params).unwrap())
         };
         let (found, expected) = (run(Device::Host), run(Device::Cpu));
         assert_eq!((found.passes.len(), found.steps.len()), (2, expected.steps.len()));

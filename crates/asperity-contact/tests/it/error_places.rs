@@ -1,22 +1,18 @@
-//! The limits of the model are compared with results while they come.
+//! Errors within a course name their place.
 
 use asperity_base::error::Error::{AtPass, AtPosition, AtUpdate, NotConverged};
 use asperity_base::{Error, Grid};
-use asperity_contact::material::Material;
 use asperity_contact::motion::{Changes, Motion, Pair, Simulation, Slide, SlidingContact, Strategy};
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Method, Params};
-use asperity_contact::wear::{Wear, WearCoefficient};
-use asperity_surface::{Amplitude, Form, SelfAffine};
+use asperity_surface::{Amplitude, Form};
 
-// ---- errors name their place -----------------------------------------------------------------------------
+use crate::support::{archard, self_affine, steel};
 
 fn pair() -> Pair {
     let grid = Grid::new([16, 8], [1e-6; 2]).unwrap();
-    let rough = SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude: Amplitude::Sq(50e-9) };
-    let steel = Material::new(210e9, 0.3, f64::INFINITY).unwrap();
-    let lower = rough.generate(&grid, 1).unwrap();
-    Pair::new(lower, Form::Flat.on(&grid).unwrap(), [&steel, &steel]).unwrap()
+    let lower = self_affine(&grid, Amplitude::Sq(50e-9), None, 1);
+    Pair::new(lower, Form::Flat.on(&grid).unwrap(), [&steel(f64::INFINITY); 2]).unwrap()
 }
 
 /// A solver that gives up at once.
@@ -46,10 +42,8 @@ fn a_contact_without_equilibrium_names_its_place() {
 
     // All positions are solved together with their wear: no equilibrium within so few convolutions.
     let params = Params::default().with_max_convolutions(4);
-    let wear = WearCoefficient::archard(1e-10).unwrap();
     let simulation = Simulation::new(pair(), Boundary::PERIODIC, motion, params).unwrap();
-    let simulation =
-        simulation.with_changes(Changes::by(Wear::new([Some(wear), None], [None, None]).unwrap())).unwrap();
+    let simulation = simulation.with_changes(Changes::by(archard([1e-10, 0.0]))).unwrap();
     let error = simulation.solve(&()).map(|_| ()).unwrap_err();
     let AtPass { pass: 1, source } = &error else { panic!("{error:?}") };
     assert!(not_converged(source), "{error:?}");

@@ -2,31 +2,28 @@
 //! must satisfy.
 
 use asperity_base::{Error, Field, Grid};
-use asperity_contact::material::{Compliances, Material};
-use asperity_contact::operator::{Boundary, CoupledSum, Operators};
+use asperity_contact::material::Compliances;
+use asperity_contact::operator::{Boundary, CoupledOperator, CoupledSum, Operators};
 use asperity_contact::solver::{
     Bounds, Control, Coupling, Friction, FrictionalSolution, Loading, Params, Tangential, solve_frictional,
     solve_normal,
 };
 
 use crate::support::cell_by_cell::CellByCell;
+use crate::support::{compliances, largest};
 
+const INF: f64 = f64::INFINITY;
 const PARAMS: Params = Params::new()
     .with_method(asperity_contact::solver::Method::Auto)
     .with_tolerance(1e-10)
     .with_max_convolutions(10_000);
 
-fn pair(poisson: [f64; 2], young: [f64; 2]) -> Compliances {
-    let [lower, upper] = [0, 1].map(|k| Material::elastic(young[k], poisson[k]).unwrap());
-    Compliances::new(&lower, &upper).unwrap()
-}
-
 fn alike() -> Compliances {
-    pair([0.3, 0.3], [2.0, 2.0])
+    compliances([0.3, 0.3], [2.0, 2.0])
 }
 
 fn dissimilar() -> Compliances {
-    pair([0.2, 0.3], [1.0, 30.0])
+    compliances([0.2, 0.3], [1.0, 30.0])
 }
 
 /// A bump with some roughness.
@@ -36,6 +33,18 @@ fn gap(shape: [usize; 2]) -> Field {
         let (x, y) = (i as f64 - cx, j as f64 - cy);
         0.02 * (x * x + y * y) + 0.1 * ((1.9 * x + 0.4).sin() * (2.3 * y).cos())
     })
+}
+
+fn solve(
+    operator: &mut dyn CoupledOperator,
+    gap: &Field,
+    hardness: f64,
+    friction: &Friction,
+    loading: Loading,
+    before: Option<&FrictionalSolution>,
+) -> FrictionalSolution {
+    let bounds = Bounds::up_to(hardness);
+    solve_frictional(operator, gap, &bounds, friction, loading, before, &PARAMS).unwrap()
 }
 
 fn assert_same(solution: &FrictionalSolution, cell_by_cell: &[[f64; 3]], what: &str) {
@@ -64,19 +73,10 @@ fn forces_and_displacements_are_two_ways_to_say_the_same() {
             (None, None);
         for (load, force) in [(3.0, [0.0, 0.0]), (3.0, [0.6, 0.0]), (4.0, [0.3, -0.9]), (4.0, [-1.15, 0.0])] {
             let loading = Loading { normal: Control::Load(load), tangential: Tangential::Force(force) };
-            let mut solve = |loading, before: Option<&FrictionalSolution>| {
-                solve_frictional(
-                    operator.as_mut(),
-                    &gap,
-                    &Bounds::ELASTIC,
-                    &friction,
-                    loading,
-                    before,
-                    &PARAMS,
-                )
-                .unwrap()
+            let mut to = |loading, before: Option<&FrictionalSolution>| {
+                solve(operator.as_mut(), &gap, INF, &friction, loading, before)
             };
-            let one = solve(loading, by_force.as_ref());
+            let one = to(loading, by_force.as_ref());
             assert!((one.normal.load() / load - 1.0).abs() < 1e-10);
             let got = one.force();
             assert!((0..2).all(|k| (got[k] - force[k]).abs() < 1e-9 * load), "{got:?} for {force:?}");
@@ -84,14 +84,14 @@ fn forces_and_displacements_are_two_ways_to_say_the_same() {
                 normal: Control::Approach(one.normal.approach),
                 tangential: Tangential::Displacement(one.rigid_displacement),
             };
-            let other = solve(loading, by_shift.as_ref());
+            let other = to(loading, by_shift.as_ref());
             let most = one.normal.max_pressure();
             for (a, b) in [
                 (&one.normal.pressure, &other.normal.pressure),
                 (&one.shear[0], &other.shear[0]),
                 (&one.shear[1], &other.shear[1]),
             ] {
-                let error = a.iter().zip(b).fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+                let error = largest(&(a - b));
                 assert!(error < 1e-6 * most, "{boundary:?}, {force:?}: {error:e} of {most:e}");
             }
             assert!(one.dissipation(by_force.as_ref()) >= 0.0);
@@ -113,16 +113,7 @@ fn identical_bodies_press_as_without_friction() {
     {
         let loading = Loading { normal: Control::Load(5.0), tangential };
         let friction = Friction::coulomb(0.4).unwrap();
-        let solution = solve_frictional(
-            operator.as_mut(),
-            &gap,
-            &Bounds::up_to(0.05),
-            &friction,
-            loading,
-            None,
-            &PARAMS,
-        )
-        .unwrap();
+        let solution = solve(operator.as_mut(), &gap, 0.05, &friction, loading, None);
         assert_eq!(solution.normal.pressure, alone.pressure);
         assert_eq!(solution.normal.approach, alone.approach);
     }
@@ -135,21 +126,20 @@ fn what_slides_bears_all_it_can_in_the_direction_of_sliding() {
     let mut operator = Operators::new(grid, dissimilar(), Boundary::FREE).coupled_on(grid.shape);
     let friction = Friction::coulomb(0.5).unwrap().with_shear_strength(0.02);
     let loading = Loading { normal: Control::Load(5.0), tangential: Tangential::Sliding([1.0, 0.0]) };
-    let mut solve = |friction: &Friction, loading| {
-        solve_frictional(operator.as_mut(), &gap, &Bounds::ELASTIC, friction, loading, None, &PARAMS).unwrap()
-    };
-    let sliding = solve(&friction, loading);
+    let mut under =
+        |friction: &Friction, loading| solve(operator.as_mut(), &gap, INF, friction, loading, None);
+    let sliding = under(&friction, loading);
     for (p, q) in sliding.normal.pressure.iter().zip(&sliding.shear[0]) {
         assert_eq!(*q, (0.5 * p).min(0.02));
     }
     assert_eq!(sliding.stick.sum(), 0.0);
     // It is the limit for a large displacement.
     let pushed = Loading { tangential: Tangential::Displacement([1e4, 0.0]), ..loading };
-    let pushed = solve(&friction, pushed);
+    let pushed = under(&friction, pushed);
     let error = (&pushed.normal.pressure - &sliding.normal.pressure).mapv(f64::abs);
     assert!(error.iter().all(|e| *e < 1e-5 * sliding.normal.max_pressure()));
     // Ahead of the shear the softer lower body sinks, and behind it it rises towards the upper one.
-    let alone = solve(&friction.with_coefficient(0.0), loading);
+    let alone = under(&friction.with_coefficient(0.0), loading);
     let moment = |p: &Field| p.indexed_iter().map(|((i, _), p)| i as f64 * p).sum::<f64>() / p.sum();
     assert!(moment(&sliding.normal.pressure) < moment(&alone.normal.pressure) - 0.05);
 }
@@ -161,26 +151,15 @@ fn plastic_cells_bear_pressure_and_shear_on_the_ellipse_and_the_contact_grows() 
     let (hardness, load) = (0.04, 6.0);
     for pair in [alike(), dissimilar()] {
         let mut operator = Operators::new(grid, pair, Boundary::FREE).coupled_on(grid.shape);
-        let friction =
-            |junction_growth| Friction::coulomb(0.4).unwrap().with_junction_growth(junction_growth);
-        let mut solve = |junction_growth, tangential, before: Option<&FrictionalSolution>| {
+        let friction = Friction::coulomb(0.4).unwrap().with_junction_growth(9.0);
+        let mut under = |tangential, before: Option<&FrictionalSolution>| {
             let loading = Loading { normal: Control::Load(load), tangential };
-            let law = friction(junction_growth);
-            solve_frictional(
-                operator.as_mut(),
-                &gap,
-                &Bounds::up_to(hardness),
-                &law,
-                loading,
-                before,
-                &PARAMS,
-            )
-            .unwrap()
+            solve(operator.as_mut(), &gap, hardness, &friction, loading, before)
         };
         let mut area = Vec::new();
         let mut before: Option<FrictionalSolution> = None;
         for share in [0.0, 0.3, 0.6, 0.9, 0.99] {
-            let pushed = solve(9.0, Tangential::Force([share * 0.4 * load, 0.0]), before.as_ref());
+            let pushed = under(Tangential::Force([share * 0.4 * load, 0.0]), before.as_ref());
             assert!((pushed.normal.load() / load - 1.0).abs() < 1e-9);
             let mut plastic = 0;
             for (cell, p) in pushed.normal.pressure.iter().enumerate() {
@@ -197,7 +176,7 @@ fn plastic_cells_bear_pressure_and_shear_on_the_ellipse_and_the_contact_grows() 
         assert!(area.windows(2).all(|pair| pair[1] as f64 > 0.98 * pair[0] as f64), "{area:?}");
         assert!(area[4] as f64 > 1.05 * area[0] as f64, "{area:?}");
         // Finally everything slips, with a load of H/√(1 + αμ²).
-        let sliding = solve(9.0, Tangential::Sliding([1.0, 0.0]), None);
+        let sliding = under(Tangential::Sliding([1.0, 0.0]), None);
         let cap = hardness / (1.0 + 9.0 * 0.16f64).sqrt();
         assert!((sliding.normal.max_pressure() / cap - 1.0).abs() < 1e-12);
         assert!(area[4] <= sliding.normal.contact_cells());
@@ -214,8 +193,7 @@ fn bodies_apart_bear_nothing_and_touch_later() {
     let lowest = gap.iter().copied().fold(f64::INFINITY, f64::min);
     let mut to = |approach, tangential, before: Option<&FrictionalSolution>| {
         let loading = Loading { normal: Control::Approach(approach), tangential };
-        solve_frictional(operator.as_mut(), &gap, &Bounds::ELASTIC, &friction, loading, before, &PARAMS)
-            .unwrap()
+        solve(operator.as_mut(), &gap, INF, &friction, loading, before)
     };
     for tangential in [Tangential::Force([0.0; 2]), Tangential::Displacement([0.1, 0.0])] {
         let apart = to(lowest - 0.01, tangential, None);
@@ -233,26 +211,18 @@ fn much_friction_between_very_dissimilar_bodies_has_an_answer() {
     let middle = 0.5 * (grid.shape[0] - 1) as f64;
     let gap =
         Field::from_shape_fn(grid.shape, |(i, j)| (i as f64 - middle).powi(2) + (j as f64 - middle).powi(2));
-    let pair = pair([0.0, 0.3], [1.0, f64::INFINITY]);
+    let pair = compliances([0.0, 0.3], [1.0, f64::INFINITY]);
     let mut operator = Operators::new(grid, pair, Boundary::FREE).coupled_on(grid.shape);
     let friction = Friction::coulomb(100.0).unwrap();
     let mut state: Option<FrictionalSolution> = None;
     for step in 1..=steps {
         let radius = (cells * step) as f64 / steps as f64;
-        let loading = Loading {
-            normal: Control::Approach(2.0 * radius * radius),
-            tangential: Tangential::Force([0.0; 2]),
-        };
-        let next = solve_frictional(
-            operator.as_mut(),
-            &gap,
-            &Bounds::ELASTIC,
-            &friction,
-            loading,
-            state.as_ref(),
-            &PARAMS.with_tolerance(1e-9),
-        );
-        state = Some(next.unwrap());
+        let loading = Loading::pressing(Control::Approach(2.0 * radius * radius));
+        let (before, params) = (state.as_ref(), PARAMS.with_tolerance(1e-9));
+        let bounds = Bounds::ELASTIC;
+        let next =
+            solve_frictional(operator.as_mut(), &gap, &bounds, &friction, loading, before, &params).unwrap();
+        state = Some(next);
     }
     let state = state.unwrap();
     assert_eq!(state.stick.sum(), state.normal.contact_cells() as f64);
@@ -315,16 +285,7 @@ fn an_increment_is_what_a_cell_by_cell_iteration_finds() {
                         normal: Control::Approach(approach),
                         tangential: Tangential::Displacement(shift),
                     };
-                    let solution = solve_frictional(
-                        &mut operator,
-                        &gap,
-                        &Bounds::up_to(hardness),
-                        &friction,
-                        loading,
-                        before.as_ref(),
-                        &PARAMS,
-                    )
-                    .unwrap();
+                    let solution = solve(&mut operator, &gap, hardness, &friction, loading, before.as_ref());
                     let expected = reference.solve(&gap, hardness, &friction, approach, shift, &slip_before);
                     assert_same(&solution, &expected, &what);
                     for (cell, slip) in slip_before.iter_mut().enumerate() {
@@ -369,11 +330,8 @@ fn what_single_precision_leaves_is_corrected_down_to_any_tolerance() {
                 let share = (solution.shear_limit.sum() / solution.normal.pressure.sum()).min(1.0);
                 let residual = phi.fold(0.0, f64::max) / (share * solution.normal.displacement.std(0.0));
                 assert!(residual < tolerance, "{boundary:?}: {residual:e} of {tolerance:e}");
-                let apart = |one: &Field, other: &Field| {
-                    one.iter().zip(other).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()))
-                };
                 for axis in 0..2 {
-                    let apart = apart(&solution.shear[axis], &exact.shear[axis]) / exact.max_shear();
+                    let apart = largest(&(&solution.shear[axis] - &exact.shear[axis])) / exact.max_shear();
                     assert!(apart < 1e3 * tolerance, "{boundary:?}, {tolerance:e}: {apart:e}");
                 }
             }
@@ -394,8 +352,7 @@ fn a_large_contact_takes_no_more_steps_than_a_small_one() {
         });
         let pair = dissimilar();
         let mut operator = Operators::new(grid, pair, Boundary::FREE).coupled_on(grid.shape);
-        let loading =
-            Loading { normal: Control::Load(0.6 * pair.modulus()), tangential: Tangential::Force([0.0; 2]) };
+        let loading = Loading::pressing(Control::Load(0.6 * pair.modulus()));
         let (friction, params) = (Friction::coulomb(0.3).unwrap(), Params::default());
         let solution =
             solve_frictional(operator.as_mut(), &gap, &Bounds::ELASTIC, &friction, loading, None, &params)

@@ -23,12 +23,10 @@ use asperity_contact::viscoelastic::{Relaxation, RelaxationTerm};
 use asperity_contact::wear::{WEAR, Wear, WearCoefficient};
 use asperity_surface::{Amplitude, Form, SelfAffine, Topography};
 
+use crate::support::{archard, difference, largest, rough_gap, self_affine, steel};
+
 const PITCH: f64 = 1e-6;
 const METHODS: [Method; 3] = [Method::Direct, Method::PolonskyKeer, Method::ActiveSet];
-
-fn steel(hardness: f64) -> Material {
-    Material::new(210e9, 0.3, hardness).unwrap()
-}
 
 /// Random numbers from 0 to 1.
 struct Draw(u64);
@@ -47,14 +45,6 @@ impl Draw {
     fn field(&mut self, shape: [usize; 2], from: f64, to: f64) -> Field {
         Field::from_shape_simple_fn(shape, || self.between(from, to))
     }
-}
-
-fn largest(field: &Field) -> f64 {
-    field.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
-}
-
-fn difference(one: &Field, other: &Field) -> f64 {
-    largest(&(one - other)) / largest(other)
 }
 
 fn on(grid: Grid, boundary: Boundary) -> Box<dyn Operator> {
@@ -99,11 +89,6 @@ fn a_compliance_adds_to_the_displacement_by_any_operator() {
     }
     let refused = Compliant::new(Box::new(FreeFft::new(grid, 1.0)) as Box<dyn Operator>, -1.0);
     assert!(matches!(refused.err(), Some(Error::OutOfRange { .. })));
-}
-
-fn rough_gap(grid: &Grid, seed: u64) -> Field {
-    let form = SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude: Amplitude::Sdq(0.1) };
-    -form.generate(grid, seed).unwrap().into_heights()
 }
 
 #[test]
@@ -220,14 +205,17 @@ fn compliant_cells_cost_no_more_than_stiff_ones() {
     }
 }
 
+fn sliding(pair: Pair, boundary: Boundary, slide: Slide, params: Params, changes: Changes) -> SlidingContact {
+    SlidingContact::new(pair, boundary, slide, params).unwrap().with_changes(changes).unwrap()
+}
+
 fn rough(hardness: f64, shape: [usize; 2], seed: u64) -> Pair {
-    rough_bodies(shape, seed, [&steel(hardness), &steel(hardness)])
+    rough_bodies(shape, seed, [&steel(hardness); 2])
 }
 
 fn rough_bodies(shape: [usize; 2], seed: u64, materials: [&Material; 2]) -> Pair {
     let grid = Grid::new(shape, [PITCH; 2]).unwrap();
-    let form = SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude: Amplitude::Sq(50e-9) };
-    let [lower, upper] = [seed, seed + 1].map(|seed| form.generate(&grid, seed).unwrap());
+    let [lower, upper] = [seed, seed + 1].map(|seed| self_affine(&grid, Amplitude::Sq(50e-9), None, seed));
     Pair::new(lower, upper.underside(), materials).unwrap()
 }
 
@@ -256,10 +244,7 @@ fn an_update_wears_by_the_pressure_that_it_leaves() {
         let slide = Slide::to(vec![0.2], Control::Load(load)).with_speed(0.1);
         let coefficient = |k: f64| Some(WearCoefficient::archard(k).unwrap().with_film(0.1 * k).unwrap());
         let wear = Wear::new(ks.map(coefficient), [Some(frozen()), Some(frozen())]).unwrap();
-        let contact = SlidingContact::new(pair, boundary, slide, EXACT)
-            .unwrap()
-            .with_changes(Changes::by(wear).with_bulk([300.0; 2]))
-            .unwrap();
+        let contact = sliding(pair, boundary, slide, EXACT, Changes::by(wear).with_bulk([300.0; 2]));
         let SlidingOutcome { state, solution, .. } = contact.run(None, &(), &mut []).unwrap();
         // On the bodies after the update the pressure is that of the update.
         assert!(difference(&state.pressure, &solution.pressure) < 1e-6, "case {case}");
@@ -303,11 +288,8 @@ fn an_update_under_coupled_shear_wears_by_the_pressure_that_it_leaves() {
         let k = 10.0f64.powf(draw.between(-2.0, 1.0)) * PITCH / pair.modulus() / 0.2;
         let worn = |friction: Friction| {
             let slide = Slide::to(vec![0.2], Control::Load(load)).with_friction(friction);
-            let wear = Wear::new([Some(WearCoefficient::archard(k).unwrap()), None], [None, None]).unwrap();
-            let contact = SlidingContact::new(pair.clone(), Boundary::FREE, slide, EXACT)
-                .unwrap()
-                .with_changes(Changes::by(wear))
-                .unwrap();
+            let changes = Changes::by(archard([k, 0.0]));
+            let contact = sliding(pair.clone(), Boundary::FREE, slide, EXACT, changes);
             contact.run(None, &(), &mut []).unwrap().state
         };
         let state = worn(friction);
@@ -350,10 +332,9 @@ fn everything(pair: Pair, updates: usize) -> SlidingContact {
     let films = [Some(growing()), Some(growing())];
     let coefficient = |k: f64| Some(WearCoefficient::energy(k).unwrap().with_film(0.1 * k).unwrap());
     let law = Films::new(films, &pair).unwrap();
-    let contact = SlidingContact::new(pair, Boundary::FREE, slide, Params::default()).unwrap();
     let wear = Wear::new([4e-16, 2e-16].map(|k| coefficient(10.0 * k)), films).unwrap();
     let changes = Changes::by(wear).with_law(law).with_bulk([373.15; 2]).with_heat([thermal; 2], 1);
-    contact.with_changes(changes).unwrap()
+    sliding(pair, Boundary::FREE, slide, Params::default(), changes)
 }
 
 #[test]
@@ -391,74 +372,14 @@ fn the_ledger_balances_and_friction_works() {
 }
 
 #[test]
-fn the_volume_is_archards_whatever_the_updates() {
-    for updates in [1, 7, 30] {
-        let pair = rough(f64::INFINITY, [24, 20], 5);
-        let slide = Slide::graded(0.3, updates, Control::Load(0.05));
-        let wear =
-            Wear::new([4e-15, 1e-15].map(|k| Some(WearCoefficient::archard(k).unwrap())), [None, None]);
-        let contact = SlidingContact::new(pair, Boundary::FREE, slide, Params::default())
-            .unwrap()
-            .with_changes(Changes::by(wear.unwrap()))
-            .unwrap();
-        let state = contact.run(None, &(), &mut []).unwrap().state;
-        let last = state.updates.last().unwrap();
-        for (body, k) in [4e-15, 1e-15].into_iter().enumerate() {
-            let expected = k * 0.05 * 0.3;
-            assert!(
-                (last.lost("wear")[body] / expected - 1.0).abs() < 1e-12,
-                "{:e}",
-                last.lost("wear")[body] / expected - 1.0
-            );
-        }
-    }
-}
-
-/// Stores the states, and stops after some.
-struct Kept(Vec<SlidingState>, usize);
-
-impl Output for Kept {
-    fn step(&mut self, step: &Step<'_>) -> Result<()> {
-        self.0.extend(step.state_as::<SlidingState>().cloned());
-        if self.0.len() == self.1 { Err(Error::Interrupted) } else { Ok(()) }
-    }
-}
-
-#[test]
-fn an_interrupted_contact_slides_on_as_if_it_had_not_stopped() {
-    let pair = rough(2e9, [24, 20], 1);
-    let whole = everything(pair.clone(), 6).run(None, &(), &mut []).unwrap();
-    for stop in [1, 3, 6] {
-        let mut kept = Kept(Vec::new(), stop);
-        assert!(everything(pair.clone(), 6).run(None, &(), &mut [&mut kept]).is_err());
-        let state = kept.0.pop().unwrap();
-        // From the heights and the films alone, as stored in files.
-        let mut at = pair.clone();
-        for (body, worn) in [(&mut at.lower, &state.pair.lower), (&mut at.upper, &state.pair.upper)] {
-            body.heights.clone_from(&worn.heights);
-            body.state.clone_from(&worn.state);
-        }
-        let contact = everything(at, 6);
-        let state = state.resumed(&contact);
-        let rest = contact.run(Some(state), &(), &mut []).unwrap();
-        assert_eq!(rest.state.updates, whole.state.updates);
-        assert_eq!(rest.state.pair.upper.heights, whole.state.pair.upper.heights);
-        assert_eq!(rest.solution.pressure, whole.solution.pressure);
-    }
-}
-
-#[test]
 fn at_an_approach_wear_takes_the_load_away() {
     let pair = rough(f64::INFINITY, [24, 20], 5);
     let pressed =
         press(&pair, Boundary::FREE, Control::Load(0.05), SlipRegime::Frictionless, &Params::default(), &())
             .unwrap();
     let slide = Slide::graded(50.0, 20, Control::Approach(pressed.record.approach));
-    let wear = Wear::new([Some(WearCoefficient::archard(1e-14).unwrap()), None], [None, None]).unwrap();
-    let contact = SlidingContact::new(pair, Boundary::FREE, slide, Params::default())
-        .unwrap()
-        .with_changes(Changes::by(wear))
-        .unwrap();
+    let changes = Changes::by(archard([1e-14, 0.0]));
+    let contact = sliding(pair, Boundary::FREE, slide, Params::default(), changes);
     let updates = contact.run(None, &(), &mut []).unwrap().state.updates;
     assert!((updates[0].load / 0.05 - 1.0).abs() < 1e-6);
     assert!(updates.windows(2).all(|pair| pair[1].load < pair[0].load));
@@ -485,22 +406,16 @@ impl Law for Blunt {
 }
 
 #[test]
-fn a_law_that_does_not_tell_its_coefficient_is_explicit_and_the_implicit_one_stays_smooth() {
+fn a_law_without_a_coefficient_is_explicit_and_the_implicit_one_stays_smooth() {
     let k = 1e-14;
     let run = |implicit: bool, updates: usize| {
         let grid = Grid::new([9, 9], [PITCH; 2]).unwrap();
         let flat = || Form::Flat.on(&grid).unwrap();
-        let pair = Pair::new(flat(), flat(), [&steel(f64::INFINITY), &steel(f64::INFINITY)]).unwrap();
+        let pair = Pair::new(flat(), flat(), [&steel(f64::INFINITY); 2]).unwrap();
         let ends = (1..=updates).map(|update| 0.2 * update as f64 / updates as f64).collect();
         let slide = Slide::to(ends, Control::Load(0.016));
-        let contact = SlidingContact::new(pair, Boundary::FREE, slide, Params::default()).unwrap();
-        let coefficient = Some(WearCoefficient::archard(k).unwrap());
-        let contact = match implicit {
-            true => contact
-                .with_changes(Changes::by(Wear::new([coefficient, None], [None, None]).unwrap()))
-                .unwrap(),
-            false => contact.with_changes(Changes::by(Blunt(k))).unwrap(),
-        };
+        let changes = if implicit { Changes::by(archard([k, 0.0])) } else { Changes::by(Blunt(k)) };
+        let contact = sliding(pair, Boundary::FREE, slide, Params::default(), changes);
         contact.run(None, &(), &mut []).unwrap().state
     };
     let spread = |state: &SlidingState| {
@@ -545,7 +460,7 @@ fn a_solid_lubricant_is_worn_off_and_the_body_after_it() {
     let pressure = 0.2e9;
     let grid = Grid::new([6, 5], [PITCH; 2]).unwrap();
     let flat = || Form::Flat.on(&grid).unwrap();
-    let pair = || Pair::new(flat(), flat(), [&steel(f64::INFINITY), &steel(f64::INFINITY)]).unwrap();
+    let pair = || Pair::new(flat(), flat(), [&steel(f64::INFINITY); 2]).unwrap();
     let gone = thickness / (k_film * pressure);
     for (share, updates) in [(0.5, 1), (0.5, 4), (3.0, 1), (3.0, 7)] {
         let distance = share * gone;
@@ -554,13 +469,9 @@ fn a_solid_lubricant_is_worn_off_and_the_body_after_it() {
         let wear = Wear::new([Some(coefficient), None], [Some(film), None]).unwrap();
         let films = Films::new([Some(film), None], &pair()).unwrap();
         let slide = Slide::graded(distance, updates, Control::Load(pressure * grid.area()));
-        let contact = SlidingContact::new(pair(), Boundary::PERIODIC, slide, Params::default()).unwrap();
-        let state = contact
-            .with_changes(Changes::by(wear).with_law(films))
-            .unwrap()
-            .run(None, &(), &mut [])
-            .unwrap()
-            .state;
+        let changes = Changes::by(wear).with_law(films);
+        let contact = sliding(pair(), Boundary::PERIODIC, slide, Params::default(), changes);
+        let state = contact.run(None, &(), &mut []).unwrap().state;
         let left = thickness * (1.0 - share).max(0.0);
         // ∫ f ds over the distance, for a film that is used up after its share.
         let covered = thickness * gone * if share < 1.0 { share - 0.5 * share * share } else { 0.5 };
@@ -601,14 +512,9 @@ fn attracted(attraction: f64, load: f64, distance: f64, updates: usize) -> (Slid
         0.0 => pair,
         share => pair.with_interface(Arc::new(Adhesion::new(share * 0.004, 0.12).unwrap())),
     };
-    let wear =
-        Wear::new([Some(WearCoefficient::archard(ATTRACTED_WEAR).unwrap()), None], [None, None]).unwrap();
     let slide = Slide::graded(distance, updates, Control::Load(load));
     let params = Params::default().with_tolerance(1e-9);
-    let contact = SlidingContact::new(pair, Boundary::FREE, slide, params)
-        .unwrap()
-        .with_changes(Changes::by(wear))
-        .unwrap();
+    let contact = sliding(pair, Boundary::FREE, slide, params, Changes::by(archard([ATTRACTED_WEAR, 0.0])));
     let mut kept = Pressures::default();
     let outcome = contact.run(None, &(), &mut [&mut kept]).unwrap();
     (outcome, kept.0)
@@ -661,12 +567,8 @@ fn rubber_ball(speed: f64, updates: usize, wear: f64, relaxes: bool) -> (Sliding
         pair = pair.with_relaxation([&glass, &rubber], [None, Some(relaxation)]).unwrap();
     }
     let slide = Slide::graded(10e-3, updates, Control::Load(2e-3)).with_speed(speed);
-    let law = Wear::new([Some(WearCoefficient::archard(wear).unwrap()), None], [None, None]).unwrap();
     let params = Params::default().with_tolerance(1e-9);
-    let contact = SlidingContact::new(pair.clone(), Boundary::FREE, slide, params)
-        .unwrap()
-        .with_changes(Changes::by(law))
-        .unwrap();
+    let contact = sliding(pair.clone(), Boundary::FREE, slide, params, Changes::by(archard([wear, 0.0])));
     let mut kept = Pressures::default();
     let outcome = contact.run(None, &(), &mut [&mut kept]).unwrap();
     (outcome, kept.0, pair)
@@ -676,7 +578,7 @@ fn rubber_ball(speed: f64, updates: usize, wear: f64, relaxes: bool) -> (Sliding
 #[test]
 fn rubber_that_slides_in_place_creeps_as_under_a_load_that_stays() {
     let (slid, pressures, pair) = rubber_ball(10e-3, 6, 1e-22, true);
-    let loading = Loading { normal: Control::Load(2e-3), tangential: Tangential::Force([0.0; 2]) };
+    let loading = Loading::pressing(Control::Load(2e-3));
     let stages = vec![Stage::new(loading, 1), Stage::new(loading, 6).within(StageTime::Growing(1.0))];
     let mut kept = Pressures::default();
     let params = Params::default().with_tolerance(1e-9);

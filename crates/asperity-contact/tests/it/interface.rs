@@ -8,7 +8,7 @@ use asperity_contact::motion::{
 };
 use asperity_contact::operator::{Boundary, Operator};
 use asperity_contact::solver::{
-    Control, HardWall, Interface, Loading, NormalProblem, Params, Solution, Tangential, solve_normal,
+    Control, HardWall, Interface, Loading, NormalProblem, Params, Solution, solve_normal,
 };
 use asperity_contact::units::{JoulePerSquareMetre, Metre, Pascal};
 use asperity_contact::{Grid, Result};
@@ -72,26 +72,12 @@ fn suction_presses_as_a_load_does() {
     let (boundary, params) = (Boundary::PERIODIC, Params::new().with_tolerance(1e-9));
     let area = rough().lower_grid().area();
     let load = 0.02 * TENSION * area;
-    let heavier = press(
-        &rough(),
-        boundary,
-        Control::Load(load + TENSION * area),
-        SlipRegime::Frictionless,
-        &params,
-        &(),
-    )
-    .unwrap();
-    let alone = press(
-        &rough().with_interface(Arc::new(HardWall)),
-        boundary,
-        Control::Load(load),
-        SlipRegime::Frictionless,
-        &params,
-        &(),
-    )
-    .unwrap();
-    let contact =
-        press(&sucked(), boundary, Control::Load(load), SlipRegime::Frictionless, &params, &()).unwrap();
+    let pressed = |pair: &Pair, load: f64| {
+        press(pair, boundary, Control::Load(load), SlipRegime::Frictionless, &params, &()).unwrap()
+    };
+    let heavier = pressed(&rough(), load + TENSION * area);
+    let alone = pressed(&rough().with_interface(Arc::new(HardWall)), load);
+    let contact = pressed(&sucked(), load);
     assert_eq!(contact.record.contact_area, heavier.record.contact_area);
     assert!(contact.record.contact_area > 2.0 * alone.record.contact_area);
     assert!((contact.record.approach / heavier.record.approach - 1.0).abs() < 1e-6);
@@ -112,8 +98,7 @@ fn suction_presses_as_a_load_does() {
 fn stages_and_passes_take_the_interface_of_the_pair() {
     let (boundary, params) = (Boundary::PERIODIC, Params::new().with_tolerance(1e-8));
     let load = 0.02 * TENSION * rough().lower_grid().area();
-    let stage =
-        Stage::new(Loading { normal: Control::Load(load), tangential: Tangential::Force([0.0; 2]) }, 3);
+    let stage = Stage::new(Loading::pressing(Control::Load(load)), 3);
     let loaded = load_in_stages(&sucked(), boundary, None, &[stage], &params, None, &(), &mut []).unwrap();
     let pressed =
         press(&sucked(), boundary, Control::Load(load), SlipRegime::Frictionless, &params, &()).unwrap();

@@ -1,51 +1,22 @@
 //! Relative positions of the bodies in a motion: between columns, on forward and return strokes, with offsets along y.
 
-use asperity_base::{Error, Field, Grid, Result};
+use asperity_base::{Error, Field, Grid};
 use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    Acceleration, Changes, Contact, Law, LoadControl, Motion, OffsetY, Output, Pair, PassRecord, Path,
-    PlasticUpdate, Simulation, Step, StepRecord, Strategy, Stroke,
+    Acceleration, Changes, LoadControl, Motion, OffsetY, Pair, Path, PlasticUpdate, Simulation, StepRecord,
+    Strategy, Stroke,
 };
 use asperity_contact::operator::{Boundary, Edge, Operators};
 use asperity_contact::solver::{Bounds, Control, Friction, Method, Params, solve_normal};
 use asperity_contact::temperature::Thermal;
-use asperity_contact::wear::{Wear, WearCoefficient};
-use asperity_surface::{Amplitude, SelfAffine, Topography};
+use asperity_surface::{Amplitude, Topography};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use crate::support::{Kept, archard, self_affine, steel};
+
 const PITCH: f64 = 1e-6;
-
-#[derive(Default)]
-struct Kept {
-    passes: Vec<PassRecord>,
-    steps: Vec<StepRecord>,
-    contacts: Vec<Vec<Contact>>,
-    pairs: Vec<Pair>,
-    mean_pressure: Vec<[Field; 2]>,
-}
-
-impl Output for Kept {
-    fn step(&mut self, step: &Step<'_>) -> Result<()> {
-        let Some(report) = step.pass() else { return Ok(()) };
-        self.passes.push(report.record.clone());
-        self.steps.extend_from_slice(report.steps);
-        self.contacts.push(report.contacts.to_vec());
-        self.pairs.push(report.pair.clone());
-        self.mean_pressure.push(report.mean_pressure());
-        Ok(())
-    }
-}
-
-fn rough(grid: &Grid, sq: f64, seed: u64) -> Topography {
-    let amplitude = Amplitude::Sq(sq);
-    SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude }.generate(grid, seed).unwrap()
-}
-
-fn archard(k: [f64; 2]) -> impl Law {
-    let coefficient = |k: f64| (k > 0.0).then(|| WearCoefficient::archard(k).unwrap());
-    Wear::new(k.map(coefficient), [None, None]).unwrap()
-}
+const ROUGHNESS: Amplitude = Amplitude::Sq(20e-9);
 
 /// Height of a periodic surface at a fractional column.
 fn height(surface: &Field, x: f64, iy: usize) -> f64 {
@@ -101,9 +72,9 @@ impl Shifted {
 
     fn pair(&self) -> Pair {
         let grid = Grid::new([self.columns, self.width], [PITCH; 2]).unwrap();
-        let [lower, upper] = self.hardness.map(|hardness| Material::new(210e9, 0.3, hardness).unwrap());
-        Pair::new(rough(&grid, 20e-9, self.seed), rough(&grid, 20e-9, self.seed + 1), [&lower, &upper])
-            .unwrap()
+        let [lower, upper] = self.hardness.map(steel);
+        let [below, above] = [0, 1].map(|k| self_affine(&grid, ROUGHNESS, None, self.seed + k));
+        Pair::new(below, above, [&lower, &upper]).unwrap()
     }
 
     /// Displacement of both surfaces at a position, in columns.
@@ -128,12 +99,8 @@ fn surfaces_between_columns_meet_and_wear_as_by_dense_interpolation() {
             .with_friction(case.friction);
         let params = Params::default().with_tolerance(1e-9);
         let before = case.pair();
-        let mut kept = Kept::default();
-        let mut simulation = Simulation::new(before.clone(), case.boundary, motion, params)
-            .unwrap()
-            .with_changes(Changes::by(archard(case.wear)))
-            .unwrap();
-        simulation.run(&(), &mut [&mut kept]).unwrap_or_else(|error| panic!("{error}: {case:?}"));
+        let simulation = Simulation::new(before.clone(), case.boundary, motion, params).unwrap();
+        let kept = Kept::of(simulation.with_changes(Changes::by(archard(case.wear))).unwrap());
         // The positions share one round.
         let stride = columns as f64 / columns.div_ceil(case.stride) as f64;
         let slip = stride * PITCH * (speed_upper - speed_lower).abs();
@@ -217,23 +184,17 @@ fn grooves_along_the_sliding_wear_as_by_whole_cells() {
         let wave = |iy: usize| 5e-9 * (std::f64::consts::TAU * (iy as f64 / 16.0 + phase)).cos();
         Topography::new(*grid, Field::from_shape_fn(grid.shape, |(_, iy)| wave(iy))).unwrap()
     };
-    let material = Material::new(210e9, 0.3, 2e9).unwrap();
+    let material = steel(2e9);
     let run = |speed_lower: f64| {
         let pair = Pair::new(groove(0.0, &grid), groove(0.3, &grid), [&material, &material]).unwrap();
         let strategy = Strategy::Shift { speed_lower, speed_upper: 1.0 };
         let motion = Motion::new(strategy, Control::Load(0.3e9 * grid.area()));
         let motion = motion.with_passes(3).with_load_control(LoadControl::Step);
-        let mut kept = Kept::default();
         // Wear per distance chosen to be equal in each step.
         let k = 1e-15 / (1.0 - speed_lower);
         let params = Params::default().with_tolerance(1e-10);
         let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, params).unwrap();
-        simulation
-            .with_changes(Changes::by(archard([k, 2.0 * k])))
-            .unwrap()
-            .run(&(), &mut [&mut kept])
-            .unwrap();
-        kept
+        Kept::of(simulation.with_changes(Changes::by(archard([k, 2.0 * k]))).unwrap())
     };
     let whole = run(0.0);
     for speed_lower in [0.3, -0.45] {
@@ -249,20 +210,15 @@ fn grooves_along_the_sliding_wear_as_by_whole_cells() {
 
 const OVERLAP: Motion = Motion::new(Strategy::Overlap, Control::Load(0.05)).with_stride(3);
 
-fn steel(hardness: f64) -> Material {
-    Material::new(210e9, 0.3, hardness).unwrap()
-}
-
 fn two(columns: [usize; 2], materials: [&Material; 2], seed: u64) -> Pair {
-    let surface = |columns, seed| rough(&Grid::new([columns, 10], [PITCH; 2]).unwrap(), 20e-9, seed);
+    let grid = |columns| Grid::new([columns, 10], [PITCH; 2]).unwrap();
+    let surface = |columns, seed| self_affine(&grid(columns), ROUGHNESS, None, seed);
     Pair::new(surface(columns[0], seed), surface(columns[1], seed + 1), materials).unwrap()
 }
 
 fn run(pair: Pair, boundary: Boundary, motion: Motion, wear: [f64; 2]) -> Kept {
-    let mut kept = Kept::default();
     let simulation = Simulation::new(pair, boundary, motion, Params::default().with_tolerance(1e-9)).unwrap();
-    simulation.with_changes(Changes::by(archard(wear))).unwrap().run(&(), &mut [&mut kept]).unwrap();
-    kept
+    Kept::of(simulation.with_changes(Changes::by(archard(wear))).unwrap())
 }
 
 fn furthest(a: &Field, b: &Field) -> f64 {
@@ -337,9 +293,7 @@ fn bodies_that_yield_step_by_step_go_on_yielding_on_the_way_back() {
     let material = steel(2e9);
     let motion = OVERLAP.with_plastic_update(PlasticUpdate::Step).with_path(Path::Reciprocating);
     let pair = two([12, 12], [&material; 2], 3);
-    let mut kept = Kept::default();
-    let mut simulation = Simulation::new(pair.clone(), Boundary::FREE, motion, Params::default()).unwrap();
-    simulation.run(&(), &mut [&mut kept]).unwrap();
+    let kept = Kept::of(Simulation::new(pair, Boundary::FREE, motion, Params::default()).unwrap());
     let n = kept.steps.len() / 2;
     assert!(kept.steps[n..].iter().all(|step| step.convolutions > 0.0));
     let volume = |steps: &[StepRecord]| steps.iter().map(|step| step.plastic_volume).sum::<f64>();
@@ -385,11 +339,10 @@ fn jumps_are_where_passes_repeat() {
         assert!(!motion.repeats() && matches!(accelerated(motion), Err(Error::Unsupported(_))));
     }
     let motion = motion.with_path(Path::Reciprocating);
-    let mut few = Kept::default();
-    accelerated(motion).unwrap().run(&(), &mut [&mut few]).unwrap();
+    let few = Kept::of(accelerated(motion).unwrap());
     let all = run(pair.clone(), Boundary::PERIODIC, motion, [1e-15; 2]);
     assert!(few.passes.len() < 20 && all.passes.len() == 40, "{}", few.passes.len());
-    let [few, all] = [&few, &all].map(|kept| &kept.pairs.last().unwrap().lower.heights);
+    let [few, all] = [&few, &all].map(|kept| &kept.last().lower.heights);
     let change = furthest(all, &pair.lower.heights);
     assert!(furthest(few, all) < 0.02 * change, "{:e} of {change:e}", furthest(few, all));
 }
@@ -454,13 +407,8 @@ fn a_fresh_counter_body_begins_anew_in_each_pass() {
     let motion = OVERLAP.with_load_control(LoadControl::Step);
     let first = bodies(2);
     let upper = move |pass: usize| bodies(2 + 10 * (pass as u64 - 1)).upper.heights;
-    let mut kept = Kept::default();
-    let simulation = Simulation::new(
-        first.clone(),
-        Boundary::FREE,
-        motion.with_passes(4),
-        Params::default().with_tolerance(1e-9),
-    );
+    let params = Params::default().with_tolerance(1e-9);
+    let simulation = Simulation::new(first.clone(), Boundary::FREE, motion.with_passes(4), params);
     let simulation = simulation.unwrap().with_changes(Changes::by(archard([2e-15, 1e-15]))).unwrap();
     let virgin = simulation.pair().upper.clone();
     let counter = move |pass: usize| {
@@ -468,8 +416,7 @@ fn a_fresh_counter_body_begins_anew_in_each_pass() {
         body.heights = upper(pass);
         Ok(body)
     };
-    let mut simulation = simulation.with_counter(counter).unwrap();
-    simulation.run(&(), &mut [&mut kept]).unwrap();
+    let kept = Kept::of(simulation.with_counter(counter).unwrap());
     let mut pair = first;
     for (pass, after) in (1..).zip(&kept.pairs) {
         pair.upper.heights = upper(pass);
@@ -505,12 +452,8 @@ fn a_pass_there_and_back_is_heated_without_a_break() {
             .with_path(path);
         let pair = two([16, 16], [&steel(f64::INFINITY); 2], 4);
         let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
-        let mut kept = Kept::default();
-        simulation
-            .with_changes(Changes::default().with_bulk([300.0; 2]).with_heat([thermal; 2], 1))
-            .unwrap()
-            .run(&(), &mut [&mut kept])
-            .unwrap();
+        let changes = Changes::default().with_bulk([300.0; 2]).with_heat([thermal; 2], 1);
+        let kept = Kept::of(simulation.with_changes(changes).unwrap());
         kept.steps.iter().map(|step| step.heat.unwrap().max_flash_temperature - 300.0).collect::<Vec<_>>()
     };
     let (there, both) = (run(Path::OneWay), run(Path::Reciprocating));

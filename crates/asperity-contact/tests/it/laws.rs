@@ -1,15 +1,16 @@
 //! A user-defined law, which uses only the public trait.
 
-use asperity_base::{Field, Grid, Result};
-use asperity_contact::material::Material;
+use asperity_base::{Field, Grid};
 use asperity_contact::motion::{
-    Acceleration, Changes, ContactCells, Law, LoadControl, Motion, Output, Pair, PassRecord, PlasticUpdate,
-    Simulation, State, Step, Strategy,
+    Acceleration, Changes, ContactCells, Law, LoadControl, Motion, Pair, PassRecord, PlasticUpdate,
+    Simulation, State, Strategy,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Friction, Params};
 use asperity_contact::temperature::Thermal;
-use asperity_surface::{Amplitude, Form, SelfAffine};
+use asperity_surface::{Amplitude, Form};
+
+use crate::support::{Kept, self_affine, steel};
 
 const PITCH: f64 = 1e-6;
 /// Volume lost per load and distance, m²/N.
@@ -47,30 +48,10 @@ impl Law for Wear {
     }
 }
 
-#[derive(Default)]
-struct Kept {
-    passes: Vec<PassRecord>,
-    pairs: Vec<Pair>,
-    /// ΔA Σ p times the distance, over the positions of each pass.
-    work: Vec<f64>,
-}
-
-impl Output for Kept {
-    fn step(&mut self, step: &Step<'_>) -> Result<()> {
-        let Some(report) = step.pass() else { return Ok(()) };
-        self.passes.push(report.record.clone());
-        self.pairs.push(report.pair.clone());
-        self.work.push(report.contacts.iter().map(|contact| contact.load).sum::<f64>() * PITCH);
-        Ok(())
-    }
-}
-
 fn pair(hardness: f64) -> Pair {
     let grid = Grid::new([20, 14], [PITCH, PITCH]).unwrap();
-    let rough = SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude: Amplitude::Sq(50e-9) };
-    let body = Material::new(210e9, 0.3, hardness).unwrap();
-    let [lower, upper] = [1, 2].map(|seed| rough.generate(&grid, seed).unwrap());
-    Pair::new(lower, upper.underside(), [&body, &body]).unwrap()
+    let [lower, upper] = [1, 2].map(|seed| self_affine(&grid, Amplitude::Sq(50e-9), None, seed));
+    Pair::new(lower, upper.underside(), [&steel(hardness); 2]).unwrap()
 }
 
 fn run(hardness: f64, update: PlasticUpdate) -> Kept {
@@ -81,10 +62,8 @@ fn run(hardness: f64, update: PlasticUpdate) -> Kept {
         .with_plastic_update(update)
         .with_load_tolerance(1e-4)
         .with_friction(None);
-    let mut kept = Kept::default();
     let simulation = Simulation::new(pair(hardness), Boundary::FREE, motion, Params::default());
-    simulation.unwrap().with_changes(Changes::by(Wear)).unwrap().run(&(), &mut [&mut kept]).unwrap();
-    kept
+    Kept::of(simulation.unwrap().with_changes(Changes::by(Wear)).unwrap())
 }
 
 /// V = k W s, and the ledger of each body: its lost volume is that removed by its laws.
@@ -95,7 +74,8 @@ fn a_law_from_outside_wears_the_body_that_it_names_and_the_ledger_balances() {
     {
         let kept = run(hardness, update);
         let mut before = pair(hardness);
-        for ((pass, after), work) in kept.passes.iter().zip(&kept.pairs).zip(&kept.work) {
+        for (index, (pass, after)) in kept.passes.iter().zip(&kept.pairs).enumerate() {
+            let work = PITCH * kept.force(index);
             let [worn, untouched] = pass.lost("wear");
             assert!((worn / (WEAR * work) - 1.0).abs() < 1e-12, "{worn:e}, {:e}", WEAR * work);
             assert_eq!(untouched, 0.0);
@@ -115,46 +95,6 @@ fn a_law_from_outside_wears_the_body_that_it_names_and_the_ledger_balances() {
             slid.values.iter().zip(&kept.pairs[0].lower.state["slid"].values).all(|(now, then)| now >= then)
         );
     }
-}
-
-/// The state of the law continues from its last value.
-#[test]
-fn an_interrupted_motion_goes_on_with_the_state_of_its_laws() {
-    let whole = run(4e9, PlasticUpdate::Pass);
-    let motion = |passes| {
-        Motion::new(Strategy::Overlap, Control::Load(0.2))
-            .with_passes(passes)
-            .with_stride(1)
-            .with_load_control(LoadControl::Pass)
-            .with_plastic_update(PlasticUpdate::Pass)
-            .with_load_tolerance(1e-4)
-            .with_friction(None)
-    };
-    struct Warm(Kept, Option<asperity_contact::motion::WarmStart>);
-    impl Output for Warm {
-        fn step(&mut self, step: &Step<'_>) -> Result<()> {
-            let Some(report) = step.pass() else { return Ok(()) };
-            self.1 = Some(report.warm.clone());
-            self.0.step(step)
-        }
-    }
-    let mut first = Warm(Kept::default(), None);
-    let begun = Simulation::new(pair(4e9), Boundary::FREE, motion(1), Params::default()).unwrap();
-    begun.with_changes(Changes::by(Wear)).unwrap().run(&(), &mut [&mut first]).unwrap();
-    let left = first.0.pairs.pop().unwrap();
-    let mut rest = Kept::default();
-    let goes_on = Simulation::new(left, Boundary::FREE, motion(3), Params::default()).unwrap();
-    goes_on
-        .with_changes(Changes::by(Wear))
-        .unwrap()
-        .resumed(1, first.1.unwrap())
-        .run(&(), &mut [&mut rest])
-        .unwrap();
-    for (found, expected) in rest.pairs.iter().zip(&whole.pairs[1..]) {
-        assert_eq!(found.lower, expected.lower);
-        assert_eq!(found.upper, expected.upper);
-    }
-    assert_eq!(rest.passes.len(), 2);
 }
 
 /// Oxidation of both bodies in contact by the parabolic law: dξ²/dt = A exp(−Q/RT). The surface of the oxide is above that
@@ -205,9 +145,8 @@ impl Law for Oxidation {
 /// after 1000 passes, and the losses in the computed passes.
 fn oxidised(warmed: bool) -> (Vec<PassRecord>, Field) {
     let grid = Grid::new([8, 8], [PITCH, PITCH]).unwrap();
-    let steel = Material::new(210e9, 0.3, f64::INFINITY).unwrap();
     let flat = || Form::Flat.on(&grid).unwrap();
-    let pair = Pair::new(flat(), flat(), [&steel, &steel]).unwrap();
+    let pair = Pair::new(flat(), flat(), [&steel(f64::INFINITY); 2]).unwrap();
     let motion = Motion::new(Strategy::Shift { speed_lower: 0.0, speed_upper: 2.0 }, Control::Load(0.05))
         .with_passes(1000)
         .with_stride(2)
@@ -217,11 +156,9 @@ fn oxidised(warmed: bool) -> (Vec<PassRecord>, Field) {
     let thermal = Thermal::new(46.0, 460.0, 7850.0).unwrap();
     let changes = Changes::by(Oxidation).with_bulk([400.0, 500.0]).with_acceleration(Acceleration::default());
     let changes = if warmed { changes.with_heat([thermal; 2], 1) } else { changes };
-    let mut simulation = simulation.with_changes(changes).unwrap();
-    let mut kept = Kept::default();
-    simulation.run(&(), &mut [&mut kept]).unwrap();
-    let after = kept.pairs.pop().unwrap();
-    (kept.passes, after.lower.state["oxide"].values.clone())
+    let kept = Kept::of(simulation.with_changes(changes).unwrap());
+    let oxide = kept.last().lower.state["oxide"].values.clone();
+    (kept.passes, oxide)
 }
 
 /// ξ² = A exp(−Q/RT) t for any extrapolation, and the ledger includes the oxide.

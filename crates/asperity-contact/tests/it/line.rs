@@ -1,31 +1,20 @@
 //! Contacts that are periodic along one axis only.
 
 use asperity_base::{Field, Grid};
-use asperity_contact::material::{Compliances, Material};
-use asperity_contact::motion::{self, LoadControl, Motion, Pair, PlasticUpdate, Simulation, Strategy};
+use asperity_contact::material::Compliances;
+use asperity_contact::motion::{LoadControl, Motion, Pair, PlasticUpdate, Simulation, Strategy};
 use asperity_contact::operator::{Boundary, Edge, Operator, Operators};
 use asperity_contact::solver::{Bounds, Control, Method, Params, Solution, residual, solve_normal};
-use asperity_surface::{Amplitude, SelfAffine};
+
+use crate::support::{Kept, compliances, difference, rough_gap, steel};
 
 const ALONG_Y: Boundary = Boundary([Edge::Free, Edge::Periodic]);
 const ALONG_X: Boundary = Boundary([Edge::Periodic, Edge::Free]);
 const INF: f64 = f64::INFINITY;
 
-fn pair(poisson: [f64; 2], young: [f64; 2]) -> Compliances {
-    let [lower, upper] = [0, 1].map(|k| Material::elastic(young[k], poisson[k]).unwrap());
-    Compliances::new(&lower, &upper).unwrap()
-}
-
 /// E* = 1.
 fn alike() -> Compliances {
-    pair([0.0; 2], [2.0; 2])
-}
-
-/// A self-affine gap of rms slope 0.1, above 0.
-fn rough(grid: &Grid, seed: u64) -> Field {
-    let form = SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude: Amplitude::Sdq(0.1) };
-    let heights = -form.generate(grid, seed).unwrap().into_heights();
-    &heights - heights.iter().copied().fold(INF, f64::min)
+    compliances([0.0; 2], [2.0; 2])
 }
 
 fn solve(
@@ -40,12 +29,6 @@ fn solve(
         .unwrap_or_else(|error| panic!("{error}: {method:?}, {hardness}, {control:?}, {:?}", operator.grid()))
 }
 
-/// Largest difference over largest value.
-fn difference(a: &Field, b: &Field) -> f64 {
-    let largest = b.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-    a.iter().zip(b).fold(0.0f64, |m, (a, b)| m.max((a - b).abs())) / largest
-}
-
 #[test]
 fn any_contact_is_in_equilibrium_by_the_dense_sum_whatever_the_method() {
     arbtest::arbtest(|u| {
@@ -55,7 +38,7 @@ fn any_contact_is_in_equilibrium_by_the_dense_sum_whatever_the_method() {
         let boundary = *u.choose(&[ALONG_X, ALONG_Y])?;
         let [width, height] = grid.extent();
         let has_waves = width.max(height) > 4.0 * pitch[1].max(1.0);
-        let gap = if has_waves { rough(&grid, u.int_in_range(0..=999)?) } else { grid.zeros() };
+        let gap = if has_waves { rough_gap(&grid, u.int_in_range(0..=999)?) } else { grid.zeros() };
         let hardness = *u.choose(&[INF, 0.1])?;
         let control = if *u.choose(&[true, false])? {
             Control::Load(*u.choose(&[1e-3, 0.01, 0.08])? * grid.area())
@@ -78,14 +61,8 @@ fn any_contact_is_in_equilibrium_by_the_dense_sum_whatever_the_method() {
             from.map(|((k, l), p)| p * operator.influence(i.abs_diff(k), j.abs_diff(l))).sum()
         });
         let own = operator.influence(0, 0);
-        let found = residual(
-            &exact.pressure,
-            &displacement,
-            &gap,
-            &Bounds::up_to(hardness),
-            own,
-            Some(exact.approach),
-        );
+        let (bounds, approach) = (Bounds::up_to(hardness), Some(exact.approach));
+        let found = residual(&exact.pressure, &displacement, &gap, &bounds, own, approach);
         assert!(found.eta < 1e-8, "{grid:?}, {boundary:?}, {control:?}: {found:?}");
         Ok(())
     })
@@ -96,7 +73,7 @@ fn any_contact_is_in_equilibrium_by_the_dense_sum_whatever_the_method() {
 fn turned_by_a_quarter_it_is_the_same_contact() {
     let grid = Grid::new([64, 80], [1.0, 0.7]).unwrap();
     let turned = Grid::new([80, 64], [0.7, 1.0]).unwrap();
-    let gap = rough(&grid, 3);
+    let gap = rough_gap(&grid, 3);
     let turned_gap = gap.t().as_standard_layout().into_owned();
     let load = Control::Load(0.01 * grid.area());
     let mut operator = Operators::new(grid, alike(), ALONG_Y).on(grid.shape);
@@ -110,7 +87,7 @@ fn turned_by_a_quarter_it_is_the_same_contact() {
 #[test]
 fn where_it_begins_along_its_line_makes_no_difference() {
     let grid = Grid::new([70, 65], [1.0, 1.0]).unwrap();
-    let gap = rough(&grid, 4);
+    let gap = rough_gap(&grid, 4);
     let shifted = Field::from_shape_fn(grid.shape, |(i, j)| gap[[i, (j + 17) % 65]]);
     let load = Control::Load(0.01 * grid.area());
     let mut operator = Operators::new(grid, alike(), ALONG_Y).on(grid.shape);
@@ -159,7 +136,7 @@ fn a_traction_in_all_directions_displaces_as_the_sum_over_the_line_says() {
         let shape = [u.int_in_range(1..=14)?, u.int_in_range(1..=14)?];
         let grid = Grid::new(shape, [1.0, *u.choose(&[0.4, 1.0, 2.0])?]).unwrap();
         let (axis, boundary) = *u.choose(&[(0, ALONG_X), (1, ALONG_Y)])?;
-        let pair = pair([0.2, 0.4], [1.0, 5.0]);
+        let pair = compliances([0.2, 0.4], [1.0, 5.0]);
         let seed: usize = u.int_in_range(1..=9)?;
         let traction: [Field; 3] = std::array::from_fn(|n| {
             Field::from_shape_fn(shape, |(i, j)| ((seed * i + 3 * j * j + n * i * j) % 11) as f64 - 4.0)
@@ -193,7 +170,6 @@ fn a_traction_in_all_directions_displaces_as_the_sum_over_the_line_says() {
 #[test]
 fn a_body_that_passes_over_another_has_no_rims_at_its_sides() {
     // Uniform along y: so is the contact at every position, and its last rows equal those in the middle.
-    let steel = Material::new(210e9, 0.3, INF).unwrap();
     let heights = |amplitude: f64| {
         Field::from_shape_fn([40, 24], |(i, _)| {
             amplitude * ((0.7 * i as f64).sin() + (0.31 * i as f64).cos())
@@ -202,7 +178,7 @@ fn a_body_that_passes_over_another_has_no_rims_at_its_sides() {
     let topography = |heights: Field| {
         asperity_surface::Topography::new(Grid::new([40, 24], [1e-6; 2]).unwrap(), heights).unwrap()
     };
-    let pair = Pair::new(topography(heights(2e-8)), topography(-heights(1e-8)), [&steel, &steel]).unwrap();
+    let pair = Pair::new(topography(heights(2e-8)), topography(-heights(1e-8)), [&steel(INF); 2]).unwrap();
     let motion = Motion::new(Strategy::Overlap, Control::Load(0.02))
         .with_passes(1)
         .with_stride(6)
@@ -210,22 +186,13 @@ fn a_body_that_passes_over_another_has_no_rims_at_its_sides() {
         .with_plastic_update(PlasticUpdate::Pass)
         .with_load_tolerance(1e-6)
         .with_friction(None);
-    struct Kept(Vec<motion::Contact>);
-    impl motion::Output for Kept {
-        fn step(&mut self, step: &motion::Step<'_>) -> asperity_base::Result<()> {
-            let Some(report) = step.pass() else { return Ok(()) };
-            self.0 = report.contacts.to_vec();
-            Ok(())
-        }
-    }
     let params = Params::default().with_tolerance(1e-8);
-    let mut kept = Kept(Vec::new());
-    let mut simulation = Simulation::new(pair.clone(), ALONG_Y, motion, params).unwrap();
-    simulation.run(&(), &mut [&mut kept]).unwrap();
-    assert!(kept.0.len() > 10);
-    let load = kept.0.iter().map(|c| c.load).sum::<f64>() / kept.0.len() as f64;
+    let kept = Kept::of(Simulation::new(pair.clone(), ALONG_Y, motion, params).unwrap());
+    let contacts = &kept.contacts[0];
+    assert!(contacts.len() > 10);
+    let load = kept.force(0) / contacts.len() as f64;
     assert!((load / 0.02 - 1.0).abs() < 1e-6, "{load}");
-    for contact in kept.0.iter().filter(|c| c.load > 0.0) {
+    for contact in contacts.iter().filter(|contact| contact.load > 0.0) {
         let field = contact.pressure_field(24);
         let most = contact.max_pressure();
         for row in field.outer_iter() {

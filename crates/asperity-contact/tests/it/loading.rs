@@ -7,20 +7,14 @@ use asperity_contact::motion::{
 };
 use asperity_contact::operator::{Boundary, CoupledSum};
 use asperity_contact::solver::{Control, Coupling, Friction, Loading, Method, Params, Tangential};
-use asperity_surface::Topography;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::support::cell_by_cell::CellByCell;
+use crate::support::{self, over_a_plane, steel};
 
 const FINE: Params =
     Params::new().with_method(Method::Auto).with_tolerance(1e-10).with_max_convolutions(10_000);
-
-fn pair(grid: Grid, gap: Field, materials: [Material; 2]) -> Pair {
-    let topography = |heights| Topography::new(grid, heights).unwrap();
-    let [lower, upper] = &materials;
-    Pair::new(topography(grid.zeros()), topography(gap), [lower, upper]).unwrap()
-}
 
 fn load(
     pair: &Pair,
@@ -35,12 +29,7 @@ fn load(
 /// A steel ball of 1 mm on steel with this hardness.
 fn ball(cells: usize, pitch: f64, hardness: f64) -> Pair {
     let grid = Grid::new([cells; 2], [pitch; 2]).unwrap();
-    let middle = 0.5 * cells as f64 * pitch;
-    let gap = Field::from_shape_fn(grid.shape, |(i, j)| {
-        ((grid.centre(0, i) - middle).powi(2) + (grid.centre(1, j) - middle).powi(2)) / 2e-3
-    });
-    let steel = Material::new(210e9, 0.3, hardness).unwrap();
-    pair(grid, gap, [steel; 2])
+    over_a_plane(grid, support::ball(&grid), [&steel(hardness); 2])
 }
 
 fn to(load: f64, force: f64, increments: usize) -> Stage {
@@ -168,9 +157,12 @@ impl Case {
 
     fn run(&self, params: &Params) -> Result<Vec<LoadingState>, Error> {
         let mut states = Kept::default();
-        let pair = pair(self.grid, self.gap.clone(), self.materials);
-        load(&pair, self.friction.as_ref(), &self.stages, params, &mut [&mut states])?;
+        load(&self.pair(), self.friction.as_ref(), &self.stages, params, &mut [&mut states])?;
         Ok(states.0)
+    }
+
+    fn pair(&self) -> Pair {
+        over_a_plane(self.grid, self.gap.clone(), self.materials.each_ref())
     }
 
     fn hardness(&self) -> f64 {
@@ -289,7 +281,7 @@ fn any_tolerance(seed: u64) {
             stage.loading.tangential = Tangential::Sliding([0.6, -0.8]);
         }
     }
-    let modulus = pair(case.grid, case.gap.clone(), case.materials).modulus();
+    let modulus = case.pair().modulus();
     let params = Params::default().with_tolerance(tolerance);
     let states =
         case.run(&params).unwrap_or_else(|error| panic!("case {seed}, tolerance {tolerance:e}: {error}"));
@@ -328,7 +320,7 @@ fn contacts_example_of_a_shift_has_its_work_of_friction_in_one_increment() {
         10.0 * (x * x + y * y)
     });
     let polyethylene = Material::elastic(2.0 * 200e6 * 1.42, 0.42).unwrap();
-    let pair = pair(grid, gap, [polyethylene; 2]);
+    let pair = over_a_plane(grid, gap, [&polyethylene; 2]);
     let friction = Friction::coulomb(0.4).unwrap();
     let (w, q) = (9.1954, -0.875 * 0.4 * 9.1954);
     for increments in [1, 4] {

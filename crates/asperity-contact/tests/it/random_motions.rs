@@ -6,16 +6,18 @@ use asperity_base::error::LoadLimit;
 use asperity_base::{Error, Field, Grid};
 use asperity_contact::material::{Coating, Material};
 use asperity_contact::motion::{
-    LoadControl, Motion, OffsetY, Output, Pair, PassRecord, Path, PlasticUpdate, Position, Simulation, Step,
-    StepRecord, Strategy,
+    LoadControl, Motion, OffsetY, Pair, PassRecord, Path, PlasticUpdate, Position, Simulation, StepRecord,
+    Strategy,
 };
 use asperity_contact::operator::{Boundary, CoupledOperator, Edge, Operators};
 use asperity_contact::solver::{
     Bounds, Control, Coupling, Friction, Loading, Method, Params, Tangential, solve_frictional, solve_normal,
 };
-use asperity_surface::{Amplitude, SelfAffine, Topography};
+use asperity_surface::{Amplitude, Topography};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+
+use crate::support::{Kept, self_affine};
 
 const PITCH: f64 = 1e-6;
 
@@ -156,8 +158,7 @@ impl Case {
     fn pair(&self) -> Pair {
         let surface = |columns: usize, seed: u64| -> Topography {
             let grid = Grid::new([columns, self.width], [PITCH, PITCH]).unwrap();
-            let amplitude = Amplitude::Sq(self.sq);
-            SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude }.generate(&grid, seed).unwrap()
+            self_affine(&grid, Amplitude::Sq(self.sq), None, seed)
         };
         let [a, b] = [0, 1].map(|k| Material {
             coating: self.coatings[k],
@@ -208,23 +209,6 @@ impl Case {
         let motion = self.motion.with_control(control);
         let mut simulation = Simulation::new(self.pair(), self.boundary, motion, self.params()).unwrap();
         (simulation.run(&(), &mut [&mut kept]), kept)
-    }
-}
-
-#[derive(Default)]
-struct Kept {
-    passes: Vec<PassRecord>,
-    steps: Vec<StepRecord>,
-    pairs: Vec<Pair>,
-}
-
-impl Output for Kept {
-    fn step(&mut self, step: &Step<'_>) -> asperity_base::Result<()> {
-        let Some(report) = step.pass() else { return Ok(()) };
-        self.passes.push(report.record.clone());
-        self.steps.extend_from_slice(report.steps);
-        self.pairs.push(report.pair.clone());
-        Ok(())
     }
 }
 

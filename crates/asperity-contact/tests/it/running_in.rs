@@ -2,141 +2,54 @@
 
 use std::f64::consts::PI;
 
-use asperity_base::{Field, Grid, Result};
+use asperity_base::{Field, Grid};
 use asperity_contact::film::{FILM, Film, FilmLaw, FilmStress, Films};
-use asperity_contact::material::Material;
 use asperity_contact::motion::{
-    Acceleration, Changes, ContactCells, Law, LoadControl, Motion, Output, Pair, PassRecord, Path,
-    Simulation, Step, Strategy,
+    Acceleration, Changes, ContactCells, FLASH, Law, LoadControl, Motion, Pair, PassRecord, Path, Simulation,
+    Strategy,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Coupling, Friction, Params};
-use asperity_contact::wear::{Wear, WearCoefficient};
-use asperity_surface::{Amplitude, Form, SelfAffine, Topography};
+use asperity_contact::temperature::Thermal;
+use asperity_surface::{Amplitude, Form, Topography};
+
+use crate::support::{Kept, archard, largest, self_affine, steel};
 
 const PITCH: f64 = 1e-6;
 const SLIDE: Strategy = Strategy::Shift { speed_lower: 0.0, speed_upper: 0.5 };
 
-/// The passes, and the bodies after the last of them.
-#[derive(Default)]
-struct Kept {
-    passes: Vec<PassRecord>,
-    pair: Option<Pair>,
-    /// Σ W Δs of each computed pass.
-    work: Vec<f64>,
+fn heights(kept: &Kept) -> [&Field; 2] {
+    [&kept.last().lower.heights, &kept.last().upper.heights]
 }
 
-impl Output for Kept {
-    fn step(&mut self, step: &Step<'_>) -> Result<()> {
-        let Some(report) = step.pass() else { return Ok(()) };
-        self.passes.push(report.record.clone());
-        self.pair = Some(report.pair.clone());
-        self.work.push(report.contacts.iter().map(|contact| contact.load).sum());
-        Ok(())
-    }
+fn represented(kept: &Kept) -> usize {
+    kept.passes.iter().map(PassRecord::represents).sum()
 }
 
-impl Kept {
-    fn of(mut simulation: Simulation) -> Self {
-        let mut kept = Self::default();
-        simulation.run(&(), &mut [&mut kept]).unwrap();
-        kept
-    }
-
-    fn heights(&self) -> [&Field; 2] {
-        let pair = self.pair.as_ref().unwrap();
-        [&pair.lower.heights, &pair.upper.heights]
-    }
-
-    fn represented(&self) -> usize {
-        self.passes.iter().map(PassRecord::represents).sum()
-    }
-
-    fn error(&self) -> f64 {
-        self.passes.iter().map(|pass| pass.running.unwrap().error_estimate).sum()
-    }
-}
-
-fn steel(hardness: f64) -> Material {
-    Material::new(210e9, 0.3, hardness).unwrap()
-}
-
-fn archard(k: f64) -> Wear {
-    let coefficient = Some(WearCoefficient::archard(k).unwrap());
-    Wear::new([coefficient, coefficient], [None, None]).unwrap()
+fn error(kept: &Kept) -> f64 {
+    kept.passes.iter().map(|pass| pass.running.unwrap().error_estimate).sum()
 }
 
 fn rms(field: &Field) -> f64 {
     (field.mapv(|z| z * z).mean().unwrap()).sqrt()
 }
 
-const LENGTH: usize = 16;
-const AMPLITUDE: f64 = 20e-9;
-
-/// Grooves along the sliding direction, pressed flat: the gap between the bodies has the waves of one of them.
-fn grooves(passes: usize, jump: usize, exponent: f64) -> f64 {
-    let grid = Grid::new([4, LENGTH], [PITCH; 2]).unwrap();
-    let length = LENGTH as f64 * PITCH;
-    let waves =
-        Form::Sinusoid { amplitude: AMPLITUDE, wavelength: [f64::INFINITY, length] }.on(&grid).unwrap();
-    let flat = Form::Flat.on(&grid).unwrap();
-    let material = steel(f64::INFINITY);
-    let pair = Pair::new(waves, flat, [&material, &material]).unwrap();
-    let modulus = pair.modulus();
-    let mean = 1.5 * PI * modulus * AMPLITUDE / length;
-    let control = Control::Load(mean * grid.area());
-    // One position per pass, which slides over the length of the grid.
-    let motion =
-        Motion::new(SLIDE, control).with_passes(passes).with_stride(4).with_load_control(LoadControl::Step);
-    let distance = passes as f64 * 4.0 * PITCH;
-    let k = exponent * length / (2.0 * PI * modulus * distance);
-    let params = Params::default().with_tolerance(1e-10);
-    let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, params).unwrap();
-    let acceleration =
-        Acceleration::default().with_tolerance(1e6).with_max_wear(f64::INFINITY).with_max_jump(jump);
-    let kept =
-        Kept::of(simulation.with_changes(Changes::by(archard(k)).with_acceleration(acceleration)).unwrap());
-    assert_eq!(kept.represented(), passes);
-    let [lower, upper] = kept.heights();
-    let gap = upper - lower;
-    let wave = |j: usize| (2.0 * PI * (j as f64 + 0.5) / LENGTH as f64).cos();
-    let cos: f64 = gap.row(0).iter().enumerate().map(|(j, z)| z * wave(j)).sum();
-    let sin: f64 = gap
-        .row(0)
-        .iter()
-        .enumerate()
-        .map(|(j, z)| z * (2.0 * PI * (j as f64 + 0.5) / LENGTH as f64).sin())
-        .sum();
-    2.0 / LENGTH as f64 * cos.hypot(sin) / AMPLITUDE
-}
-
-#[test]
-fn grooves_along_the_sliding_wear_as_their_closed_form() {
-    let exact = (-1.0f64).exp();
-    let error = |passes, jump| (grooves(passes, jump, 1.0) / exact - 1.0).abs();
-    // Every pass computed: order 1.
-    let [coarse, fine] = [error(80, 1), error(160, 1)];
-    assert!((coarse / fine - 2.0).abs() < 0.1, "{coarse:e}, {fine:e}");
-    // Extrapolation: order 2.
-    let [coarse, fine] = [error(1280, 32), error(1280, 16)];
-    assert!((3.4..4.8).contains(&(coarse / fine)), "{coarse:e}, {fine:e}");
-    assert!(fine < 1e-4, "{fine:e}");
-}
-
 fn rough(hardness: f64, n: usize) -> Pair {
     let grid = Grid::new([n, n], [PITCH; 2]).unwrap();
-    let form =
-        SelfAffine { hurst: 0.8, rolloff: None, shortest: Some(8e-6), amplitude: Amplitude::Sq(30e-9) };
-    let material = steel(hardness);
-    let surface = |seed| -> Topography { form.generate(&grid, seed).unwrap() };
-    Pair::new(surface(1), surface(2).underside(), [&material, &material]).unwrap()
+    let surface = |seed| self_affine(&grid, Amplitude::Sq(30e-9), Some(8e-6), seed);
+    Pair::new(surface(1), surface(2).underside(), [&steel(hardness); 2]).unwrap()
+}
+
+/// Periodic bodies that these laws change.
+fn changing(pair: Pair, motion: Motion, changes: Changes) -> Simulation {
+    let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
+    simulation.with_changes(changes).unwrap()
 }
 
 fn run_in(hardness: f64, passes: usize, acceleration: Acceleration) -> Kept {
     let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(passes).with_stride(4);
-    let simulation =
-        Simulation::new(rough(hardness, 16), Boundary::PERIODIC, motion, Params::default()).unwrap();
-    Kept::of(simulation.with_changes(Changes::by(archard(4e-15)).with_acceleration(acceleration)).unwrap())
+    let changes = Changes::by(archard([4e-15; 2])).with_acceleration(acceleration);
+    Kept::of(changing(rough(hardness, 16), motion, changes))
 }
 
 #[test]
@@ -144,16 +57,17 @@ fn jumps_lead_where_all_passes_do_and_within_their_bound() {
     for (hardness, passes) in [(f64::INFINITY, 300), (1.5e9, 200)] {
         let all = run_in(hardness, passes, Acceleration::NONE);
         let few = run_in(hardness, passes, Acceleration::default().with_max_wear(20e-9));
-        assert_eq!((all.passes.len(), all.represented(), few.represented()), (passes, passes, passes));
+        assert_eq!((all.passes.len(), represented(&all), represented(&few)), (passes, passes, passes));
         assert!(few.passes.len() <= 40, "{} passes computed", few.passes.len());
-        assert_eq!(all.error(), 0.0);
+        assert_eq!(error(&all), 0.0);
         let before = rough(hardness, 16);
         let before = [&before.lower.heights, &before.upper.heights];
         for (body, before) in before.into_iter().enumerate() {
-            let (change, error) = (all.heights()[body] - before, few.heights()[body] - all.heights()[body]);
-            assert!(rms(&error) < 5e-3 * rms(&change), "{:e} of {:e}", rms(&error), rms(&change));
-            let largest = error.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
-            assert!(largest <= few.error(), "{largest:e} beyond the bound {:e}", few.error());
+            let [all, jumped] = [&all, &few].map(|kept| heights(kept)[body]);
+            let (change, off) = (all - before, jumped - all);
+            assert!(rms(&off) < 5e-3 * rms(&change), "{:e} of {:e}", rms(&off), rms(&change));
+            let most = largest(&off);
+            assert!(most <= error(&few), "{most:e} beyond the bound {:e}", error(&few));
         }
         let plastic = |kept: &Kept| kept.passes.iter().map(|pass| pass.lost("plastic")[0]).sum::<f64>();
         if hardness.is_finite() {
@@ -165,9 +79,7 @@ fn jumps_lead_where_all_passes_do_and_within_their_bound() {
 #[test]
 fn steadily_worn_passes_begin_where_the_last_ones_lead() {
     let motion = Motion::new(SLIDE, Control::Load(0.8)).with_passes(8).with_stride(16);
-    let simulation =
-        Simulation::new(rough(f64::INFINITY, 64), Boundary::PERIODIC, motion, Params::default()).unwrap();
-    let kept = Kept::of(simulation.with_changes(Changes::by(archard(1e-15))).unwrap());
+    let kept = Kept::of(changing(rough(f64::INFINITY, 64), motion, Changes::by(archard([1e-15; 2]))));
     let convolutions: Vec<f64> = kept.passes.iter().map(|pass| pass.convolutions / 4.0).collect();
     // Two changes are known after the third pass.
     assert!(
@@ -183,21 +95,21 @@ fn the_volume_is_archards_and_the_ledger_balances() {
     let before = [&before.lower.heights, &before.upper.heights];
     for (body, before) in before.into_iter().enumerate() {
         let mut lost = 0.0;
-        for (pass, work) in kept.passes.iter().zip(&kept.work) {
+        for (index, pass) in kept.passes.iter().enumerate() {
             let worn = pass.lost("wear")[body];
-            let expected = 4e-15 * work * 4.0 * PITCH * pass.represents() as f64;
+            let expected = 4e-15 * kept.force(index) * 4.0 * PITCH * pass.represents() as f64;
             // Between extrapolations the load is met within its tolerance, and so is the volume of the extrapolated passes.
             let within = if pass.represents() == 1 { 1e-12 } else { 3e-4 };
             assert!((worn / expected - 1.0).abs() < within, "{worn:e}, {expected:e}");
             lost += worn + pass.lost("plastic")[body];
         }
         let sign = [-1.0, 1.0][body];
-        let fell = sign * (kept.heights()[body] - before).sum() * PITCH * PITCH;
+        let fell = sign * (heights(&kept)[body] - before).sum() * PITCH * PITCH;
         assert!((fell / lost - 1.0).abs() < 1e-9, "{fell:e}, {lost:e}");
     }
 }
 
-fn zddp(removal: f64) -> Film {
+fn zddp() -> Film {
     let law = FilmLaw::Arrhenius {
         rate: 2e-6,
         at_temperature: 373.15,
@@ -205,13 +117,13 @@ fn zddp(removal: f64) -> Film {
         activation_energy: 0.8 * 1.602_176_634e-19,
         activation_volume: 3.8e-30,
         stress: FilmStress::Pressure,
-        removal,
+        removal: 0.0,
     };
     Film::new(law, 10e-9, None).unwrap()
 }
 
 /// Flat bodies: pressure and film are uniform.
-fn flat_film(passes: usize, jump: usize, removal: f64, law: Option<FilmLaw>) -> f64 {
+fn flat_film(passes: usize, jump: usize, law: FilmLaw) -> f64 {
     let grid = Grid::new([8, 8], [PITCH; 2]).unwrap();
     let material = steel(f64::INFINITY);
     let flat = || Form::Flat.on(&grid).unwrap();
@@ -219,40 +131,17 @@ fn flat_film(passes: usize, jump: usize, removal: f64, law: Option<FilmLaw>) -> 
     let control = Control::Load(1e9 * grid.area());
     let motion =
         Motion::new(SLIDE, control).with_passes(passes).with_stride(4).with_load_control(LoadControl::Step);
-    let film = law.map_or_else(|| zddp(removal), |law| Film::new(law, 10e-9, None).unwrap());
-    let films = Films::new([Some(film), None], &pair).unwrap();
-    let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
+    let films = Films::new([Some(Film::new(law, 10e-9, None).unwrap()), None], &pair).unwrap();
     let acceleration = Acceleration::default().with_tolerance(1e9).with_max_jump(jump);
-    let kept = Kept::of(
-        simulation
-            .with_changes(Changes::by(films).with_bulk([373.15; 2]).with_acceleration(acceleration))
-            .unwrap(),
-    );
-    let film = &kept.pair.as_ref().unwrap().lower.state[FILM].values;
+    let changes = Changes::by(films).with_bulk([373.15; 2]).with_acceleration(acceleration);
+    let kept = Kept::of(changing(pair, motion, changes));
+    let film = &kept.last().lower.state[FILM].values;
     let mean = film.mean().unwrap();
     assert!(film.iter().all(|f| *f >= 0.0 && (f - mean).abs() <= 1e-9 * mean));
     // The surface rises by the growth of the film.
-    let rise = kept.heights()[0].mean().unwrap();
+    let rise = heights(&kept)[0].mean().unwrap();
     assert!((rise - mean).abs() <= 1e-9 * mean, "{rise:e}, {mean:e}");
     mean
-}
-
-#[test]
-fn a_film_is_exact_over_any_jump_and_tends_to_its_steady_value() {
-    let time = |passes: usize| passes as f64 * 8.0 * PITCH / 0.5;
-    let (growth, removal, most) = (2e-6, 1e-7, 10e-9);
-    let rate = growth / most + removal * 1e9 * 0.5;
-    let steady = growth / rate;
-    for passes in [100, 3000] {
-        let exact = steady * (1.0 - (-rate * time(passes)).exp());
-        for jump in [1, 64, 10_000] {
-            let found = flat_film(passes, jump, removal, None);
-            assert!((found / exact - 1.0).abs() < 1e-6, "{passes} passes by {jump}: {found:e}, {exact:e}");
-        }
-    }
-    let law = FilmLaw::MechanoChemical { x: 1e-11, c3: 4e-9, c4: 50.0 };
-    let thick = flat_film(100_000, 10_000, 0.0, Some(law));
-    assert!((thick / 6e-9 - 1.0).abs() < 1e-6, "{thick:e}: f_max − C₃");
 }
 
 /// A film that is removed faster than it grows is used up. Its cell stays bare, with a thickness of 0, until growth is
@@ -262,7 +151,7 @@ fn a_film_is_never_below_0_over_any_jump() {
     let (x, most, c3) = (1e-13, 10e-9, 4e-9);
     let growth = 1.380_649e-23 * 373.15 / 6.626_070_15e-34 * x;
     for c4 in [50.0, 3.0] {
-        let law = || Some(FilmLaw::MechanoChemical { x, c3, c4 });
+        let law = FilmLaw::MechanoChemical { x, c3, c4 };
         for passes in [1, 2000, 30_000, 60_000, 200_000] {
             let time = passes as f64 * 8.0 * PITCH / 0.5;
             let steps = 400_000;
@@ -277,7 +166,7 @@ fn a_film_is_never_below_0_over_any_jump() {
                 if passes > 100 * jump {
                     continue;
                 }
-                let found = flat_film(passes, jump, 0.0, law());
+                let found = flat_film(passes, jump, law);
                 let off = (found - expected).abs();
                 assert!(off < 1e-4 * most, "{c4}: {passes} passes by {jump}: {found:e}, {expected:e}");
             }
@@ -307,11 +196,10 @@ impl Law for Once {
 #[test]
 fn a_law_that_does_not_repeat_acts_once_in_a_jump_wherever_it_is_added() {
     let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(20).with_stride(4);
-    let simulation = Simulation::new(rough(f64::INFINITY, 16), Boundary::PERIODIC, motion, Params::default());
-    let changes = Changes::by(archard(4e-15)).with_law(Once).with_acceleration(Acceleration::default());
+    let changes = Changes::by(archard([4e-15; 2])).with_law(Once).with_acceleration(Acceleration::default());
     // Its volume counts like plastic deformation: the wear of an extrapolation must exceed it.
-    let kept = Kept::of(simulation.unwrap().with_changes(changes).unwrap());
-    assert_eq!(kept.represented(), 20);
+    let kept = Kept::of(changing(rough(f64::INFINITY, 16), motion, changes));
+    assert_eq!(represented(&kept), 20);
     let volume = 256.0 * PITCH * PITCH * 1e-9;
     assert!(kept.passes.iter().all(|pass| (pass.lost("once")[0] / volume - 1.0).abs() < 1e-9));
     assert!(kept.passes.iter().all(|pass| pass.represents() == 1));
@@ -319,23 +207,12 @@ fn a_law_that_does_not_repeat_acts_once_in_a_jump_wherever_it_is_added() {
 
 #[test]
 fn what_is_not_accelerated_keeps_nothing_for_jumps() {
-    struct Warm(Vec<bool>);
-    impl Output for Warm {
-        fn step(&mut self, step: &Step<'_>) -> Result<()> {
-            let Some(report) = step.pass() else { return Ok(()) };
-            self.0.push(report.warm.extrapolation.is_some());
-            Ok(())
-        }
-    }
     for (acceleration, keeps) in [(Acceleration::NONE, false), (Acceleration::default(), true)] {
         let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(2).with_stride(4);
-        let simulation =
-            Simulation::new(rough(f64::INFINITY, 16), Boundary::PERIODIC, motion, Params::default()).unwrap();
-        let mut warm = Warm(Vec::new());
-        let mut simulation =
-            simulation.with_changes(Changes::by(archard(4e-15)).with_acceleration(acceleration)).unwrap();
-        simulation.run(&(), &mut [&mut warm]).unwrap();
-        assert_eq!(warm.0, [keeps; 2]);
+        let changes = Changes::by(archard([4e-15; 2])).with_acceleration(acceleration);
+        let kept = Kept::of(changing(rough(f64::INFINITY, 16), motion, changes));
+        assert!(kept.warm_starts.len() == 2);
+        assert!(kept.warm_starts.iter().all(|warm| warm.extrapolation.is_some() == keeps));
     }
 }
 
@@ -363,7 +240,7 @@ fn checkerboard(wear: f64, passes: usize, by_law: bool) -> f64 {
     let params = Params::default().with_tolerance(1e-9);
     let mut simulation = Simulation::new(pair, Boundary::PERIODIC, motion, params).unwrap();
     if by_law {
-        simulation = simulation.with_changes(Changes::by(archard(coefficient))).unwrap();
+        simulation = simulation.with_changes(Changes::by(archard([coefficient; 2]))).unwrap();
     }
     let mut left = f64::NAN;
     for _ in 0..passes {
@@ -391,10 +268,8 @@ fn a_custom_law_is_extrapolated_as_one_that_is_built_in() {
     let coefficient = 4e-16;
     let run = |acceleration: Acceleration| {
         let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(PASSES).with_stride(4);
-        let simulation =
-            Simulation::new(rough(f64::INFINITY, 16), Boundary::PERIODIC, motion, Params::default()).unwrap();
-        let mut simulation =
-            simulation.with_changes(Changes::default().with_acceleration(acceleration)).unwrap();
+        let changes = Changes::default().with_acceleration(acceleration);
+        let mut simulation = changing(rough(f64::INFINITY, 16), motion, changes);
         let mut kept = Kept::default();
         while simulation.represented() < PASSES {
             let mut pass = simulation.solve(&()).unwrap();
@@ -415,7 +290,7 @@ fn a_custom_law_is_extrapolated_as_one_that_is_built_in() {
     };
     let all = run(Acceleration::NONE);
     let some = run(Acceleration::default().with_max_wear(1e-9));
-    assert!(some.represented() == PASSES && some.passes.len() < PASSES / 4, "{}", some.passes.len());
+    assert!(represented(&some) == PASSES && some.passes.len() < PASSES / 4, "{}", some.passes.len());
     let volume = |kept: &Kept| kept.passes.iter().map(|pass| pass.lost("wear")[0]).sum::<f64>();
     // Archard: k W s, where each of the passes slides over the length of the grid.
     let expected = coefficient * 0.05 * 16.0 * PITCH * PASSES as f64;
@@ -423,9 +298,9 @@ fn a_custom_law_is_extrapolated_as_one_that_is_built_in() {
         assert!((volume(kept) / expected - 1.0).abs() < 1e-3, "{} {expected}", volume(kept));
     }
     // No extrapolation takes much more than its limit from a cell, and the heights are off by no more than is estimated.
-    for (every, some_of_them) in all.heights().into_iter().zip(some.heights()) {
-        let off = (every - some_of_them).iter().fold(0.0, |most: f64, off| most.max(off.abs()));
-        assert!(off < some.error(), "{off:e} {:e}", some.error());
+    for (every, some_of_them) in heights(&all).into_iter().zip(heights(&some)) {
+        let off = largest(&(every - some_of_them));
+        assert!(off < error(&some), "{off:e} {:e}", error(&some));
     }
 }
 
@@ -448,50 +323,19 @@ fn beyond_the_stability_bound_pressures_swing_unless_a_pass_is_solved_with_its_w
     assert!((worn / expected - 1.0).abs() < 0.01, "{worn:e}, expected {expected:e}");
 }
 
-#[test]
-fn an_interrupted_run_goes_on_with_the_same_jumps() {
-    struct Warm(Option<asperity_contact::motion::WarmStart>, usize);
-    impl Output for Warm {
-        fn step(&mut self, step: &Step<'_>) -> Result<()> {
-            let Some(report) = step.pass() else { return Ok(()) };
-            self.0 = Some(report.warm.clone());
-            self.1 += 1;
-            if self.1 == 6 { Err(asperity_base::Error::Interrupted) } else { Ok(()) }
-        }
-    }
-    let acceleration = Acceleration::default().with_max_wear(20e-9);
-    let begin = |pair: Pair| {
-        let motion = Motion::new(SLIDE, Control::Load(0.05)).with_passes(100).with_stride(4);
-        let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
-        simulation.with_changes(Changes::by(archard(4e-15)).with_acceleration(acceleration)).unwrap()
-    };
-    let whole = Kept::of(begin(rough(1.5e9, 16)));
-    let mut kept = Kept::default();
-    let mut warm = Warm(None, 0);
-    assert!(begin(rough(1.5e9, 16)).run(&(), &mut [&mut kept, &mut warm]).is_err());
-    let rest = Kept::of(begin(kept.pair.unwrap()).resumed(6, warm.0.unwrap()));
-    assert_eq!(rest.heights(), whole.heights());
-    let jumps = |kept: &Kept| kept.passes.iter().map(PassRecord::represents).collect::<Vec<_>>();
-    assert_eq!(jumps(&rest), jumps(&whole)[6..]);
-}
-
 /// Some passes of a body in zinc dialkyl dithiophosphate against a body that slides over it at this speed with friction,
 /// heated in every `every`-th pass, or in none for 0.
 fn heated(speed: f64, passes: usize, every: usize) -> Kept {
-    use asperity_contact::solver::{Coupling, Friction};
-    use asperity_contact::temperature::Thermal;
-
     let friction = Friction::coulomb(0.1).unwrap().with_coupling(Coupling::None);
     let strategy = Strategy::Shift { speed_lower: 0.0, speed_upper: speed };
     let motion =
         Motion::new(strategy, Control::Load(0.05)).with_passes(passes).with_stride(4).with_friction(friction);
     let pair = rough(1.5e9, 16);
-    let films = Films::new([Some(zddp(0.0)), None], &pair).unwrap();
-    let simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default()).unwrap();
+    let films = Films::new([Some(zddp()), None], &pair).unwrap();
     let steel = Thermal::new(46.0, 460.0, 7850.0).unwrap();
     let changes = Changes::by(films).with_bulk([373.15; 2]);
     let changes = if every > 0 { changes.with_heat([steel; 2], every) } else { changes };
-    Kept::of(simulation.with_changes(changes).unwrap())
+    Kept::of(changing(pair, motion, changes))
 }
 
 #[test]
@@ -509,7 +353,7 @@ fn friction_heats_the_cells_and_films_see_it() {
     // The work is that of friction, for any speed: μ Σ W Δs.
     for kept in [&slow, &fast] {
         let work = kept.passes[0].running.unwrap().friction_work;
-        assert!((work / (0.1 * kept.work[0] * 4.0 * PITCH) - 1.0).abs() < 1e-12);
+        assert!((work / (0.1 * kept.force(0) * 4.0 * PITCH) - 1.0).abs() < 1e-12);
     }
     // In the same time a warm film grows more.
     let grown = |kept: &Kept| kept.passes[1].running.unwrap().laws.mean_film_lower;
@@ -531,9 +375,9 @@ fn what_is_heated_in_some_passes_grows_films_in_all() {
     assert_eq!(warmest(&third, 0), warmest(&each, 0));
     let between = (warmest(&third, 1) - 373.15) / (warmest(&each, 1) - 373.15);
     assert!((0.3..1.0 + 1e-9).contains(&between), "{between}");
-    let body = &third.pair.as_ref().unwrap().lower;
-    assert!(body.state[asperity_contact::motion::FLASH].values.iter().any(|rise| *rise > 0.0));
-    assert!(!each.pair.as_ref().unwrap().lower.state.contains_key(asperity_contact::motion::FLASH));
+    let body = &third.last().lower;
+    assert!(body.state[FLASH].values.iter().any(|rise| *rise > 0.0));
+    assert!(!each.last().lower.state.contains_key(FLASH));
 }
 
 /// A pass solved together with its wear has the pressures of the bodies after it: those at the same approach on these
@@ -554,7 +398,7 @@ fn a_pass_solved_with_its_wear_presses_the_bodies_that_it_leaves() {
             .with_speed((strategy == Strategy::Overlap).then_some(0.5));
         let begin = |pair: Pair, motion: Motion| Simulation::new(pair, boundary, motion, params).unwrap();
         let worn = begin(pair.clone(), motion)
-            .with_changes(Changes::by(archard(coefficient)))
+            .with_changes(Changes::by(archard([coefficient; 2])))
             .unwrap()
             .solve(&())
             .unwrap();
@@ -564,12 +408,12 @@ fn a_pass_solved_with_its_wear_presses_the_bodies_that_it_leaves() {
         assert!(worn.record().running.unwrap().error_estimate > 0.0);
         let approach = Control::Approach(worn.contacts()[0].approach);
         let again = begin(worn.pair().clone(), motion.with_control(approach)).solve(&()).unwrap();
-        let largest =
+        let most =
             worn.contacts().iter().flat_map(|c| &c.pressure).fold(0.0, |most: f64, (_, p)| most.max(*p));
         for (found, expected) in worn.contacts().iter().zip(again.contacts()) {
             let difference = found.pressure_field(16) - expected.pressure_field(16);
-            let off = difference.iter().fold(0.0, |most: f64, p| most.max(p.abs()));
-            assert!(off < 1e-4 * largest, "{strategy:?}: {off:e} of {largest:e}");
+            let off = largest(&difference);
+            assert!(off < 1e-4 * most, "{strategy:?}: {off:e} of {most:e}");
         }
         // The same volume as with explicit wear, but another distribution: k Σ W Δs.
         let distance = motion.sliding_distance_of(4.0, PITCH);
@@ -600,12 +444,9 @@ fn a_solid_lubricant_lasts_as_long_as_its_thickness_over_k_p() {
                 .with_passes(passes)
                 .with_stride(4)
                 .with_load_control(LoadControl::Step);
-            let mut simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default())
-                .unwrap()
-                .with_changes(Changes::by(films).with_acceleration(acceleration))
-                .unwrap();
-            simulation.run(&(), &mut []).unwrap();
-            let film = &simulation.pair().lower.state[FILM].values;
+            let changes = Changes::by(films).with_acceleration(acceleration);
+            let kept = Kept::of(changing(pair, motion, changes));
+            let film = &kept.last().lower.state[FILM].values;
             assert!(
                 film.iter().all(|f| (f - left).abs() < 1e-6 * thickness),
                 "{:e} of {left:e}",
@@ -629,9 +470,7 @@ fn a_round_of_a_shift_has_the_length_of_the_bodies_at_any_stride() {
         let grid = Grid::new([columns, 8], [PITCH; 2]).unwrap();
         let wave = |i: usize| 20e-9 * (std::f64::consts::TAU * i as f64 / columns as f64).cos();
         let wavy = Topography::new(grid, Field::from_shape_fn(grid.shape, |(i, _)| wave(i))).unwrap();
-        let pair =
-            Pair::new(Form::Flat.on(&grid).unwrap(), wavy, [&steel(f64::INFINITY), &steel(f64::INFINITY)])
-                .unwrap();
+        let pair = Pair::new(Form::Flat.on(&grid).unwrap(), wavy, [&steel(f64::INFINITY); 2]).unwrap();
         let motion =
             Motion::new(Strategy::Shift { speed_lower: 0.01, speed_upper: -0.02 }, Control::Load(0.1))
                 .with_load_control(LoadControl::Step)
@@ -639,10 +478,7 @@ fn a_round_of_a_shift_has_the_length_of_the_bodies_at_any_stride() {
                 .with_path(path)
                 .with_passes(2)
                 .with_friction(friction);
-        let mut simulation = Simulation::new(pair, Boundary::PERIODIC, motion, Params::default())
-            .unwrap()
-            .with_changes(Changes::by(archard(COEFFICIENT)))
-            .unwrap();
+        let mut simulation = changing(pair, motion, Changes::by(archard([COEFFICIENT; 2])));
         let mut lost = [0.0; 2];
         for pass in 1..=2 {
             let solved = simulation.solve(&()).unwrap();

@@ -2,14 +2,14 @@
 
 use asperity_base::{Field, Grid};
 use asperity_contact::material::Material;
-use asperity_contact::motion::{Contact, Motion, Output, Pair, PlasticUpdate, Simulation, Step, Strategy};
+use asperity_contact::motion::{Contact, Motion, Pair, PlasticUpdate, Simulation, Strategy};
 use asperity_contact::operator::{Boundary, Operators};
 use asperity_contact::solver::{
     Bounds, Control, Friction, Loading, Method, Params, Tangential, solve_frictional,
 };
-use asperity_surface::{Amplitude, Generator, SelfAffine, Topography};
+use asperity_surface::{Amplitude, Topography};
 
-use crate::support::{Held, pass_load, step_load};
+use crate::support::{Held, Kept, largest, pass_load, self_affine, step_load};
 
 const GRID: Grid = Grid { shape: [20, 16], pitch: [1e-6, 1.5e-6] };
 const PARAMS: Params =
@@ -31,16 +31,9 @@ fn each_position_of_a_pass_is_the_contact_that_slides_alone() {
                 normal: Control::Approach(contact.approach),
                 tangential: Tangential::Sliding([1.0, 0.0]),
             };
-            let alone = solve_frictional(
-                operator.as_mut(),
-                &gap,
-                &Bounds::ELASTIC,
-                &friction,
-                loading,
-                None,
-                &PARAMS,
-            )
-            .unwrap();
+            let bounds = Bounds::ELASTIC;
+            let alone = solve_frictional(operator.as_mut(), &gap, &bounds, &friction, loading, None, &PARAMS)
+                .unwrap();
             let most = alone.normal.max_pressure();
             let pressure = contact.pressure_field(GRID.shape[1]);
             assert!(
@@ -73,7 +66,7 @@ fn sliding_to_the_other_side_is_the_mirror_image() {
         assert!((other.tangential_force / one.tangential_force + 1.0).abs() < 1e-9);
         let [p, image, free] = [one, other, alone].map(|contact| contact.pressure_field(GRID.shape[1]));
         let most = one.max_pressure();
-        let error = |a: &Field, b: &Field| (a - b).iter().fold(0.0f64, |m, e| m.max(e.abs())) / most;
+        let error = |a: &Field, b: &Field| largest(&(a - b)) / most;
         assert!(error(&mirrored(image), &p) < 1e-6);
         assert!(error(&free, &p) > 1e-2, "friction moves the pressure of dissimilar bodies");
     }
@@ -93,10 +86,8 @@ fn identical_bodies_slide_under_the_pressures_of_no_friction() {
 
 /// Two rough bodies with these moduli, with their heights changed by `arranged`.
 fn pair(young: [f64; 2], arranged: impl Fn(Field) -> Field) -> Pair {
-    let form =
-        SelfAffine { hurst: 0.8, rolloff: None, shortest: Some(6e-6), amplitude: Amplitude::Sq(35e-9) };
     let surface = |seed| {
-        let heights = Generator::SelfAffine(form).generate(&GRID, seed).unwrap().into_heights();
+        let heights = self_affine(&GRID, Amplitude::Sq(35e-9), Some(6e-6), seed).into_heights();
         Topography::new(GRID, arranged(heights)).unwrap()
     };
     let [lower, upper] = young.map(|young| Material::elastic(young, 0.3).unwrap());
@@ -110,14 +101,6 @@ fn slide(
     (control, load_control): Held,
     friction: Option<Friction>,
 ) -> Vec<Contact> {
-    struct Kept(Vec<Contact>);
-    impl Output for Kept {
-        fn step(&mut self, step: &Step<'_>) -> asperity_base::Result<()> {
-            let Some(report) = step.pass() else { return Ok(()) };
-            self.0.extend_from_slice(report.contacts);
-            Ok(())
-        }
-    }
     let motion = Motion::new(strategy, control)
         .with_passes(1)
         .with_stride(3)
@@ -125,7 +108,5 @@ fn slide(
         .with_plastic_update(PlasticUpdate::Pass)
         .with_load_tolerance(1e-4)
         .with_friction(friction);
-    let mut kept = Kept(Vec::new());
-    Simulation::new(pair, Boundary::FREE, motion, PARAMS).unwrap().run(&(), &mut [&mut kept]).unwrap();
-    kept.0
+    Kept::of(Simulation::new(pair, Boundary::FREE, motion, PARAMS).unwrap()).contacts.remove(0)
 }

@@ -8,7 +8,8 @@ use asperity_contact::operator::{DirectSum, FreeFft, Operator, PeriodicFft};
 use asperity_contact::solver::{
     Bounds, Control, Method, Params, Solution, residual, solve_adhesive, solve_normal,
 };
-use asperity_surface::{Amplitude, SelfAffine};
+
+use crate::support::{difference, rough_gap};
 
 const INF: f64 = f64::INFINITY;
 const METHODS: [Method; 3] = [Method::Direct, Method::PolonskyKeer, Method::ActiveSet];
@@ -18,14 +19,11 @@ fn grid(shape: [usize; 2]) -> Grid {
 }
 
 fn operator(grid: Grid, periodic: bool) -> Box<dyn Operator> {
-    if periodic { Box::new(PeriodicFft::new(grid, 1.0)) } else { Box::new(FreeFft::new(grid, 1.0)) }
+    operator_of(grid, 1.0, periodic)
 }
 
-/// A self-affine gap with rms slope 0.1.
-fn rough(grid: &Grid, seed: u64) -> Field {
-    let form = SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude: Amplitude::Sdq(0.1) };
-    let heights = -form.generate(grid, seed).unwrap().into_heights();
-    &heights - heights.iter().copied().fold(INF, f64::min)
+fn operator_of(grid: Grid, modulus: f64, periodic: bool) -> Box<dyn Operator> {
+    if periodic { Box::new(PeriodicFft::new(grid, modulus)) } else { Box::new(FreeFft::new(grid, modulus)) }
 }
 
 /// Solves, and checks the conditions of contact.
@@ -54,14 +52,9 @@ fn solve(
     }
     let mut displacement = operator.grid().zeros();
     operator.apply(&solution.pressure, &mut displacement);
-    let again = residual(
-        &solution.pressure,
-        &displacement,
-        gap,
-        &Bounds::up_to(hardness),
-        operator.influence(0, 0),
-        Some(solution.approach),
-    );
+    let (bounds, own) = (Bounds::up_to(hardness), operator.influence(0, 0));
+    let approach = Some(solution.approach);
+    let again = residual(&solution.pressure, &displacement, gap, &bounds, own, approach);
     assert!(
         again.eta < 1.5 * tolerance + 1e-11,
         "{method:?}: residual of the recomputed displacement {again:?}"
@@ -74,12 +67,6 @@ fn active_set(periodic: bool, gap: &Field, hardness: f64, control: Control) -> S
     solve(Method::ActiveSet, operator.as_mut(), gap, hardness, control, 1e-8)
 }
 
-/// Largest difference over largest value.
-fn difference(a: &Field, b: &Field) -> f64 {
-    let largest = b.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-    a.iter().zip(b).fold(0.0f64, |m, (a, b)| m.max((a - b).abs())) / largest
-}
-
 /// The same values, with the columns one after the other in memory.
 fn in_columns(field: &Field) -> Field {
     let turned = field.t().as_standard_layout().into_owned().reversed_axes();
@@ -90,7 +77,7 @@ fn in_columns(field: &Field) -> Field {
 #[test]
 fn fields_may_have_any_order_in_memory() {
     let grid = grid([24, 16]);
-    let gap = rough(&grid, 5);
+    let gap = rough_gap(&grid, 5);
     let (caps, params) = (gap.mapv(|h| 0.2 + 0.01 * h), Params::default());
     let control = Control::Load(3.0);
     let bounds = [Bounds::up_to(caps.clone()), Bounds::up_to(in_columns(&caps))];
@@ -129,7 +116,7 @@ fn fields_may_have_any_order_in_memory() {
 fn all_methods_find_the_same_pressure() {
     let grid = grid([24, 20]);
     for seed in 0..3 {
-        let gap = rough(&grid, seed);
+        let gap = rough_gap(&grid, seed);
         for periodic in [false, true] {
             let mut operator = operator(grid, periodic);
             for hardness in [INF, 0.15, 0.06] {
@@ -152,7 +139,7 @@ fn all_methods_find_the_same_pressure() {
 #[test]
 fn the_residual_is_that_of_the_direct_sum() {
     let grid = Grid::new([32, 24], [1.0, 0.7]).unwrap();
-    let gap = rough(&grid, 5);
+    let gap = rough_gap(&grid, 5);
     for hardness in [INF, 0.1] {
         let control = Control::Load(0.02 * grid.area());
         let mut fast = FreeFft::new(grid, 1.0);
@@ -160,14 +147,8 @@ fn the_residual_is_that_of_the_direct_sum() {
         let mut sum = DirectSum::new(grid, 1.0);
         let mut displacement = grid.zeros();
         sum.apply(&solution.pressure, &mut displacement);
-        let independent = residual(
-            &solution.pressure,
-            &displacement,
-            &gap,
-            &Bounds::up_to(hardness),
-            sum.influence(0, 0),
-            None,
-        );
+        let (bounds, own) = (Bounds::up_to(hardness), sum.influence(0, 0));
+        let independent = residual(&solution.pressure, &displacement, &gap, &bounds, own, None);
         // Single precision may cause an error of a tenth of the tolerance in the displacement, which counts in the
         // residual.
         let below = solution.residual - independent.eta;
@@ -179,7 +160,7 @@ fn the_residual_is_that_of_the_direct_sum() {
 #[test]
 fn it_never_needs_more_convolutions_than_polonsky_and_keer() {
     let grid = grid([96, 96]);
-    let gap = rough(&grid, 1);
+    let gap = rough_gap(&grid, 1);
     for periodic in [false, true] {
         let mut operator = operator(grid, periodic);
         for (hardness, mean) in
@@ -197,7 +178,7 @@ fn it_never_needs_more_convolutions_than_polonsky_and_keer() {
 #[test]
 fn a_cold_start_costs_few_convolutions() {
     let grid = grid([256, 256]);
-    let gap = rough(&grid, 1);
+    let gap = rough_gap(&grid, 1);
     for periodic in [false, true] {
         let mut operator = operator(grid, periodic);
         for (mean, most) in [(0.0005, 24.0), (0.0025, 26.0), (0.01, 28.0), (0.04, 36.0)] {
@@ -211,49 +192,30 @@ fn a_cold_start_costs_few_convolutions() {
 }
 
 #[test]
-fn nearly_full_contact() {
-    let grid = grid([64, 64]);
-    let gap = rough(&grid, 2);
-    for periodic in [false, true] {
-        let solution = active_set(periodic, &gap, INF, Control::Load(0.2 * grid.area()));
-        let share = solution.contact_cells() as f64 / grid.cells() as f64;
-        assert!(share > 0.95, "{share}");
-    }
-}
-
-#[test]
-fn one_per_cent_in_contact() {
-    let grid = grid([128, 128]);
-    let gap = rough(&grid, 3);
-    for periodic in [false, true] {
-        let solution = active_set(periodic, &gap, INF, Control::Load(3e-4 * grid.area()));
-        let share = solution.contact_cells() as f64 / grid.cells() as f64;
-        assert!(0.001 < share && share < 0.02, "{share}");
-    }
-}
-
-#[test]
-fn cells_ten_times_as_long_as_wide() {
-    let grid = Grid::new([64, 64], [1.0, 10.0]).unwrap();
-    let gap = rough(&grid, 4);
-    for periodic in [false, true] {
-        for mean in [0.001, 0.02] {
-            let mut operator = operator(grid, periodic);
-            let control = Control::Load(mean * grid.area());
-            let stats = solve(Method::ActiveSet, operator.as_mut(), &gap, INF, control, 1e-8).stats;
-            assert!(stats.convolutions < 80.0, "{periodic} {mean} {stats:?}");
+fn nearly_full_contact_and_one_per_cent_of_it() {
+    for (n, seed, mean, shares) in [(64, 2, 0.2, 0.95..1.0), (128, 3, 3e-4, 0.001..0.02)] {
+        let grid = grid([n, n]);
+        let gap = rough_gap(&grid, seed);
+        for periodic in [false, true] {
+            let solution = active_set(periodic, &gap, INF, Control::Load(mean * grid.area()));
+            let share = solution.contact_cells() as f64 / grid.cells() as f64;
+            assert!(shares.contains(&share) || share == 1.0 && n == 64, "{share}");
         }
     }
 }
 
 #[test]
-fn a_strip_of_sixteen_by_512_cells() {
-    let grid = grid([16, 512]);
-    let gap = rough(&grid, 5);
-    for periodic in [false, true] {
-        for mean in [0.001, 0.02] {
-            let stats = active_set(periodic, &gap, INF, Control::Load(mean * grid.area())).stats;
-            assert!(stats.convolutions < 80.0, "{periodic} {mean} {stats:?}");
+fn long_cells_and_a_strip_of_sixteen_by_512_cells() {
+    for (shape, pitch, seed) in [([64, 64], [1.0, 10.0], 4), ([16, 512], [1.0, 1.0], 5)] {
+        let grid = Grid::new(shape, pitch).unwrap();
+        let gap = rough_gap(&grid, seed);
+        for periodic in [false, true] {
+            for mean in [0.001, 0.02] {
+                let mut operator = operator(grid, periodic);
+                let control = Control::Load(mean * grid.area());
+                let stats = solve(Method::ActiveSet, operator.as_mut(), &gap, INF, control, 1e-8).stats;
+                assert!(stats.convolutions < 80.0, "{shape:?} {periodic} {mean} {stats:?}");
+            }
         }
     }
 }
@@ -270,21 +232,9 @@ fn a_single_cell_in_contact() {
 }
 
 #[test]
-fn flat_on_flat_presses_uniformly_only_where_it_repeats_itself() {
-    let gap = Field::zeros([64, 64]);
-    let periodic = active_set(true, &gap, INF, Control::Load(409.6));
-    assert!(periodic.pressure.iter().all(|p| (p - 0.1).abs() < 1e-9));
-    let free = active_set(false, &gap, INF, Control::Load(409.6));
-    assert_eq!(free.contact_cells(), 64 * 64);
-    assert!(
-        free.pressure[[0, 0]] > free.pressure[[0, 32]] && free.pressure[[0, 32]] > free.pressure[[32, 32]]
-    );
-}
-
-#[test]
 fn a_load_just_below_the_plastic_limit() {
     let grid = grid([64, 64]);
-    let gap = rough(&grid, 6);
+    let gap = rough_gap(&grid, 6);
     for periodic in [false, true] {
         for short in [1e-2, 1e-4, 1e-6] {
             let solution =
@@ -292,14 +242,9 @@ fn a_load_just_below_the_plastic_limit() {
             let capped = solution.capped_cells() as f64 / grid.cells() as f64;
             assert!(capped > 1.0 - 10.0 * short.max(1e-3), "{periodic} {short}: {capped}");
         }
-        let beyond = solve_normal(
-            operator(grid, periodic).as_mut(),
-            &gap,
-            &Bounds::up_to(0.05),
-            Control::Load(0.05 * grid.area()),
-            None,
-            &Params::default(),
-        );
+        let (mut operator, load) = (operator(grid, periodic), Control::Load(0.05 * grid.area()));
+        let params = Params::default();
+        let beyond = solve_normal(operator.as_mut(), &gap, &Bounds::up_to(0.05), load, None, &params);
         assert!(matches!(beyond, Err(Error::BeyondPlasticLimit { .. })));
     }
 }
@@ -308,7 +253,7 @@ fn a_load_just_below_the_plastic_limit() {
 fn the_softer_the_bodies_the_fewer_convolutions() {
     let grid = grid([64, 64]);
     for seed in 0..4 {
-        let gap = rough(&grid, seed);
+        let gap = rough_gap(&grid, seed);
         for periodic in [false, true] {
             for (hardness, most) in [(0.02, 30.0), (0.005, 24.0), (0.001, 16.0), (0.0001, 12.0)] {
                 for share in [0.02, 0.2, 0.8] {
@@ -345,7 +290,7 @@ fn a_flat_punch_with_sharp_edges() {
 #[test]
 fn a_rough_sphere() {
     let grid = grid([128, 128]);
-    let roughness = rough(&grid, 7);
+    let roughness = rough_gap(&grid, 7);
     let gap = Field::from_shape_fn([128, 128], |(i, j)| {
         let (x, y) = (i as f64 - 63.5, j as f64 - 63.5);
         (x * x + y * y) / 800.0 + roughness[[i, j]]
@@ -361,20 +306,15 @@ fn a_rough_sphere() {
 #[test]
 fn an_approach_that_nearly_closes_a_periodic_gap() {
     let grid = grid([64, 64]);
-    let gap = rough(&grid, 8);
+    let gap = rough_gap(&grid, 8);
     let mean_gap = gap.mean().unwrap();
     for share in [0.9, 0.99, 0.999, 0.9999] {
         let solution = active_set(true, &gap, INF, Control::Approach(share * mean_gap));
         assert!(solution.stats.convolutions < 40.0, "{share}: {:?}", solution.stats);
     }
-    let closed = solve_normal(
-        operator(grid, true).as_mut(),
-        &gap,
-        &Bounds::ELASTIC,
-        Control::Approach(mean_gap),
-        None,
-        &Params::default(),
-    );
+    let (mut operator, approach) = (operator(grid, true), Control::Approach(mean_gap));
+    let params = Params::default();
+    let closed = solve_normal(operator.as_mut(), &gap, &Bounds::ELASTIC, approach, None, &params);
     assert!(matches!(closed, Err(Error::PeriodicFullContact { .. })));
 }
 
@@ -421,10 +361,7 @@ fn a_uniform_contact_converges_by_every_method() {
             Field::from_shape_fn([n, n], |(i, j)| 1e-15 * ((0.7 * i as f64).sin() + (1.1 * j as f64).cos()));
         let gaps = [Field::zeros([n, n]), Field::from_elem([n, n], 2.3), wave];
         for periodic in [false, true] {
-            let mut operator: Box<dyn Operator> = match periodic {
-                true => Box::new(PeriodicFft::new(grid, 115e9)),
-                false => Box::new(FreeFft::new(grid, 115e9)),
-            };
+            let mut operator = operator_of(grid, 115e9, periodic);
             for (which, gap) in gaps.iter().enumerate() {
                 for method in METHODS.into_iter().filter(|method| n <= 20 || *method != Method::Direct) {
                     let params = Params::default().with_method(method);
@@ -458,26 +395,20 @@ fn heights_far_from_zero_and_light_loads_are_the_same_contact() {
     for shape in [[12, 16], [40, 32]] {
         let grid = Grid::new(shape, [1e-6, 1e-6]).unwrap();
         // Heights with few digits, which an offset of 3 m leaves unchanged.
-        let near = rough(&grid, 3).mapv(|h| (h * 1e-2 * 2f64.powi(40)).round() * 2f64.powi(-50));
+        let near = rough_gap(&grid, 3).mapv(|h| (h * 1e-2 * 2f64.powi(40)).round() * 2f64.powi(-50));
         let far = near.mapv(|h| h + 3.0);
         for periodic in [false, true] {
-            let mut operator: Box<dyn Operator> = match periodic {
-                true => Box::new(PeriodicFft::new(grid, 115e9)),
-                false => Box::new(FreeFft::new(grid, 115e9)),
-            };
+            let mut operator = operator_of(grid, 115e9, periodic);
             for method in METHODS {
                 for load in [1e-12, 1e-9, 1e-6, 1e-4] {
                     let params = Params::default().with_method(method);
                     let [a, b] = [&near, &far].map(|gap| {
-                        solve_normal(
-                            operator.as_mut(),
-                            gap,
-                            &Bounds::ELASTIC,
-                            Control::Load(load),
-                            None,
-                            &params,
-                        )
-                        .unwrap_or_else(|error| panic!("{shape:?} {periodic} {method:?} {load:e}: {error}"))
+                        let load_at = Control::Load(load);
+                        let found =
+                            solve_normal(operator.as_mut(), gap, &Bounds::ELASTIC, load_at, None, &params);
+                        found.unwrap_or_else(|error| {
+                            panic!("{shape:?} {periodic} {method:?} {load:e}: {error}")
+                        })
                     });
                     let error = difference(&a.pressure, &b.pressure);
                     assert!(error < 1e-4, "{shape:?} {periodic} {method:?} {load:e}: {error:e}");
@@ -492,7 +423,7 @@ fn heights_far_from_zero_and_light_loads_are_the_same_contact() {
 fn the_answer_does_not_depend_on_the_units() {
     // Lengths scaled by 1000^k, and loads with the modulus by any factor: the same numbers.
     let reference = grid([24, 24]);
-    let gap = rough(&reference, 8);
+    let gap = rough_gap(&reference, 8);
     for method in METHODS {
         for periodic in [false, true] {
             let mut operator = operator(reference, periodic);
@@ -500,10 +431,7 @@ fn the_answer_does_not_depend_on_the_units() {
             let expected = solve(method, operator.as_mut(), &gap, INF, control, 1e-8);
             for (length, modulus) in [(1e-9, 1e12), (1e-9, 1e3), (1e-6, 1e11), (1e-1, 1e14), (1e-1, 1e-10)] {
                 let scaled = Grid::new([24, 24], [length, length]).unwrap();
-                let mut operator: Box<dyn Operator> = match periodic {
-                    true => Box::new(PeriodicFft::new(scaled, modulus)),
-                    false => Box::new(FreeFft::new(scaled, modulus)),
-                };
+                let mut operator = operator_of(scaled, modulus, periodic);
                 let control = Control::Load(0.01 * modulus * scaled.area());
                 let found = solve(method, operator.as_mut(), &(&gap * length), INF, control, 1e-8);
                 let error = difference(&(&found.pressure / modulus), &expected.pressure);
@@ -522,7 +450,7 @@ fn numbers_near_the_ends_of_their_range_are_errors_or_answers_but_never_nan() {
             [(1.0, 1.0), (1e-6, 1e11), (1e-6, 1e-300), (1e-6, 1e300), (1e-15, 1e11), (1e6, 1.0)]
         {
             let grid = Grid::new(shape, [length, length]).unwrap();
-            let gap = rough(&self::grid(shape), 2) * length;
+            let gap = rough_gap(&self::grid(shape), 2) * length;
             let controls = [1e308, 1e200, 1e20]
                 .map(Control::Approach)
                 .into_iter()
@@ -556,7 +484,7 @@ fn numbers_near_the_ends_of_their_range_are_errors_or_answers_but_never_nan() {
 #[test]
 fn a_periodic_contact_with_a_hardness_closes_by_every_method() {
     let grid = grid([16, 16]);
-    let gap = rough(&grid, 4);
+    let gap = rough_gap(&grid, 4);
     let mean_gap = gap.mean().unwrap();
     let mut operator = operator(grid, true);
     for hardness in [0.03, 0.3] {

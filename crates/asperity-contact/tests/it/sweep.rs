@@ -1,41 +1,31 @@
 //! A load sweep of a static contact: each point is an independent contact, and its stiffness is the slope of the curve.
 
-use asperity_base::{Error, Field, Grid};
-use asperity_contact::material::Material;
+use asperity_base::{Error, Grid};
 use asperity_contact::motion::{
     LoadedContact, Pair, Point, SlipRegime, SweepRecord, SweepState, press, sweep,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Creep, Friction, Method, Params, Rolling};
-use asperity_surface::{Amplitude, SelfAffine, Topography};
+use asperity_surface::Amplitude;
 use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use crate::support::{self, over_a_plane, self_affine, steel};
+
 const FINE: Params =
     Params::new().with_method(Method::Auto).with_tolerance(1e-9).with_max_convolutions(10_000);
-
-fn pair(grid: Grid, gap: Field, hardness: f64) -> Pair {
-    let steel = Material::new(210e9, 0.3, hardness).unwrap();
-    let topography = |heights| Topography::new(grid, heights).unwrap();
-    Pair::new(topography(grid.zeros()), topography(gap), [&steel, &steel]).unwrap()
-}
 
 /// A self-affine surface with slope 0.05 on a plane.
 fn rough(shape: [usize; 2], hardness: f64, seed: u64) -> Pair {
     let grid = Grid::new(shape, [1e-6; 2]).unwrap();
-    let amplitude = Amplitude::Sdq(0.05);
-    let method = SelfAffine { hurst: 0.8, rolloff: None, shortest: Some(6e-6), amplitude };
-    pair(grid, method.generate(&grid, seed).unwrap().into_heights(), hardness)
+    let rough = self_affine(&grid, Amplitude::Sdq(0.05), Some(6e-6), seed);
+    over_a_plane(grid, rough.into_heights(), [&steel(hardness); 2])
 }
 
 fn ball(cells: usize, pitch: f64) -> Pair {
     let grid = Grid::new([cells; 2], [pitch; 2]).unwrap();
-    let middle = 0.5 * cells as f64 * pitch;
-    let gap = Field::from_shape_fn(grid.shape, |(i, j)| {
-        ((grid.centre(0, i) - middle).powi(2) + (grid.centre(1, j) - middle).powi(2)) / 2e-3
-    });
-    pair(grid, gap, f64::INFINITY)
+    over_a_plane(grid, support::ball(&grid), [&steel(f64::INFINITY); 2])
 }
 
 fn at(control: Control) -> Point {
@@ -165,8 +155,7 @@ fn what_rolls_is_swept_as_it_rolls_alone() {
     let regime = SlipRegime::Rolling(friction, rolling);
     let points = [0.1, 0.03].map(|load| Point { control: Control::Load(load), regime, speed: None });
     let params = Params::default().with_tolerance(1e-4);
-    let (records, _) =
-        sweep(&pair, Boundary::FREE, &points, &params, SweepState::default(), &(), &mut []).unwrap();
+    let (records, _) = swept(&pair, Boundary::FREE, &points, &params);
     for (record, point) in records.iter().zip(&points) {
         let alone = press(&pair, Boundary::FREE, point.control, regime, &params, &()).unwrap().record;
         let shear = alone.shear.unwrap();

@@ -10,23 +10,34 @@ use asperity_contact::motion::{
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Creep, Friction, Loading, Method, Params, Rolling, Tangential};
-use asperity_surface::{Amplitude, SelfAffine};
+use asperity_surface::Amplitude;
 
-/// Counts its notifications, and stops after a number of calls.
-struct Patience {
+use crate::support::self_affine;
+
+/// Counts its notifications, and stops after a number of calls or of positions.
+pub(crate) struct Patience {
     told: AtomicUsize,
     asked: AtomicUsize,
+    solved: AtomicUsize,
     most: usize,
+    positions: usize,
 }
 
 impl Patience {
     fn new(most: usize) -> Self {
-        Self { told: AtomicUsize::new(0), asked: AtomicUsize::new(0), most }
+        let zero = AtomicUsize::default;
+        Self { told: zero(), asked: zero(), solved: zero(), most, positions: usize::MAX }
+    }
+
+    pub(crate) fn positions(positions: usize) -> Self {
+        Self { positions, ..Self::new(usize::MAX) }
     }
 }
 
 impl Watch for Patience {
-    fn at(&self, _: &Progress) {}
+    fn at(&self, _: &Progress) {
+        self.solved.fetch_add(1, Ordering::Relaxed);
+    }
 
     fn solving(&self, progress: &Progress) {
         let way = progress.together.expect("how far it has come");
@@ -35,15 +46,15 @@ impl Watch for Patience {
     }
 
     fn stop(&self) -> bool {
-        self.asked.fetch_add(1, Ordering::Relaxed) >= self.most
+        let asked = self.asked.fetch_add(1, Ordering::Relaxed);
+        asked >= self.most || self.solved.load(Ordering::Relaxed) >= self.positions
     }
 }
 
 fn pair(cells: usize) -> Pair {
     let grid = Grid::new([cells, cells], [1e-6; 2]).unwrap();
-    let rough = SelfAffine { hurst: 0.8, rolloff: None, shortest: None, amplitude: Amplitude::Sq(50e-9) };
     let [steel, brass] = [(210e9, 0.3), (100e9, 0.35)].map(|(e, nu)| Material::new(e, nu, 4e9).unwrap());
-    let [lower, upper] = [1, 2].map(|seed| rough.generate(&grid, seed).unwrap());
+    let [lower, upper] = [1, 2].map(|seed| self_affine(&grid, Amplitude::Sq(50e-9), None, seed));
     Pair::new(lower, upper.underside(), [&steel, &brass]).unwrap()
 }
 

@@ -3,29 +3,25 @@
 
 use std::sync::Arc;
 
-use asperity_base::{Field, Grid, Result};
-use asperity_contact::material::Material;
+use asperity_base::{Field, Grid};
 use asperity_contact::motion::{
-    Changes, Contact, ContactCells, Cycles, Law, LoadControl, LoadedContact, Motion, Output, Pair,
-    PassRecord, PlasticPath, PlasticUpdate, PlasticVolume, Point, Simulation, SlipRegime, Stage,
-    StagedLoading, Step, StepRecord, Strategy, SweepState, YieldingBodies, load_in_stages,
-    press_elasto_plastic, sweep_elasto_plastic,
+    Changes, Contact, ContactCells, Cycles, Law, LoadControl, LoadedContact, Motion, Pair, PlasticPath,
+    PlasticUpdate, Point, Simulation, SlipRegime, Stage, StagedLoading, Strategy, SweepState, YieldingBodies,
+    load_in_stages, press_elasto_plastic, sweep_elasto_plastic,
 };
 use asperity_contact::operator::Boundary;
 use asperity_contact::plasticity::{Hardening, J2, Layers, PlasticBody, PlasticParams, Volume};
 use asperity_contact::solver::{Control, Friction, Loading, Params, Tangential};
 use asperity_contact::temperature::{FlashTemperature, Thermal};
-use asperity_surface::{Amplitude, SelfAffine, Topography};
+use asperity_surface::{Amplitude, Topography};
+
+use crate::support::{Kept, archard, largest, self_affine, steel};
 
 const PITCH: f64 = 5e-6;
 const SHAPE: [usize; 2] = [32, 16];
 const LAYER: f64 = 6e-6;
 const SLIDES: Strategy = Strategy::Shift { speed_lower: 0.0, speed_upper: 0.5 };
 const BULK: [f64; 2] = [373.0, 353.0];
-
-fn steel(hardness: f64) -> Material {
-    Material::new(210e9, 0.3, hardness).unwrap()
-}
 
 fn flowing(yield_stress: f64) -> PlasticBody {
     let faces: Vec<f64> = (0..=10).map(|face| LAYER * f64::from(face)).collect();
@@ -61,59 +57,6 @@ fn yielding(simulation: Simulation, yield_stress: f64) -> Simulation {
     simulation.with_plastic([Some(flowing(yield_stress)), None], PlasticParams::new()).unwrap()
 }
 
-/// What a motion leaves after each pass.
-#[derive(Default)]
-struct Kept {
-    passes: Vec<PassRecord>,
-    steps: Vec<StepRecord>,
-    contacts: Vec<Vec<Contact>>,
-    pairs: Vec<Pair>,
-    volumes: Vec<Vec<PlasticVolume>>,
-}
-
-impl Output for Kept {
-    fn step(&mut self, step: &Step<'_>) -> Result<()> {
-        let Some(report) = step.pass() else { return Ok(()) };
-        self.passes.push(report.record.clone());
-        self.steps.extend(report.steps.iter().cloned());
-        self.contacts.push(report.contacts.to_vec());
-        self.pairs.push(report.pair.clone());
-        self.volumes.push(report.plastic_volumes.to_vec());
-        Ok(())
-    }
-}
-
-fn run(mut simulation: Simulation) -> Kept {
-    let mut kept = Kept::default();
-    simulation.run(&(), &mut [&mut kept]).unwrap();
-    kept
-}
-
-/// Archard's wear of the lower body.
-struct Archard(f64);
-
-impl Law for Archard {
-    fn name(&self) -> &str {
-        "wear"
-    }
-
-    fn add(&self, _: &Pair, cells: &ContactCells, [lower, _]: &mut [Vec<Field>; 2]) {
-        cells.add(0, &mut lower[0], |index| cells.pressure[index] * cells.sliding_distance(index));
-    }
-
-    fn per_pressure(&self, _: f64) -> [f64; 2] {
-        [self.0, 0.0]
-    }
-
-    fn uncovers(&self) -> bool {
-        true
-    }
-
-    fn advance(&self, _: &mut Pair, [lower, upper]: &[Vec<Field>; 2], passes: f64) -> [Field; 2] {
-        [&lower[0] * (self.0 * passes), Field::zeros(upper[0].raw_dim())]
-    }
-}
-
 /// Takes the same depth off all of the lower body in each pass.
 struct Milling(f64);
 
@@ -141,15 +84,15 @@ fn undeformed(kept: &Kept, pass: usize) -> Field {
 #[test]
 fn the_worn_volume_is_that_of_archard_and_the_strain_stays_with_its_material() {
     const WEAR: f64 = 2e-14;
-    let kept = run(yielding(
+    let kept = Kept::of(yielding(
         simulation(pair([f64::INFINITY; 2]), motion(4.0, 3))
-            .with_changes(Changes::by(Archard(WEAR)))
+            .with_changes(Changes::by(archard([WEAR, 0.0])))
             .unwrap(),
         1.5e9,
     ));
     let mut before = Field::zeros(SHAPE);
     for (pass, record) in kept.passes.iter().enumerate() {
-        let work: f64 = kept.contacts[pass].iter().map(|contact| contact.load * PITCH).sum();
+        let work = PITCH * kept.force(pass);
         let [worn, _] = record.lost("wear");
         assert!((worn / (WEAR * work) - 1.0).abs() < 1e-12, "{worn:e}");
         let now = undeformed(&kept, pass);
@@ -162,17 +105,17 @@ fn the_worn_volume_is_that_of_archard_and_the_strain_stays_with_its_material() {
         before = now;
     }
     // Little wear changes little.
-    let unworn = run(yielding(simulation(pair([f64::INFINITY; 2]), motion(4.0, 3)), 1.5e9));
+    let unworn = Kept::of(yielding(simulation(pair([f64::INFINITY; 2]), motion(4.0, 3)), 1.5e9));
     let strain = |kept: &Kept| kept.passes[2].plastic.unwrap().max_plastic_strain_lower;
     let ratio = strain(&kept) / strain(&unworn);
     assert!((ratio - 1.0).abs() < 0.1 && ratio != 1.0, "{ratio}");
 }
 
 #[test]
-fn milling_a_layer_off_brings_the_strain_up_by_a_layer_and_all_of_them_leave_a_plane() {
+fn milling_a_layer_off_brings_the_strain_up_by_one_and_all_of_them_leave_a_plane() {
     let body = || simulation(pair([f64::INFINITY; 2]), motion(4.0, 1));
-    let as_it_was = run(yielding(body(), 1.5e9));
-    let milled = run(yielding(body().with_changes(Changes::by(Milling(LAYER))).unwrap(), 1.5e9));
+    let as_it_was = Kept::of(yielding(body(), 1.5e9));
+    let milled = Kept::of(yielding(body().with_changes(Changes::by(Milling(LAYER))).unwrap(), 1.5e9));
     let [was, is] = [&as_it_was, &milled].map(|kept| &kept.volumes[0][0].state);
     assert!(was.accumulated.iter().any(|strain| *strain > 0.0));
     for ((layer, component, ix, iy), now) in is.strain.indexed_iter() {
@@ -184,7 +127,7 @@ fn milling_a_layer_off_brings_the_strain_up_by_a_layer_and_all_of_them_leave_a_p
     let mut alone = flowing(1.5e9);
     alone.restore(is);
     assert!((alone.displacement() - &milled.volumes[0][0].displacement).iter().all(|d| d.abs() < 1e-18));
-    let through = run(yielding(body().with_changes(Changes::by(Milling(10.0 * LAYER))).unwrap(), 1.5e9));
+    let through = Kept::of(yielding(body().with_changes(Changes::by(Milling(10.0 * LAYER))).unwrap(), 1.5e9));
     assert!(through.volumes[0][0].state.strain.iter().all(|strain| strain.abs() < 1e-15));
     assert!((&through.pairs[0].lower.heights + 10.0 * LAYER).iter().all(|height| height.abs() < 1e-15));
 }
@@ -193,7 +136,7 @@ fn milling_a_layer_off_brings_the_strain_up_by_a_layer_and_all_of_them_leave_a_p
 fn a_pass_that_removes_too_much_for_its_contacts_is_refused() {
     let worn = yielding(
         simulation(pair([f64::INFINITY; 2]), motion(4.0, 1))
-            .with_changes(Changes::by(Archard(1e-9)))
+            .with_changes(Changes::by(archard([1e-9, 0.0])))
             .unwrap(),
         1.5e9,
     );
@@ -232,7 +175,7 @@ fn yielding_bodies_have_the_flash_temperature_of_their_own_contacts() {
         .with_changes(Changes::default().with_bulk(BULK).with_heat(thermal(), 1))
         .unwrap();
     for warm in [yielding(flows, 1.5e9), flattens] {
-        let kept = run(warm);
+        let kept = Kept::of(warm);
         for (pass, contacts) in kept.contacts.iter().enumerate() {
             let expected = temperatures(&kept.pairs[0], contacts);
             for (index, (contact, expected)) in contacts.iter().zip(expected).enumerate() {
@@ -251,9 +194,11 @@ fn yielding_bodies_have_the_flash_temperature_of_their_own_contacts() {
 fn heat_and_wear_at_each_position_are_those_after_the_pass_where_nothing_changes() {
     let of = |update, wear: f64| {
         let simulation = simulation(pair([60e9, f64::INFINITY]), motion(4.0, 1).with_plastic_update(update));
-        run(simulation
-            .with_changes(Changes::by(Archard(wear)).with_bulk(BULK).with_heat(thermal(), 1))
-            .unwrap())
+        Kept::of(
+            simulation
+                .with_changes(Changes::by(archard([wear, 0.0])).with_bulk(BULK).with_heat(thermal(), 1))
+                .unwrap(),
+        )
     };
     let [pass, step] = [PlasticUpdate::Pass, PlasticUpdate::Step].map(|update| of(update, 1e-22));
     for (pass, step) in pass.steps.iter().zip(&step.steps) {
@@ -264,7 +209,7 @@ fn heat_and_wear_at_each_position_are_those_after_the_pass_where_nothing_changes
     let difference = |wear: f64| {
         let [pass, step] = [PlasticUpdate::Pass, PlasticUpdate::Step].map(|update| of(update, wear));
         let [pass, step] = [&pass, &step].map(|kept| &kept.pairs[0].lower.heights);
-        (pass - step).iter().fold(0.0_f64, |most, difference| most.max(difference.abs()))
+        largest(&(pass - step))
     };
     let order = (difference(4e-14) / difference(2e-14)).log2();
     assert!((1.7..2.2).contains(&order), "{order}");
@@ -273,8 +218,8 @@ fn heat_and_wear_at_each_position_are_those_after_the_pass_where_nothing_changes
 #[test]
 fn a_hardness_opposite_a_body_that_never_yields_is_that_of_elastic_bodies() {
     let hard = [f64::INFINITY, 2.5e9];
-    let elastic = run(simulation(pair(hard), motion(4.0, 2)));
-    let both = run(yielding(simulation(pair(hard), motion(4.0, 2)), 1e12));
+    let elastic = Kept::of(simulation(pair(hard), motion(4.0, 2)));
+    let both = Kept::of(yielding(simulation(pair(hard), motion(4.0, 2)), 1e12));
     let [[_, a], [_, b]] = [&elastic, &both].map(|kept| kept.passes[0].lost("plastic"));
     assert!(a > 1e-18 && (a / b - 1.0).abs() < 1e-4, "{a:e} {b:e}");
     let differences = &elastic.pairs[1].upper.heights - &both.pairs[1].upper.heights;
@@ -286,19 +231,10 @@ fn a_hardness_opposite_a_body_that_never_yields_is_that_of_elastic_bodies() {
 #[test]
 fn in_stages_a_hardness_opposite_a_body_that_never_yields_stays_flattened() {
     let grid = Grid::new(SHAPE, [PITCH; 2]).unwrap();
-    let rough = SelfAffine {
-        hurst: 0.8,
-        rolloff: None,
-        shortest: Some(4.0 * PITCH),
-        amplitude: Amplitude::Sq(0.3e-6),
-    };
-    let rough = rough.generate(&grid, 3).unwrap();
+    let rough = self_affine(&grid, Amplitude::Sq(0.3e-6), Some(4.0 * PITCH), 3);
     let flat = Topography::new(grid, Field::zeros(SHAPE)).unwrap();
     let pair = Pair::new(rough, flat, [&steel(2e9), &steel(f64::INFINITY)]).unwrap();
-    let stage = |load: f64, steps: usize| {
-        let loading = Loading { normal: Control::Load(load), tangential: Tangential::Force([0.0; 2]) };
-        Stage::new(loading, steps)
-    };
+    let stage = |load: f64, steps: usize| Stage::new(Loading::pressing(Control::Load(load)), steps);
     let stages = vec![stage(12.0, 12), stage(4.0, 4), stage(8.0, 4)];
     let params = Params::default().with_tolerance(1e-9);
     let boundary = Boundary::PERIODIC;
@@ -339,8 +275,7 @@ fn a_point_of_a_sweep_is_the_contact_of_its_load_alone() {
     };
     let (records, last) = sweep(SweepState::default());
     for (load, record) in loads.into_iter().zip(&records) {
-        let loading = Loading { normal: Control::Load(load), tangential: Tangential::Force([0.0; 2]) };
-        let path = PlasticPath::new(vec![Stage::new(loading, 6)]);
+        let path = PlasticPath::new(vec![Stage::new(Loading::pressing(Control::Load(load)), 6)]);
         let alone =
             press_elasto_plastic(&pair, boundary, None, virgin().unwrap(), &path, &params, &(), &mut []);
         let alone = alone.unwrap();
@@ -382,7 +317,7 @@ fn fretted(yield_stress: Option<f64>, wear: f64, cycles: usize) -> LoadedContact
             loading.with_plastic([Some(flowing(stress)), None], PlasticParams::new(), Some(3)).unwrap()
         }
     };
-    loading.with_changes(Changes::by(Archard(wear))).run(None, &(), &mut []).unwrap()
+    loading.with_changes(Changes::by(archard([wear, 0.0]))).run(None, &(), &mut []).unwrap()
 }
 
 #[test]
@@ -401,7 +336,7 @@ fn bodies_that_never_yield_fret_as_elastic_ones() {
     let [a, b] =
         [&elastic, &yielding].map(|contact| contact.changed.as_ref().unwrap().pair.lower.heights.clone());
     let deepest = a.iter().fold(0.0_f64, |most, height| most.max(-height));
-    let difference = (&a - &b).iter().fold(0.0_f64, |most, each| most.max(each.abs()));
+    let difference = largest(&(&a - &b));
     assert!(deepest > 1e-10 && difference < 1e-5 * deepest, "{difference:e} of {deepest:e}");
     let [a, b] = [&elastic.record, &yielding.record];
     assert!((a.mean_gap / b.mean_gap - 1.0).abs() < 1e-6 && a.contact_area == b.contact_area);

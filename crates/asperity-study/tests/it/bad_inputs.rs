@@ -1,8 +1,9 @@
 //! Bad inputs are tables: in the files of `tests/inputs/bad`, each row is a case with the message that it must get.
 //!
-//! A row begins with `### name`. Its tables take the place of those of [`BALL`] and come after the others; `#- [contact]`
-//! leaves one out. Below the faulty line is `#^ message`, with its caret under the faulty place, then `#= hint: …` if the
-//! error has a hint. A row of `studies.toml` is a study of a good case, unless it names its own.
+//! A row begins with `### name`. Its tables take the place of those of [`BALL`] and come after the others; one as
+//! `[lower.wear]` is added to the body of the ball, and `#- [contact]` leaves a table out. Below the faulty line is
+//! `#^ message`, with its caret under the faulty place, then `#= hint: …` if the error has a hint. A row of `studies.toml` is
+//! a study of a good case, unless it names its own.
 
 use std::path::{Path, PathBuf};
 
@@ -86,24 +87,25 @@ fn rows() -> Vec<Row> {
     rows
 }
 
-/// Returns the case of a row: its keys outside tables, the tables of [`BALL`] that it does not have, its tables.
+/// Returns the case of a row: its keys outside tables, what it lacks of [`BALL`], and its tables.
 fn of_ball(row: &str) -> String {
     let tables = row.find("\n[").map_or(row.len(), |at| at + 1);
     let (outside, tables) = row.split_at(if row.starts_with('[') { 0 } else { tables });
+    let has = |starts: [String; 3]| {
+        row.lines().any(|line| starts.iter().any(|start| line.starts_with(start.as_str())))
+    };
     let mut case = outside.to_owned();
     for (name, keys) in BALL {
-        let has = |start: &str| row.lines().any(|line| line.starts_with(start));
-        if [
-            format!("[{name}]"),
-            format!("[{name}."),
-            format!("[[{name}"),
-            format!("{name} ="),
-            format!("#- [{name}]"),
-        ]
-        .iter()
-        .all(|start| !has(start))
-        {
-            case += &format!("[{name}]{keys}\n");
+        if has([format!("[{name}]"), format!("{name} ="), format!("#- [{name}]")]) {
+            continue;
+        }
+        case += &format!("[{name}]\n");
+        for line in keys.trim().lines() {
+            let key = line.split(' ').next().unwrap();
+            let of_row = [format!("[{name}.{key}]"), format!("[{name}.{key}."), format!("[[{name}.{key}.")];
+            if !has(of_row) {
+                case += &format!("{line}\n");
+            }
         }
     }
     case += tables;

@@ -1,21 +1,19 @@
 //! Two surfaces of different grids meet on a common one.
 
-use std::path::Path;
-
 use asperity_base::{CellValues, Error, Field, Grid, ndarray};
-use asperity_study::case::Case;
-use asperity_study::{SurfaceInput, bodies, grids};
+use asperity_study::{Case, SurfaceInput, bodies, grids};
 use asperity_surface::Topography;
+
+use crate::support::parsed;
 
 const STEEL: &str = "young = \"210 GPa\"\npoisson = 0.3\n";
 
 /// A case of two named surfaces, the lower one with this hardness, with these lines under `[contact]`, and further tables.
 fn case_of(hardness: &str, contact: &str, more: &str) -> Case {
-    let text = format!(
+    parsed(&format!(
         "[lower]\n{STEEL}{hardness}\ntopography = {{ given = \"lower\" }}\n\
          [upper]\n{STEEL}topography = {{ given = \"upper\" }}\n[contact]\n{contact}\n{more}"
-    );
-    Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap()
+    ))
 }
 
 /// A case whose lower body has a map of the hardness.

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use asperity_base::Grid;
 use asperity_contact::motion::Column;
-use asperity_study::Case;
-use asperity_study::Existing;
-use asperity_study::records as all_records;
+use asperity_study::{Case, records as all_records};
 use asperity_surface::{Axis, Form, Parameter};
 use serde_json::Value;
+
+use crate::support::{parsed, run};
 
 fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs").join(name)
@@ -99,16 +99,8 @@ fn every_key_of_a_summary_is_explained() {
     "#;
     for case in [ball.to_owned(), ball.replace("creepage = [2e-4, 0.0]", "force = [1e-3, 0.0]")] {
         let folder = tempfile::tempdir().unwrap();
-        let case = Case::parse(&case, Path::new("case.toml"), folder.path()).unwrap();
-        asperity_study::run(
-            &case,
-            asperity_study::SurfaceInput::default(),
-            &folder.path().join("out"),
-            Existing::Keep,
-            &(),
-        )
-        .unwrap();
-        let text = fs::read(folder.path().join("out/summary.json")).unwrap();
+        run(&parsed(&case), folder.path());
+        let text = fs::read(folder.path().join("summary.json")).unwrap();
         keys(&serde_json::from_slice(&text).unwrap(), &mut names);
     }
     let missing: Vec<_> = names.iter().filter(|name| !page.contains(&format!("`{name}`"))).collect();

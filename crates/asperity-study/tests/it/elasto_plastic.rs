@@ -1,21 +1,19 @@
 //! Elasto-plastic bodies, from the case to the results.
 
-use std::path::Path;
-
 use asperity_contact::motion::{Regime, StaticRecord};
-use asperity_study::case::Case;
-use asperity_study::{Existing, Outcome, Results, SurfaceInput};
+use asperity_study::{Case, Outcome, Results, SurfaceInput};
 use ndarray::Array3;
+
+use crate::support::{at_rest, parsed, run, written};
 
 /// A ball of 1 mm on a flat body that yields at 1.5 GPa, or does not. Yield begins at 5.5 N, at a depth of half the contact
 /// radius, 33 µm.
 fn case(load: &str, plasticity: &str, rest: &str) -> Case {
-    let text = format!(
+    parsed(&format!(
         "[lower]\nyoung = \"210 GPa\"\npoisson = 0.3\n{plasticity}[lower.topography]\nform = \"flat\"\nshape = [24, 24]\n\
          pitch = \"6 um\"\n[upper]\nyoung = \"210 GPa\"\npoisson = 0.3\n[upper.topography]\nform = \"sphere\"\nradius = \"1 mm\"\n\
          [contact]\nload = \"{load}\"\n{rest}"
-    );
-    Case::parse(&text, Path::new("ball.toml"), Path::new("")).unwrap()
+    ))
 }
 
 const FLOWS: &str = "[lower.plasticity]\nyield_stress = \"1.5 GPa\"\nhardening = \"5 GPa\"\n";
@@ -29,29 +27,9 @@ fn record(outcome: &Outcome) -> &StaticRecord {
 }
 
 #[test]
-fn what_does_not_yield_presses_as_an_elastic_body_to_the_last_bit() {
-    let light = asperity_study::rest(
-        &case("5 N", FLOWS, VOLUME.replace("increments = 4", "increments = 1").as_str()),
-        SurfaceInput::default(),
-        &(),
-    )
-    .unwrap();
-    let elastic = asperity_study::rest(&case("5 N", "", ""), SurfaceInput::default(), &()).unwrap();
-    let pressure = |rest: &asperity_study::StaticResult| {
-        rest.fields.fields.iter().find(|field| field.name == "pressure").unwrap().values.clone()
-    };
-    assert_eq!(pressure(&light), pressure(&elastic));
-    let flow = record(&light.outcome).plastic.as_ref().unwrap();
-    assert_eq!((flow.max_plastic_strain, flow.regime, flow.plastic_work), (0.0, Regime::Elastic, 0.0));
-}
-
-#[test]
 fn a_ball_that_yields_leaves_a_dent_and_residual_stress() {
     let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
-    let heavy = case("20 N", FLOWS, VOLUME);
-    let (summary, _) =
-        asperity_study::run(&heavy, SurfaceInput::default(), &out, Existing::Keep, &()).unwrap();
+    let (summary, results) = run(&case("20 N", FLOWS, VOLUME), folder.path());
     let record = record(&summary.outcome);
     let flow = record.plastic.as_ref().unwrap();
     let left = flow.residual.as_ref().unwrap();
@@ -66,7 +44,6 @@ fn a_ball_that_yields_leaves_a_dent_and_residual_stress() {
     // Unloading is elastic: the plastic strain stays.
     assert!((left.residual_max_plastic_strain / flow.max_plastic_strain - 1.0).abs() < 0.05);
     assert!(left.residual_displaced_volume > 0.0 && left.residual_max_residual_tension > 1e8, "{left:?}");
-    let results = Results::open(&out).unwrap();
     let increments = results.increments().unwrap();
     assert_eq!(increments.len(), 8);
     let loads: Vec<f64> = increments.iter().map(|increment| increment.load).collect();
@@ -91,12 +68,9 @@ fn a_ball_that_yields_leaves_a_dent_and_residual_stress() {
     let dent = volumes.read("displacement_lower").unwrap().into_field().unwrap();
     let deepest = dent.indexed_iter().max_by(|a, b| a.1.total_cmp(b.1)).unwrap().0;
     assert!((10..14).contains(&deepest.0) && (10..14).contains(&deepest.1), "{deepest:?}");
-    let lower = results.static_fields().unwrap().read("lower").unwrap().into_field().unwrap();
-    assert!((&lower + &dent).iter().all(|z| z.abs() < 1e-15));
+    assert!((written(&results, "lower") + &dent).iter().all(|z| z.abs() < 1e-15));
     // The gap is that of the deformed bodies: closed where they touch.
-    let fields = results.static_fields().unwrap();
-    let read = |name: &str| fields.read(name).unwrap().into_field().unwrap();
-    let (gap, pressure) = (read("gap"), read("pressure"));
+    let [gap, pressure] = ["gap", "pressure"].map(|name| written(&results, name));
     let open =
         gap.iter().zip(&pressure).filter(|(_, p)| **p > 0.0).fold(0.0, |most: f64, (g, _)| most.max(g.abs()));
     assert!(open < 1e-5 * record.approach, "{open:e}");
@@ -107,7 +81,7 @@ fn a_ball_that_yields_leaves_a_dent_and_residual_stress() {
 #[test]
 fn a_contact_that_slides_goes_on_sliding_while_its_load_is_taken_off() {
     let slides = format!("[friction]\ncoefficient = 0.2\nsliding = [3, 4]\n{VOLUME}");
-    let slid = asperity_study::rest(&case("20 N", FLOWS, &slides), SurfaceInput::default(), &()).unwrap();
+    let slid = at_rest(&case("20 N", FLOWS, &slides));
     let loads: Vec<f64> = slid.increments.iter().map(|increment| increment.load).collect();
     assert_eq!((loads.len(), loads[loads.len() - 1]), (8, 0.0));
     for increment in &slid.increments {
@@ -122,12 +96,7 @@ fn a_contact_that_slides_goes_on_sliding_while_its_load_is_taken_off() {
 #[test]
 fn stages_go_in_their_own_steps() {
     let stages = "[[history]]\nload = \"8 N\"\nincrements = 2\n[[history]]\napproach = \"1.2 um\"\n";
-    let staged = asperity_study::rest(
-        &case("16 N", FLOWS, &format!("{VOLUME}unload = false\n{stages}")),
-        SurfaceInput::default(),
-        &(),
-    )
-    .unwrap();
+    let staged = at_rest(&case("16 N", FLOWS, &format!("{VOLUME}unload = false\n{stages}")));
     let increments = &staged.increments;
     let stages: Vec<usize> = increments.iter().map(|increment| increment.stage).collect();
     assert_eq!(stages, [1, 1, 1, 1, 2, 2, 3, 3, 3, 3]);
@@ -151,16 +120,10 @@ fn a_depth_that_is_none_and_flow_that_leaves_the_volume_are_told() {
             .unwrap_err();
         assert!(error.to_string().contains(told), "{error}");
     }
-    let thin =
-        asperity_study::rest(&case("20 N", FLOWS, &depth("18 um")), SurfaceInput::default(), &()).unwrap();
-    assert!(
-        thin.warnings.iter().any(|warning| warning.contains("yields in its deepest layer")),
-        "{:?}",
-        thin.warnings
-    );
-    let whole = asperity_study::rest(&case("20 N", FLOWS, VOLUME), SurfaceInput::default(), &()).unwrap();
-    assert!(!whole.warnings.iter().any(|warning| warning.contains("deepest layer")), "{:?}", whole.warnings);
-    assert!(whole.warnings.iter().any(|warning| warning.contains("more than 15 %")), "{:?}", whole.warnings);
+    let [thin, whole] = [depth("18 um"), VOLUME.to_owned()]
+        .map(|volume| at_rest(&case("20 N", FLOWS, &volume)).warnings.join("\n"));
+    assert!(thin.contains("yields in its deepest layer"), "{thin}");
+    assert!(!whole.contains("deepest layer") && whole.contains("more than 15 %"), "{whole}");
 }
 
 /// Below a ball that has yielded, the stress is the elastic plus the residual stress; it continues below the volume.
@@ -169,20 +132,11 @@ fn the_stress_below_bodies_that_flow_is_whole() {
     let folder = tempfile::tempdir().unwrap();
     let depths = "[subsurface]\nto = \"100.8 um\"\nlayers = 28\nsection = \"75 um\"\ncolumns = [[\"75 um\", \"75 um\"]]\n";
     let volume = VOLUME.replace("unload", "") + "unload = false\n";
-    let run = |plasticity: &str, name: &str, rest: &str| {
-        let out = folder.path().join(name);
-        asperity_study::run(
-            &case("20 N", plasticity, rest),
-            SurfaceInput::default(),
-            &out,
-            Existing::Keep,
-            &(),
-        )
-        .unwrap();
-        Results::open(&out).unwrap()
+    let results_of = |plasticity: &str, name: &str, rest: &str| {
+        run(&case("20 N", plasticity, rest), &folder.path().join(name)).1
     };
-    let flows = run(FLOWS, "flows", &format!("{volume}{depths}"));
-    let elastic = run("", "elastic", depths);
+    let flows = results_of(FLOWS, "flows", &format!("{volume}{depths}"));
+    let elastic = results_of("", "elastic", depths);
     let read = |results: &Results, name: &str| {
         results.subsurface_fields(None).unwrap().read(name).unwrap().into_field().unwrap()
     };

@@ -4,11 +4,10 @@ use std::path::Path;
 use std::sync::Mutex;
 
 use asperity_base::Error;
-use asperity_study::Case;
-use asperity_study::Existing;
-use asperity_study::bodies;
-use asperity_study::{Demand, demand, estimate};
+use asperity_study::{Case, Demand, Existing, SurfaceInput, bodies, demand, estimate};
 use rayon::prelude::*;
+
+use crate::support::{parsed, run};
 
 /// Small cases without files that together have every key.
 const CASES: [&str; 6] = [
@@ -367,17 +366,8 @@ fn is_an_answer(error: &Error) -> bool {
 
 #[test]
 fn every_case_is_as_it_should_be() {
-    for (number, text) in CASES.iter().enumerate() {
-        let case = Case::parse(text, Path::new("case.toml"), Path::new("")).unwrap();
-        let folder = tempfile::tempdir().unwrap();
-        asperity_study::run(
-            &case,
-            asperity_study::SurfaceInput::default(),
-            folder.path(),
-            Existing::Keep,
-            &(),
-        )
-        .unwrap_or_else(|e| panic!("{number}: {e}"));
+    for text in CASES {
+        run(&parsed(text), tempfile::tempdir().unwrap().path());
     }
 }
 
@@ -387,14 +377,12 @@ fn extreme_values_are_refused_at_their_line_or_foreseen() {
         .par_iter()
         .map(|mutation| {
             let Some(case) = read(mutation) else { return 0 };
-            let Ok(demand) = demand(&case, &asperity_study::SurfaceInput::default(), 2) else { return 1 };
+            let Ok(demand) = demand(&case, &SurfaceInput::default(), 2) else { return 1 };
             assert!(demand.memory > 0.0 && demand.effort >= 0.0, "{demand:?}\n{}", mutation.text);
             if is_large(&demand) {
                 return 1;
             }
-            match bodies(&case, asperity_study::SurfaceInput::default())
-                .and_then(|bodies| estimate(&case, &bodies))
-            {
+            match bodies(&case, SurfaceInput::default()).and_then(|bodies| estimate(&case, &bodies)) {
                 Ok(estimate) => assert!(
                     estimate.modulus > 0.0 && estimate.apparent_area > 0.0 && estimate.gap_slope.is_finite(),
                     "{estimate:?}\n{}",
@@ -416,19 +404,13 @@ fn what_is_computed_of_extreme_values_are_numbers() {
     let chosen: Vec<_> = mutations().into_iter().step_by(stride).collect();
     chosen.par_iter().for_each(|mutation| {
         let Some(case) = read(mutation) else { return };
-        let Ok(demand) = demand(&case, &asperity_study::SurfaceInput::default(), 1) else { return };
+        let Ok(demand) = demand(&case, &SurfaceInput::default(), 1) else { return };
         if is_large(&demand) {
             told.lock().unwrap()[2] += 1;
             return;
         }
         let folder = tempfile::tempdir().unwrap();
-        match asperity_study::run(
-            &case,
-            asperity_study::SurfaceInput::default(),
-            folder.path(),
-            Existing::Keep,
-            &(),
-        ) {
+        match asperity_study::run(&case, SurfaceInput::default(), folder.path(), Existing::Keep, &()) {
             Ok((summary, _)) => {
                 let written = serde_json::to_value(&summary).unwrap();
                 for part in ["static", "passes", "subsurface"] {

@@ -1,7 +1,5 @@
 //! Fatigue of the bodies of a case.
 
-use std::fs;
-use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use asperity_base::Error;
@@ -11,9 +9,13 @@ use asperity_contact::motion::{PassRecord, Progress, Watch};
 use asperity_contact::wear::WearRate;
 use asperity_contact::with::Capability;
 use asperity_study::{Case, Existing, Results, Summary, SurfaceInput};
+use tempfile::TempDir;
+
+use crate::resume::{Whole, goes_on};
+use crate::support::{most, parsed};
 
 fn case(passes: usize, tables: &str) -> Case {
-    let text = format!(
+    parsed(&format!(
         r#"
 [lower]
 young = "210 GPa"
@@ -41,21 +43,21 @@ to = "4 um"
 layers = 4
 {tables}
 "#
-    );
-    Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap()
+    ))
 }
 
-fn run(case: &Case, out: &Path, existing: Existing) -> (Summary, Vec<FatigueRecord>) {
-    let (summary, _) = asperity_study::run(case, SurfaceInput::default(), out, existing, &()).unwrap();
-    let rows = Results::open(out).unwrap().rows::<asperity_contact::fatigue::Fatigue>().unwrap();
-    (summary, rows)
+/// What is found of the fatigue of a case, with its results as long as their folder is there.
+fn run(case: &Case) -> (Summary, Vec<FatigueRecord>, Results, TempDir) {
+    let folder = tempfile::tempdir().unwrap();
+    let (summary, results) = crate::support::run(case, &folder.path().join("out"));
+    let rows = results.rows::<Fatigue>().unwrap();
+    (summary, rows, results, folder)
 }
 
 #[test]
 fn bodies_of_a_motion_tire_pass_after_pass_and_go_on_to_the_same_bits() {
-    let folder = tempfile::tempdir().unwrap();
-    let whole = folder.path().join("whole");
-    let (summary, rows) = run(&case(3, ""), &whole, Existing::Keep);
+    let Whole { summary, results, .. } = &goes_on(&case(3, ""));
+    let rows = results.rows::<Fatigue>().unwrap();
     let places: Vec<_> = rows.iter().map(|row| (row.pass, row.body)).collect();
     let expected: Vec<_> =
         (1..=3).flat_map(|pass| [(Some(pass), OnBody::Lower), (Some(pass), OnBody::Upper)]).collect();
@@ -67,63 +69,54 @@ fn bodies_of_a_motion_tire_pass_after_pass_and_go_on_to_the_same_bits() {
     assert!(rows[0].over_limit > rows[1].over_limit);
     // The summary has the last pass.
     assert_eq!(summary.found.fatigue, rows[4..]);
-    let parts = folder.path().join("parts");
-    run(&case(1, ""), &parts, Existing::Keep);
-    let (_, again) = run(&case(3, ""), &parts, Existing::Resume);
-    assert_eq!(again, rows);
-    let read = |out: &Path| fs::read(out.join("fields/fatigue-0003.h5")).unwrap();
-    assert!(read(&whole) == read(&parts));
-    let maps = Results::open(&whole).unwrap().observed_fields("fatigue", 3).unwrap();
-    let map = maps.read("over_limit_lower").unwrap().into_field().unwrap();
-    let most = map.iter().copied().fold(0.0, f64::max);
-    assert!((most / rows[4].over_limit - 1.0).abs() < 1e-12);
-    let depths = (1..=4).map(|k| state(&whole, 3, &format!("over_limit_{k:02}")));
-    assert!(depths.map(|depth| depth.iter().copied().fold(0.0, f64::max)).any(|depth| depth == most));
+    let maps = results.observed_fields("fatigue", 3).unwrap();
+    let largest = most(&maps.read("over_limit_lower").unwrap().into_field().unwrap());
+    assert!((largest / rows[4].over_limit - 1.0).abs() < 1e-12);
+    let depths = (1..=4).map(|k| state(results, 3, &format!("over_limit_{k:02}")));
+    assert!(depths.map(|depth| most(&depth)).any(|depth| depth == largest));
 }
 
 #[test]
 fn only_the_passes_asked_for_are_looked_at_and_what_is_beyond_the_model_is_told() {
-    let folder = tempfile::tempdir().unwrap();
-    let (summary, rows) = run(&case(3, "passes = [2]\nevery = 6"), folder.path(), Existing::Keep);
+    let (summary, rows, results, _folder) = run(&case(3, "passes = [2]\nevery = 6"));
     assert!(rows.iter().all(|row| row.pass == Some(2)) && rows.len() == 2);
     let told = |words: &str| summary.warnings.iter().any(|warning| warning.contains(words));
     assert!(told("between two positions whose stress is computed"), "{:?}", summary.warnings);
     assert!(told("no pass before pass 2 is looked at"), "{:?}", summary.warnings);
     assert!(!told("may be deeper than the largest depth"));
-    assert!(!folder.path().join("fields/fatigue-0001.h5").exists());
+    assert!(!results.directory().join("fields/fatigue-0001.h5").exists());
     let text = "times the one above it, and the largest f may lie between two";
     assert!(!told(text));
     let mut deep = case(1, "");
     deep.with.fatigue.as_mut().unwrap().to = 4e-3;
-    let (summary, _) = run(&deep, tempfile::tempdir().unwrap().path(), Existing::Keep);
+    let (summary, ..) = run(&deep);
     assert!(summary.warnings.iter().any(|warning| warning.contains(text)), "{:?}", summary.warnings);
     let text = "pits of the lower body may be deeper than the largest depth, 4 µm";
     let mut deep = case(1, "");
     deep.lower.properties.fatigue.as_mut().unwrap().pit_depth = 5e-3;
-    let (summary, _) = run(&deep, tempfile::tempdir().unwrap().path(), Existing::Keep);
+    let (summary, ..) = run(&deep);
     assert!(summary.warnings.iter().any(|warning| warning.contains(text)), "{:?}", summary.warnings);
 }
 
 /// The state of a body after a pass, at a depth from 1.
-fn state(out: &Path, pass: usize, name: &str) -> Field {
-    let [lower, _] = Results::open(out).unwrap().states_after(pass).unwrap();
+fn state(results: &Results, pass: usize, name: &str) -> Field {
+    let [lower, _] = results.states_after(pass).unwrap();
     lower[name].values.clone()
 }
 
 #[test]
 fn damage_adds_up_over_passes_as_miner_has_it() {
-    let folder = tempfile::tempdir().unwrap();
     let case = case(3, "");
-    let (_, rows) = run(&case, folder.path(), Existing::Keep);
+    let (_, rows, results, _folder) = run(&case);
     let law = Basquin::new(10.0, 2e6, false).unwrap();
     let depths = case.with.fatigue.as_ref().unwrap().depths([1e-6; 2]);
     let shape = [24, 16];
     let mut suffered = vec![vec![0.0; 4]; shape[0] * shape[1]];
     let mut worn_before = Field::zeros(shape);
     for pass in 1..=3 {
-        let worn = state(folder.path(), pass, "wear");
+        let worn = state(&results, pass, "wear");
         let over: Vec<Field> =
-            (1..=4).map(|k| state(folder.path(), pass, &format!("over_limit_{k:02}"))).collect();
+            (1..=4).map(|k| state(&results, pass, &format!("over_limit_{k:02}"))).collect();
         for (cell, suffered) in suffered.iter_mut().enumerate() {
             let at = [cell / shape[1], cell % shape[1]];
             let each: Vec<f64> = over.iter().map(|over| law.damage(over[at])).collect();
@@ -149,21 +142,18 @@ fn damage_adds_up_over_passes_as_miner_has_it() {
 
 #[test]
 fn damage_between_two_computed_passes_is_between_theirs() {
-    let folder = tempfile::tempdir().unwrap();
     let mut case = case(40, "[acceleration]\nmax_jump = 8\ntolerance = 10\nmax_wear = \"1 um\"");
     // The other body wears, so that the pressures change and the depths do not.
     let mut wear = case.lower.laws.wear.take().unwrap();
     wear.rate = WearRate::Coefficient(1e-14);
     case.upper.laws.wear = Some(wear);
-    run(&case, folder.path(), Existing::Keep);
-    let jumps: Vec<usize> =
-        Results::open(folder.path()).unwrap().passes().unwrap().iter().map(PassRecord::represents).collect();
+    let (_, _, results, _folder) = run(&case);
+    let jumps: Vec<usize> = results.passes().unwrap().iter().map(PassRecord::represents).collect();
     assert!(jumps.contains(&8) && jumps.iter().sum::<usize>() == 40, "{jumps:?}");
     let law = Basquin::new(10.0, 2e6, false).unwrap();
     for depth in ["01", "03"] {
-        let of = |pass: usize| {
-            state(folder.path(), pass, &format!("over_limit_{depth}")).mapv(|over| law.damage(over))
-        };
+        let of =
+            |pass: usize| state(&results, pass, &format!("over_limit_{depth}")).mapv(|over| law.damage(over));
         let mut expected = Field::zeros([24, 16]);
         for (index, jump) in jumps.iter().enumerate() {
             let (now, next) = (of(index + 1), of((index + 2).min(jumps.len())));
@@ -173,18 +163,17 @@ fn damage_between_two_computed_passes_is_between_theirs() {
                 expected = expected + &now * (1.0 - share) + &next * share;
             }
         }
-        let found = state(folder.path(), jumps.len(), &format!("damage_{depth}"));
-        let most = expected.iter().copied().fold(0.0, f64::max);
+        let found = state(&results, jumps.len(), &format!("damage_{depth}"));
+        let largest = most(&expected);
         let changes = of(1) - of(jumps.len());
-        assert!(changes.iter().any(|change| change.abs() > 0.01 * most / 40.0));
-        let error = (found - &expected).iter().fold(0.0_f64, |most, error| most.max(error.abs()));
-        assert!(error < 1e-9 * most, "{error} of {most}");
+        assert!(changes.iter().any(|change| change.abs() > 0.01 * largest / 40.0));
+        let error = most(&(found - &expected).mapv(f64::abs));
+        assert!(error < 1e-9 * largest, "{error} of {largest}");
     }
 }
 
 #[test]
 fn what_has_failed_breaks_out_and_goes_to_the_ledger() {
-    let folder = tempfile::tempdir().unwrap();
     let tables = "[acceleration]\nmax_jump = 1000";
     let pitting = |passes: usize| {
         let mut case = case(passes, tables);
@@ -192,13 +181,11 @@ fn what_has_failed_breaks_out_and_goes_to_the_ledger() {
         (limits.cycles, limits.pit_depth) = (1e5, 1.5e-6);
         case
     };
-    let whole = folder.path().join("whole");
-    let (summary, rows) = run(&pitting(3000), &whole, Existing::Keep);
-    let results = Results::open(&whole).unwrap();
+    let (summary, rows, results, _folder) = run(&pitting(3000));
     let passes = results.passes().unwrap();
     let last = passes.len();
     assert!(passes.iter().any(|pass| pass.represents() > 10));
-    let pitted = state(&whole, last, "pitted");
+    let pitted = state(&results, last, "pitted");
     let share = pitted.iter().filter(|depth| **depth > 0.0).count() as f64 / pitted.len() as f64;
     let row = rows.iter().rfind(|row| row.body == OnBody::Lower).unwrap();
     assert!(share > 0.0 && share < 0.5 && row.pitted_share == Some(share), "{share}");
@@ -207,14 +194,14 @@ fn what_has_failed_breaks_out_and_goes_to_the_ledger() {
     assert!(passes.iter().all(|pass| pass.lost("pits")[1] == 0.0));
     // The height of a column falls by what was worn and what broke out.
     let [before, after] = [0, last].map(|pass| results.surfaces_after(pass).unwrap()[0].heights().clone());
-    let worn = state(&whole, last, "wear");
-    let error = (before - after - worn - &pitted).iter().fold(0.0_f64, |most, error| most.max(error.abs()));
+    let worn = state(&results, last, "wear");
+    let error = most(&(before - after - worn - &pitted).mapv(f64::abs));
     assert!(error < 1e-15, "{error}");
     // Pits are as deep as the material is tired, and no deeper than asked for but by the way to the next depth.
     assert!(pitted.iter().all(|depth| *depth < 20.0 * 4e-6));
     // Nothing within the depth of pits is left that has failed.
     for depth in ["01", "02"] {
-        let left = state(&whole, last, &format!("damage_{depth}"));
+        let left = state(&results, last, &format!("damage_{depth}"));
         assert!(left.iter().all(|damage| *damage < 1.0 + 1e-9));
     }
     let answers = Fatigue::answers(case(1, "").with.fatigue.as_ref().unwrap(), &summary.found.fatigue);
@@ -223,7 +210,7 @@ fn what_has_failed_breaks_out_and_goes_to_the_ledger() {
 
 /// A ball with this roughness that rolls over a smooth plate, with the risk asked for.
 fn ball(sq: &str, form: &str) -> Case {
-    let text = format!(
+    parsed(&format!(
         r#"
 [lower]
 young = "210 GPa"
@@ -244,8 +231,7 @@ stride = 4
 to = "60 um"
 layers = 6
 "#
-    );
-    Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap()
+    ))
 }
 
 /// Counts how often it is asked whether to stop, and stops at one of these questions.
@@ -272,13 +258,8 @@ fn the_pass_of_the_smooth_bodies_can_be_stopped() {
     let asked = |case: &Case, at: usize| {
         let out = tempfile::tempdir_in(folder.path()).unwrap();
         let watch = StopAt { asked: AtomicUsize::new(0), at };
-        let ended = asperity_study::run(
-            case,
-            SurfaceInput::default(),
-            &out.path().join("out"),
-            Existing::Keep,
-            &watch,
-        );
+        let input = SurfaceInput::default();
+        let ended = asperity_study::run(case, input, &out.path().join("out"), Existing::Keep, &watch);
         (watch.asked.into_inner(), ended.map(|_| ()))
     };
     let [before, whole] = [&without_risk, &ball].map(|case| asked(case, usize::MAX).0);
@@ -289,11 +270,9 @@ fn the_pass_of_the_smooth_bodies_can_be_stopped() {
 
 #[test]
 fn roughness_shortens_the_life_of_a_ball() {
-    let folder = tempfile::tempdir().unwrap();
     let sphere = r#"sphere", radius = "5 mm"#;
     let ratio = |sq: &str, form: &str| {
-        let (summary, rows) =
-            run(&ball(sq, form), &folder.path().join(format!("{sq}{}", form.len())), Existing::Keep);
+        let (summary, rows, ..) = run(&ball(sq, form));
         (rows[0].life_ratio, summary.warnings.iter().any(|warning| warning.contains("these are flat")))
     };
     // A polynomial of second order is a ball but for its fourth order.

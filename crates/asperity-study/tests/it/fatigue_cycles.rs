@@ -1,17 +1,17 @@
 //! Fatigue over the cycles of a loading: fretting, and loads that repeat.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
-use asperity_base::{Error, Field};
+use asperity_base::Field;
 use asperity_contact::fatigue::{DangVan, Fatigue, FatigueRecord, OnBody};
 use asperity_contact::reference::{HertzSphere, SlidingSphere};
 use asperity_contact::stress::Stress;
 use asperity_contact::subsurface::{Subsurface, Tractions};
 use asperity_contact::with::Capability;
-use asperity_study::{Case, Existing, Results, StaticResult, SurfaceInput};
+use asperity_study::StaticResult;
 
-use crate::support::StopAfter;
+use crate::resume::{Whole, goes_on};
+use crate::support::{at_rest, field, most, parsed, run, written};
 
 /// Rough bodies under a load and a tangential force, both with limits; `upper` has further keys of the upper body.
 fn rough(limits: &str, upper: &str, boundary: &str, tables: &str) -> String {
@@ -43,10 +43,6 @@ layers = 3
     )
 }
 
-fn case(text: &str) -> Case {
-    Case::parse(text, Path::new("case.toml"), Path::new("")).unwrap()
-}
-
 /// The same bodies without fatigue.
 fn plain(text: &str) -> String {
     let is_kept = |line: &&str| {
@@ -56,15 +52,7 @@ fn plain(text: &str) -> String {
 }
 
 fn solved(text: &str) -> StaticResult {
-    asperity_study::rest(&case(text), SurfaceInput::default(), &()).unwrap()
-}
-
-fn field<'a>(result: &'a StaticResult, name: &str) -> &'a Field {
-    &result.fields.fields.iter().find(|field| field.name == name).unwrap_or_else(|| panic!("{name}")).values
-}
-
-fn most(values: &Field) -> f64 {
-    values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+    at_rest(&parsed(text))
 }
 
 fn tractions(result: &StaticResult) -> Tractions {
@@ -93,7 +81,7 @@ fn a_cycle_is_that_of_the_stresses_of_its_increments_one_by_one() {
         ways.extend((1..=3).map(|back| way(3, 3, "") + &way(3 - back, back, "")));
         let contacts: Vec<Tractions> =
             ways.iter().map(|ways| tractions(&solved(&plain(&text(ways))))).collect();
-        let case = case(&text(&way(3, 3, "cycles = 1")));
+        let case = parsed(&text(&way(3, 3, "cycles = 1")));
         let depths = case.with.fatigue.as_ref().unwrap().depths([1e-6; 2]);
         let bodies = [("lower", 0.3, DangVan::new(350e6, 600e6)), ("upper", 0.2, DangVan::new(200e6, 300e6))];
         for (body, poisson, criterion) in bodies {
@@ -173,7 +161,7 @@ fn partial_slip_tires_the_trailing_edges_as_cattaneo_and_mindlin_have_it() {
         let found = field(&result, "over_limit_02_lower");
         let grid = result.fields.grid;
         let centre = 0.5 * cells as f64 * grid.pitch[0];
-        let depth = case(&text).with.fatigue.as_ref().unwrap().to;
+        let depth = parsed(&text).with.fatigue.as_ref().unwrap().to;
         let mut worst: f64 = 0.0;
         for ((i, j), found) in found.indexed_iter() {
             let place = [grid.centre(0, i) - centre, grid.centre(1, j) - centre];
@@ -204,7 +192,7 @@ fn a_load_that_comes_and_goes_has_half_the_range_of_the_shear() {
     let of = |cells: usize| {
         let text = ball(cells, "\"1 nN\"", "[[history]]\nload = \"10 N\"\nincrements = 2\ncycles = 2");
         let result = solved(&text);
-        let depth = case(&text).with.fatigue.as_ref().unwrap().to;
+        let depth = parsed(&text).with.fatigue.as_ref().unwrap().to;
         // From 0 to the largest shear ½(σr − σz): the ball has a radius of half the way, and there is no pressure at 0.
         let [radial, axial] = HERTZ.axis_stress(depth, 0.0);
         let expected = 0.25 * (radial - axial) / DangVan::new(300e6, 500e6).unwrap().limit();
@@ -218,7 +206,7 @@ fn a_load_that_comes_and_goes_has_half_the_range_of_the_shear() {
 fn a_cycle_in_which_nothing_changes_has_the_hydrostatic_stress_alone() {
     let text = rough("", "", "periodic", "[[history]]\nload = \"12 mN\"\ncycles = 2");
     let result = solved(&text);
-    let case = case(&text);
+    let case = parsed(&text);
     let criterion = DangVan::new(350e6, 600e6).unwrap();
     for (k, depth) in case.with.fatigue.as_ref().unwrap().depths([1e-6; 2]).into_iter().enumerate() {
         let subsurface = Subsurface::new(result.fields.grid, case.contact.boundary, 0.3, &tractions(&result));
@@ -229,12 +217,6 @@ fn a_cycle_in_which_nothing_changes_has_the_hydrostatic_stress_alone() {
             assert!((found - mean).abs() < 1e-7, "{found} {mean}");
         }
     }
-}
-
-fn run(text: &str, out: &Path) -> (Vec<FatigueRecord>, Results) {
-    asperity_study::run(&case(text), SurfaceInput::default(), out, Existing::Keep, &()).unwrap();
-    let results = Results::open(out).unwrap();
-    (results.rows::<Fatigue>().unwrap(), results)
 }
 
 /// Two stages with cycles and one without, over which the upper body wears.
@@ -264,9 +246,10 @@ fn staged(limits: &str, upper: &str) -> String {
 fn damage_over_cycles_that_are_not_computed_is_the_sum_between_those_that_are() {
     let folder = tempfile::tempdir().unwrap();
     let text = staged("", WEARS).replace("to = \"4 um\"\nlayers = 3", "to = \"0.5 um\"");
-    let (rows, results) = run(&text, folder.path());
+    let (_, results) = run(&parsed(&text), folder.path());
+    let rows = results.rows::<Fatigue>().unwrap();
     let rows: Vec<_> = rows.iter().filter(|row| row.body == OnBody::Lower).collect();
-    let law = case(&text).lower.properties.fatigue.unwrap().damage().unwrap();
+    let law = parsed(&text).lower.properties.fatigue.unwrap().damage().unwrap();
     let mut damage = Field::zeros([14, 12]);
     let mut before: Option<(f64, Field)> = None;
     let mut stage = None;
@@ -296,38 +279,19 @@ fn damage_over_cycles_that_are_not_computed_is_the_sum_between_those_that_are() 
 }
 
 #[test]
-fn what_fails_breaks_out_of_worn_bodies_and_interrupted_cycles_go_on_with_the_same_bits() {
-    let folder = tempfile::tempdir().unwrap();
+fn what_fails_breaks_out_of_worn_bodies_and_cycles_go_on_with_the_same_bits() {
     let upper = format!("{WEARS}\n[lower.wear]\ncoefficient = \"1e-7 mm3/(N m)\"");
     let text = staged(", cycles = 100, exponent = 3, pit_depth = \"1 um\"", &upper);
     let text = text.replace("350 MPa", "35 MPa").replace("600 MPa", "60 MPa");
-    let whole = folder.path().join("whole");
-    let (rows, results) = run(&text, &whole);
-    let broken = folder.path().join("broken");
-    let run = |existing, watch: &dyn asperity_contact::motion::Watch| {
-        asperity_study::run(&case(&text), SurfaceInput::default(), &broken, existing, watch)
-    };
-    let mut existing = Existing::Keep;
-    for increments in [3, 8, 33] {
-        let stopped = run(existing, &StopAfter::steps(increments));
-        assert!(matches!(stopped, Err(Error::Interrupted)), "{:?}", stopped.err());
-        existing = Existing::Resume;
-    }
-    run(existing, &()).unwrap();
-    let mut files = vec!["increments.csv".to_owned(), "fields.h5".to_owned(), "fatigue.csv".to_owned()];
-    files.extend(rows.iter().map(|row| format!("fields/fatigue-{:04}.h5", row.step)));
-    for file in files {
-        let read = |out: &Path| std::fs::read(out.join(&file)).unwrap();
-        assert!(read(&whole) == read(&broken), "{file}");
-    }
-    let fields = results.static_fields().unwrap();
-    let read = |name: &str| fields.read(name).unwrap().into_field().unwrap();
+    let Whole { results, .. } = &goes_on(&parsed(&text));
+    let rows = results.rows::<Fatigue>().unwrap();
+    let read = |name: &str| written(results, name);
     let flat = solved(&plain(&rough("", "", "periodic", "")));
     let lost = field(&flat, "lower") - read("lower") - read("wear_lower") - read("pitted_lower");
     let [lost, pitted] = [most(&lost.mapv(f64::abs)), most(&read("pitted_lower"))];
     assert!(lost < 1e-15 && pitted > 1e-7, "{lost:e} {pitted:e} {:?}", rows.last());
     let share = rows.iter().rfind(|row| row.body == OnBody::Lower).unwrap().pitted_share.unwrap();
     assert!(share > 0.0 && share < 1.0, "{share}");
-    let answers = Fatigue::answers(case(&text).with.fatigue.as_ref().unwrap(), &rows);
+    let answers = Fatigue::answers(parsed(&text).with.fatigue.as_ref().unwrap(), &rows);
     assert!(answers[0].sentence.contains("has pitted"), "{}", answers[0].sentence);
 }

@@ -1,11 +1,10 @@
 //! Bodies that wear and grow films where they slip in the cycles of a loading.
 
-use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use asperity_contact::motion::IncrementRecord;
+use asperity_study::StaticResult;
 
-use asperity_base::{Error, Field};
-use asperity_contact::motion::{IncrementRecord, Progress, Watch};
-use asperity_study::{Case, Existing, StaticResult, SurfaceInput};
+use crate::resume::goes_on;
+use crate::support::{at_rest, field, most, parsed, written};
 
 /// Rough bodies, with wear under a film that grows.
 const ROUGH: &str = r#"
@@ -44,65 +43,16 @@ increments = 4
     )
 }
 
-fn case(text: &str) -> Case {
-    Case::parse(text, Path::new("case.toml"), Path::new("")).unwrap()
-}
-
 fn solved(text: &str) -> StaticResult {
-    asperity_study::rest(&case(text), SurfaceInput::default(), &()).unwrap()
-}
-
-fn field<'a>(result: &'a StaticResult, name: &str) -> &'a Field {
-    &result.fields.fields.iter().find(|field| field.name == name).unwrap().values
-}
-
-/// Stops after a number of increments.
-struct Stop(AtomicUsize);
-
-impl Watch for Stop {
-    fn at(&self, progress: &Progress) {
-        if progress.solved > 0 && progress.trial > 0 {
-            self.0.fetch_sub(1, Ordering::Relaxed);
-        }
-    }
-
-    fn stop(&self) -> bool {
-        self.0.load(Ordering::Relaxed) == 0
-    }
-}
-
-/// Runs a case as a whole on one thread, and with interruptions on two; both have the same bits.
-fn goes_on_to_the_same_bits(text: &str) {
-    let folder = tempfile::tempdir().unwrap();
-    let case = case(text);
-    let run = |name: &str, existing, watch: &dyn Watch| {
-        asperity_study::run(&case, SurfaceInput::default(), &folder.path().join(name), existing, watch)
-    };
-    let on = |threads: usize, task: &(dyn Fn() + Sync)| {
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(task);
-    };
-    on(1, &|| drop(run("whole", Existing::Keep, &()).unwrap()));
-    on(2, &|| {
-        let mut existing = Existing::Keep;
-        for increments in [1, 7, 23] {
-            let stopped = run("broken", existing, &Stop(increments.into()));
-            assert!(matches!(stopped, Err(Error::Interrupted)), "{:?}", stopped.err());
-            existing = Existing::Resume;
-        }
-        drop(run("broken", existing, &()).unwrap());
-    });
-    for file in ["increments.csv", "fields.h5"] {
-        let read = |name: &str| std::fs::read(folder.path().join(name).join(file)).unwrap();
-        assert!(read("whole") == read("broken"), "{file}");
-    }
+    at_rest(&parsed(text))
 }
 
 #[test]
-fn bodies_that_attract_each_other_fret_and_go_on_after_interruptions_with_the_same_bits() {
+fn bodies_that_attract_each_other_fret_and_go_on_with_the_same_bits() {
     let attracting = ROUGH.replace("young = \"70 GPa\", poisson = 0.2", "young = \"210 GPa\", poisson = 0.3");
     let attracting = attracting
         .replace("temperature =", "adhesion = { work = \"1 J/m2\", range = \"2 nm\" }\ntemperature =");
-    goes_on_to_the_same_bits(&attracting.replace("cycles = 400", "cycles = 30"));
+    goes_on(&parsed(&attracting.replace("cycles = 400", "cycles = 30")));
 }
 
 /// Films grow faster where friction heats them.
@@ -111,9 +61,9 @@ fn bodies_that_warm_up_as_they_fret_go_on_after_interruptions_with_the_same_bits
     let heat =
         "conductivity = \"5 W/(m K)\", heat_capacity = \"460 J/(kg K)\", density = \"7850 kg/m3\", young";
     let warm = ROUGH.replace("young", heat).replace("cycles = 400", "cycles = 40").replace("50 ms", "10 ns");
-    goes_on_to_the_same_bits(&warm);
-    let last = |text: &str| solved(text).increments.last().cloned().unwrap();
-    let (warm, cold) = (last(&warm), last(&warm.replace("bulk", "every = 0, bulk")));
+    let last = |increments: Vec<IncrementRecord>| increments.last().cloned().unwrap();
+    let cold = last(solved(&warm.replace("bulk", "every = 0, bulk")).increments);
+    let warm = last(goes_on(&parsed(&warm)).results.increments().unwrap());
     let heat = warm.heat.unwrap();
     assert!(heat.max_flash_temperature > 375.0 && cold.heat.is_none(), "{heat:?}");
     let [warm, cold] = [warm, cold].map(|each| each.fretting.unwrap().laws.max_film_lower);
@@ -121,16 +71,15 @@ fn bodies_that_warm_up_as_they_fret_go_on_after_interruptions_with_the_same_bits
 }
 
 #[test]
-fn rough_bodies_fret_and_go_on_after_interruptions_with_the_same_bits_on_any_number_of_threads() {
-    goes_on_to_the_same_bits(ROUGH);
-    let result = solved(ROUGH);
-    let last = result.increments.last().unwrap();
-    let fretting = last.fretting.unwrap();
-    assert!(fretting.cycles == 400 && result.increments.len() < 4 * 400, "{fretting:?}");
+fn rough_bodies_fret_and_go_on_with_the_same_bits_on_any_number_of_threads() {
+    let whole = goes_on(&parsed(ROUGH));
+    let increments = whole.results.increments().unwrap();
+    let fretting = increments.last().unwrap().fretting.unwrap();
+    assert!(fretting.cycles == 400 && increments.len() < 4 * 400, "{fretting:?}");
     assert!(fretting.laws.worn_volume_lower > 0.0 && fretting.laws.worn_volume_upper > 0.0, "{fretting:?}");
     assert!(fretting.laws.max_film_lower > 0.0 && fretting.laws.max_film_upper == 0.0, "{fretting:?}");
     // The worn bodies are those of the fields.
-    let worn = result.fields.grid.cell_area() * field(&result, "wear_upper").sum();
+    let worn = 1e-12 * written(&whole.results, "wear_upper").sum();
     assert!((worn / fretting.laws.worn_volume_upper - 1.0).abs() < 1e-12);
 }
 
@@ -139,12 +88,12 @@ fn partial_slip_wears_the_annulus_alone_and_gross_slip_everywhere() {
     let pushed = solved(&ball("force = \"3.5 N\"", "force = \"-3.5 N\"\ncycles = 2000", "1e-5 mm3/(N m)"));
     let scar = field(&pushed, "wear_lower");
     let stick = field(&pushed, "stick");
-    let deepest = scar.iter().copied().fold(0.0, f64::max);
+    let deepest = most(scar);
     assert!(deepest > 1e-9 && scar[[24, 24]] == 0.0 && stick[[24, 24]] == 1.0, "{deepest}");
     let shifted =
         solved(&ball("displacement = \"5 um\"", "displacement = \"-5 um\"\ncycles = 2000", "1e-5 mm3/(N m)"));
     let scar = field(&shifted, "wear_lower");
-    assert!(scar[[24, 24]] > 0.9 * scar.iter().copied().fold(0.0, f64::max));
+    assert!(scar[[24, 24]] > 0.9 * most(scar));
     // The scar flattens the contact, and its volume is k W times the path of the slip.
     let [first, last] = [&shifted.increments[3], shifted.increments.last().unwrap()];
     assert!(last.max_pressure < 0.9 * first.max_pressure && last.contact_area > 1.1 * first.contact_area);
@@ -173,8 +122,8 @@ fn scar_and_loop_change_together_over_ten_thousand_cycles() {
     assert!(last.tangential_displacement_x > 1.01 * first.tangential_displacement_x);
     // A tenth of the tolerance gives the same scar, within the estimate of the error.
     let finer = solved(&text.replace("max_wear = \"1 um\"", "max_wear = \"1 um\", tolerance = 0.001"));
-    let most = |result: &StaticResult| field(result, "wear_lower").iter().copied().fold(0.0, f64::max);
-    let difference = (most(&result) / most(&finer) - 1.0).abs();
+    let [one, other] = [&result, &finer].map(|result| most(field(result, "wear_lower")));
+    let difference = (one / other - 1.0).abs();
     assert!(difference < 0.01, "{difference}");
 }
 
@@ -207,8 +156,7 @@ fn cycles_on_surfaces_that_have_yielded_wear_as_their_ways_one_by_one() {
     let single = solved(&format!("{ball}{there}{}", [back, there.clone()].concat().repeat(3)));
     assert!(single.increments.iter().any(|increment| increment.plastic_volume > 0.0));
     let [one, other] = [&cyclic, &single].map(|result| field(result, "wear_lower"));
-    let deepest = other.iter().copied().fold(0.0, f64::max);
-    let difference = (one - other).iter().fold(0.0, |most: f64, d| most.max(d.abs()));
+    let (deepest, difference) = (most(other), most(&(one - other).mapv(f64::abs)));
     assert!(deepest > 0.0 && difference < 1e-6 * deepest, "{}", difference / deepest);
 }
 

@@ -8,16 +8,17 @@ use asperity_contact::material::Coating;
 use asperity_contact::motion::{LoadControl, PlasticUpdate, Point, SlipRegime, Stage, Strategy};
 use asperity_contact::solver::{self, Coupling, Creep, Friction, Loading, Rolling, Tangential};
 use asperity_contact::with::adhesion::AdhesionRange;
-use asperity_study::bodies;
 use asperity_study::case::{
     Boundary, Case, ControlKind, Course, Edge, Hardness, InPlane, Layer, Layout, Method, Mount, Prescribed,
     Side, Source,
 };
-use asperity_study::demand;
+use asperity_study::{Bodies, SurfaceInput, bodies, demand};
 use asperity_surface::{
     Amplitude, Autocorrelation, Axis, Band, Decay, Fill, Filter, Form, Generator, Groove, HeightDistribution,
     Interpolation, Level, LowPass, Preparation, Resample, SelfAffine, Topography,
 };
+
+use crate::support::{parsed, parsed_in};
 
 #[test]
 fn a_coating_is_read_and_written_back_and_nothing_is_written_where_there_is_none() {
@@ -50,7 +51,7 @@ fn adhesion_and_loads_that_pull_are_read_and_written_back() {
 }
 
 #[test]
-fn a_path_an_offset_and_a_fresh_counter_body_are_read_and_written_where_they_are_given() {
+fn a_path_an_offset_and_a_fresh_counter_body_are_read_and_written_where_given() {
     let case = load("there_and_back");
     let motion = case.motion.unwrap();
     assert_eq!(motion.path, asperity_contact::motion::Path::Reciprocating);
@@ -208,8 +209,7 @@ fn topographies_are_added_in_the_order_of_the_file() {
         Layer::Generate { generate: Generator::Autocorrelation(fine), seed: 0 },
     ];
     assert_eq!(case.upper.topography.plus, expected);
-    let heights =
-        bodies(&case, asperity_study::SurfaceInput::default()).unwrap().upper.topography.into_heights();
+    let heights = prepared(&case).upper.topography.into_heights();
     let grid = Grid::new([64, 64], [1e-6; 2]).unwrap();
     let mut sum = Form::Sphere { radius: 1e-3 }.on(&grid).unwrap();
     for layer in expected {
@@ -219,8 +219,8 @@ fn topographies_are_added_in_the_order_of_the_file() {
 }
 
 #[test]
-fn what_is_made_takes_the_shape_and_the_pitch_that_it_lacks_from_the_other_body_as_prepared() {
-    let made = bodies(&load("as_the_other"), asperity_study::SurfaceInput::default()).unwrap();
+fn what_is_made_takes_the_shape_and_pitch_it_lacks_from_the_other_body_as_prepared() {
+    let made = prepared(&load("as_the_other"));
     let grid = Grid::new([48, 32], [1e-6, 0.7e-6]).unwrap();
     assert_eq!([&made.lower, &made.upper].map(|body| *body.topography.grid()), [grid; 2]);
     let low_pass = LowPass::new(20e-9, [8e-6; 2]);
@@ -242,12 +242,11 @@ fn what_is_made_takes_the_shape_and_the_pitch_that_it_lacks_from_the_other_body_
             let text = format!("{}{}[contact]\nload = 1\n", body("lower", lower), body("upper", upper));
             let text =
                 text.replace("MADE", &format!("topography = {{ form = \"sphere\", radius = 1e-3{made} }}"));
-            Case::parse(&text, Path::new("case.toml"), folder.path()).unwrap()
+            parsed_in(&text, folder.path())
         };
         let short = case("");
         let long = case(", shape = [28, 40], pitch = [0.246913578246e-6, 0.3e-6]");
-        let [found, expected] =
-            [&short, &long].map(|case| bodies(case, asperity_study::SurfaceInput::default()).unwrap());
+        let [found, expected] = [&short, &long].map(prepared);
         for (a, b) in [(&found.lower, &expected.lower), (&found.upper, &expected.upper)] {
             let pitches = [a, b].map(|body| body.topography.grid().pitch);
             assert!((0..2).all(|axis| (pitches[0][axis] / pitches[1][axis] - 1.0).abs() < 1e-12));
@@ -262,17 +261,10 @@ fn what_is_made_takes_the_shape_and_the_pitch_that_it_lacks_from_the_other_body_
         assert_eq!(made["shape"], serde_json::json!([28, 40]));
         assert_eq!(made["pitch"], serde_json::json!(found.lower.topography.grid().pitch));
         let again = case(&format!(", shape = {}, pitch = {}", made["shape"], made["pitch"]));
-        assert_eq!(
-            asperity_study::resolved(
-                &again,
-                &bodies(&again, asperity_study::SurfaceInput::default()).unwrap()
-            )["identity"],
-            resolved["identity"]
-        );
-        assert_eq!(
-            demand(&short, &asperity_study::SurfaceInput::default(), 1).unwrap().memory,
-            demand(&long, &asperity_study::SurfaceInput::default(), 1).unwrap().memory
-        );
+        assert_eq!(asperity_study::resolved(&again, &prepared(&again))["identity"], resolved["identity"]);
+        let [less, more] =
+            [&short, &long].map(|case| demand(case, &SurfaceInput::default(), 1).unwrap().memory);
+        assert_eq!(less, more);
     }
 }
 
@@ -295,11 +287,8 @@ fn what_has_no_meaning_on_the_grid_is_shown_at_its_place() {
         ),
     ] {
         let text = text.replace(good, bad);
-        let case = Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap();
-        let Err(asperity_base::Error::Case(error)) = bodies(&case, asperity_study::SurfaceInput::default())
-        else {
-            panic!("{bad}")
-        };
+        let refused = bodies(&parsed(&text), SurfaceInput::default()).err();
+        let Some(asperity_base::Error::Case(error)) = refused else { panic!("{bad}") };
         assert!(error.message.starts_with(message), "{error:?}");
         assert_eq!(error.line, line, "{error}");
     }
@@ -402,11 +391,7 @@ fn creepages_are_points_of_a_sweep_under_one_load() {
     let through = |value: &str| {
         let line = text.lines().find(|line| line.starts_with("creepages")).unwrap();
         let text = text.replace(line, &format!("creepages = {value}"));
-        let Course::Sweep(points) =
-            Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap().course(1.0)
-        else {
-            panic!()
-        };
+        let Course::Sweep(points) = parsed(&text).course(1.0) else { panic!() };
         creepages(&points)
     };
     assert_eq!(through("[1e-3, [0, -2e-3], [1e-3, 1e-3]]"), [[1e-3, 0.0], [0.0, -2e-3], [1e-3, 1e-3]]);
@@ -457,6 +442,10 @@ fn a_case_deserialises_into_what_it_was_serialised_from() {
 
 fn load(name: &str) -> Case {
     Case::load(&inputs("good").join(name).with_extension("toml")).unwrap()
+}
+
+fn prepared(case: &Case) -> Bodies {
+    bodies(case, SurfaceInput::default()).unwrap()
 }
 
 fn inputs(kind: &str) -> PathBuf {

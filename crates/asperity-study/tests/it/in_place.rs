@@ -1,10 +1,7 @@
 //! Contacts that slide in place: implicit updates, and the compliance used to solve them.
 
-use std::path::Path;
-
-use asperity_base::Error;
-use asperity_contact::motion::{Progress, UpdateRecord, Watch};
-use asperity_study::{Case, Existing, SurfaceInput};
+use crate::resume::{Whole, goes_on};
+use crate::support::{at_rest, parsed};
 
 const CASE: &str = r#"
 [lower]
@@ -38,31 +35,11 @@ updates = 8
 bulk = "100 °C"
 "#;
 
-/// Stops after a number of updates.
-struct Stop(std::sync::atomic::AtomicUsize);
-
-impl Watch for Stop {
-    fn at(&self, _: &Progress) {}
-
-    fn update(&self, _: &UpdateRecord) {
-        self.0.fetch_sub(1, std::sync::atomic::Ordering::Relaxed);
-    }
-
-    fn stop(&self) -> bool {
-        self.0.load(std::sync::atomic::Ordering::Relaxed) == 0
-    }
-}
-
 #[test]
 fn a_case_slides_and_goes_on_after_an_interruption_with_the_same_bits() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = Case::parse(CASE, Path::new("case.toml"), folder.path()).unwrap();
-    let run = |name: &str, existing, watch: &dyn Watch| {
-        asperity_study::run(&case, SurfaceInput::default(), &folder.path().join(name), existing, watch)
-    };
-    let (summary, writer) = run("whole", Existing::Keep, &()).unwrap();
-    let whole = writer.results().clone();
-    let updates = whole.updates().unwrap();
+    let case = parsed(CASE);
+    let Whole { summary, results, .. } = &goes_on(&case);
+    let updates = results.updates().unwrap();
     assert_eq!(updates.len(), 9);
     assert_eq!(summary.sliding.as_ref(), updates.last());
     let last = updates.last().unwrap();
@@ -70,24 +47,12 @@ fn a_case_slides_and_goes_on_after_an_interruption_with_the_same_bits() {
     assert!(last.lost("wear").iter().all(|volume| *volume > 0.0) && last.lost("film")[0] < 0.0);
     // Proportional to the frictional energy, for any pressures: α μ W s.
     assert!((last.lost("wear")[1] / (1e-12 * 0.1 * 0.05) - 1.0).abs() < 1e-9);
-    let names = whole.static_fields().unwrap().names().unwrap();
+    let names = results.static_fields().unwrap().names().unwrap();
     for name in ["pressure", "gap", "lower", "wear_lower", "wear_upper", "film_lower", "temperature"] {
         assert!(names.iter().any(|known| known == name), "{name} is missing in {names:?}");
     }
-    assert!(matches!(run("cut", Existing::Keep, &Stop(4.into())).err(), Some(Error::Interrupted)));
-    let (again, writer) = run("cut", Existing::Resume, &()).unwrap();
-    assert_eq!(again.sliding, summary.sliding);
-    assert_eq!(again.outcome, summary.outcome);
-    let text = |name: &str| std::fs::read_to_string(folder.path().join(name).join("updates.csv")).unwrap();
-    assert_eq!(text("cut"), text("whole"));
-    for name in names.iter().filter(|name| *name != "temperature") {
-        let [one, other] = [&whole, writer.results()]
-            .map(|results| results.static_fields().unwrap().read(name).unwrap().into_field().unwrap());
-        assert_eq!(one, other, "{name}");
-    }
-    assert!(!folder.path().join("cut/fields").exists());
-    let memory = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
-    assert_eq!(memory.updates, updates);
+    assert!(!results.directory().join("fields").exists());
+    assert_eq!(at_rest(&case).updates, updates);
 }
 
 /// Bodies that attract each other, and rubber that creeps, go on from what they remember of their last contact.
@@ -102,19 +67,7 @@ friction = { coefficient = 0.5, coupling = "none" }
 sliding = { distance = "10 mm", speed = "10 mm/s", updates = 8 }
 "#;
     for text in [&sticky, rubber] {
-        let folder = tempfile::tempdir().unwrap();
-        let case = Case::parse(text, Path::new("case.toml"), folder.path()).unwrap();
-        let run = |name: &str, existing, watch: &dyn Watch| {
-            asperity_study::run(&case, SurfaceInput::default(), &folder.path().join(name), existing, watch)
-        };
-        let (summary, _) = run("whole", Existing::Keep, &()).unwrap();
-        assert!(matches!(run("cut", Existing::Keep, &Stop(4.into())).err(), Some(Error::Interrupted)));
-        assert_eq!(run("cut", Existing::Resume, &()).unwrap().0.outcome, summary.outcome);
-        for file in ["updates.csv", "fields.h5"] {
-            let read = |name: &str| std::fs::read(folder.path().join(name).join(file)).unwrap();
-            assert!(read("whole") == read("cut"), "{file}");
-        }
-        let update = summary.sliding.unwrap();
+        let update = goes_on(&parsed(text)).summary.sliding.unwrap();
         assert!(update.lost("wear")[0] > 0.0 && update.interface.is_some() == text.contains("adhesion"));
     }
 }
@@ -148,8 +101,7 @@ fn a_scar_that_reaches_the_rim_of_the_grid_is_told() {
     ] {
         let (load, k) = if course.contains("cycles") { ("20 N", 1e-3) } else { ("1 N", 1e-6) };
         let text = case(load, k, upper, boundary, &course);
-        let case = Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap();
-        let warnings = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap().warnings;
+        let warnings = at_rest(&parsed(&text)).warnings;
         let found = warnings.iter().find(|warning| warning.contains("the scar reaches the rim"));
         assert_eq!(found.is_some(), !told.is_empty(), "{text}: {warnings:?}");
         assert!(found.is_none_or(|found| found.contains(told)), "{text}: {found:?}");

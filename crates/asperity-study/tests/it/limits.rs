@@ -8,11 +8,9 @@ use asperity_base::error::Error::{AtPass, WornAway};
 use asperity_base::grid::Field;
 use asperity_base::{Error, Result};
 use asperity_contact::motion::{PassRecord, Progress, Watch};
-use asperity_study::{Case, Existing, Limit, Passes, Results, SurfaceInput};
+use asperity_study::{Existing, Limit, Passes, Results, SurfaceInput};
 
-fn case(text: &str) -> Case {
-    Case::parse(text, "case.toml".as_ref(), "".as_ref()).unwrap()
-}
+use crate::support::parsed;
 
 /// A gear flank, 128 × 64 µm: both bodies move, under 400 MPa, and get hot.
 fn flank(wear: &str, friction: f64, passes: usize) -> String {
@@ -59,7 +57,7 @@ impl Watch for Log {
 }
 
 fn run(text: &str, folder: &Path, existing: Existing, watch: &dyn Watch) -> Result<Vec<String>> {
-    asperity_study::run(&case(text), SurfaceInput::default(), folder, existing, watch)
+    asperity_study::run(&parsed(text), SurfaceInput::default(), folder, existing, watch)
         .map(|(summary, _)| summary.warnings)
 }
 
@@ -94,7 +92,7 @@ fn a_pass_that_wears_more_than_a_cell_is_wide_ends_the_run_at_once() {
 #[test]
 fn finished_passes_are_kept_when_a_body_has_worn_away() {
     let folder = tempfile::tempdir().unwrap();
-    let case = case(&flank("coefficient = 1e-18", 0.1, 4));
+    let case = parsed(&flank("coefficient = 1e-18", 0.1, 4));
     let worn = |existing| {
         let log = Log::default();
         let mut passes = Passes::enter(&case, SurfaceInput::default(), folder.path(), existing).unwrap();
@@ -163,7 +161,7 @@ fn rough(body: &str, contact: &str) -> String {
 
 fn at_rest(text: &str) -> (Vec<String>, Vec<String>) {
     let log = Log::default();
-    let warnings = asperity_study::rest(&case(text), SurfaceInput::default(), &log).unwrap().warnings;
+    let warnings = asperity_study::rest(&parsed(text), SurfaceInput::default(), &log).unwrap().warnings;
     (warnings, log.lines())
 }
 
@@ -226,7 +224,7 @@ fn slopes_and_wear_of_a_law_of_the_caller_are_compared_too() {
     let folder = tempfile::tempdir().unwrap();
     let text = flank("coefficient = 1e-18", 0.1, 2);
     let mut passes =
-        Passes::enter(&case(&text), SurfaceInput::default(), folder.path(), Existing::Keep).unwrap();
+        Passes::enter(&parsed(&text), SurfaceInput::default(), folder.path(), Existing::Keep).unwrap();
     let log = Log::default();
     while let Some(mut pass) = passes.solve(&log).unwrap() {
         let grooves = Field::from_shape_fn([16, 8], |(ix, _)| if ix % 4 < 2 { 20e-6 } else { 0.0 });

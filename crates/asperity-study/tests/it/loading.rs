@@ -1,146 +1,20 @@
-//! Static contacts loaded stage after stage: plastic deformation is irreversible, and interruptions leave no trace.
-
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
+//! Static contacts loaded stage after stage: what they leave, what is refused and what is told.
 
 use asperity_base::{Error, Grid};
-use asperity_study::Existing;
-use asperity_study::case;
+use asperity_study::SurfaceInput;
 use asperity_surface::{Form, Topography};
 
-use crate::support::StopAfter;
-
-// ---- interruptions ---------------------------------------------------------------------------------------
-
-const BODIES: &str = "
-[lower]
-young = \"210 GPa\"
-poisson = 0.3
-hardness = \"0.6 GPa\"
-topography = { form = \"flat\", shape = [24, 22], pitch = \"1 um\" }
-[upper]
-young = \"70 GPa\"
-poisson = 0.25
-[upper.topography]
-form = \"sphere\"
-radius = \"1 mm\"
-shape = [24, 22]
-pitch = \"1 um\"
-plus = [{ generate = \"self-affine\", seed = 3, sq = \"20 nm\", hurst = 0.8, shortest = \"4 um\" }]
-";
-
-const PUSHED: &str = "
-[contact]
-load = \"50 mN\"
-[friction]
-coefficient = 0.3
-junction_growth = 9
-increments = 2
-[[history]]
-load = \"0.1 N\"
-force = [\"10 mN\", \"-5 mN\"]
-increments = 2
-[[history]]
-load = \"30 mN\"
-force = \"0 N\"
-increments = 2
-[[history]]
-approach = \"60 nm\"
-displacement = \"10 nm\"
-increments = 2
-";
-
-const PRESSED: &str = "
-[contact]
-mean_pressure = \"0.1 GPa\"
-[[history]]
-load = \"10 mN\"
-increments = 3
-[[history]]
-approach = \"80 nm\"
-increments = 2
-";
-
-fn parsed(text: &str) -> case::Case {
-    case::Case::parse(&format!("{BODIES}{text}"), "case.toml".as_ref(), "".as_ref()).unwrap()
-}
-
-/// Returns the bytes of all files without times and without the case, which does not contain the loading.
-fn outcome(directory: &Path) -> BTreeMap<String, Vec<u8>> {
-    let read = |name: &str| (name.to_owned(), fs::read(directory.join(name)).unwrap());
-    let mut files = BTreeMap::from(["increments.csv", "fields.h5"].map(read));
-    let summary = fs::read_to_string(directory.join("summary.json")).unwrap();
-    let lines = summary.lines().filter(|line| !line.contains("wall_time"));
-    files.insert("summary.json".to_owned(), lines.collect::<String>().into_bytes());
-    assert!(!directory.join("fields").exists(), "nothing is left under way");
-    files
-}
+use crate::resume::{BODIES, PRESSED};
+use crate::support::{at_rest, foreseen, parsed, parsed_in, run, written};
 
 #[test]
-fn a_loading_that_was_interrupted_comes_to_the_same_bits() {
-    for (text, increments) in [(PUSHED, 8), (PRESSED, 6)] {
-        let case = parsed(text);
-        let folder = tempfile::tempdir().unwrap();
-        let whole = folder.path().join("whole");
-        asperity_study::run(&case, asperity_study::SurfaceInput::default(), &whole, Existing::Keep, &())
-            .unwrap();
-        let expected = outcome(&whole);
-        // After each increment, and once within one.
-        for stopped in 1..increments {
-            let directory = folder.path().join(format!("after-{stopped}"));
-            let outcome_of = |existing, most| {
-                asperity_study::run(
-                    &case,
-                    asperity_study::SurfaceInput::default(),
-                    &directory,
-                    existing,
-                    &StopAfter::steps(most),
-                )
-            };
-            assert!(matches!(outcome_of(Existing::Keep, stopped), Err(Error::Interrupted)));
-            let rows = fs::read_to_string(directory.join("increments.csv")).unwrap().lines().count();
-            assert_eq!(rows, stopped + 1);
-            if stopped + 2 < increments {
-                // Killed after the state of an increment was written, before its row.
-                let state = directory.join(format!("fields/state-{stopped:04}.h5"));
-                let [kept, rows] =
-                    [&state, &directory.join("increments.csv")].map(|path| fs::read(path).unwrap());
-                assert!(matches!(outcome_of(Existing::Resume, stopped + 1), Err(Error::Interrupted)));
-                fs::write(&state, kept).unwrap();
-                fs::write(directory.join("increments.csv"), rows).unwrap();
-            }
-            asperity_study::run(
-                &case,
-                asperity_study::SurfaceInput::default(),
-                &directory,
-                Existing::Resume,
-                &(),
-            )
-            .unwrap();
-            assert!(outcome(&directory) == expected, "{text}: stopped after {stopped}");
-        }
-    }
-}
-
-#[test]
-fn a_loading_without_friction_leaves_its_increments_and_one_gap_with_what_was_taken_up() {
+fn a_loading_without_friction_leaves_increments_and_one_gap_with_all_taken_up() {
     let folder = tempfile::tempdir().unwrap();
-    let summary = asperity_study::run(
-        &parsed(PRESSED),
-        asperity_study::SurfaceInput::default(),
-        folder.path(),
-        Existing::Keep,
-        &(),
-    )
-    .unwrap()
-    .0;
-    let results = asperity_study::Results::open(folder.path()).unwrap();
+    let (summary, results) = run(&parsed(&format!("{BODIES}{PRESSED}")), folder.path());
     let rows = results.increments().unwrap();
     assert_eq!(rows.iter().map(|row| row.stage).collect::<Vec<_>>(), [1, 2, 2, 2, 3, 3]);
     assert!(rows.iter().all(|row| row.tangential_force_x == 0.0 && row.stick_area == 0.0));
-    let fields = results.static_fields().unwrap();
-    let read = |name| fields.read(name).unwrap().into_field().unwrap();
+    let read = |name| written(&results, name);
     let [lower, upper, gap, plastic] = ["lower", "upper", "gap", "plastic"].map(read);
     let asperity_study::Outcome::Static(record) = summary.outcome else { panic!("a static contact") };
     assert!(record.shear.is_none());
@@ -172,8 +46,8 @@ fn loads_that_what_slides_does_not_bear_are_refused_beforehand() {
         (format!("{sliding}[motion]\nstrategy = \"overlap\"\nplastic_update = \"pass\""), false),
         ("[contact]\nload = \"1 mN\"\n[[history]]\nload = \"1 N\"".to_owned(), false),
     ] {
-        let case = parsed(&text);
-        let bodies = asperity_study::bodies(&case, asperity_study::SurfaceInput::default()).unwrap();
+        let case = parsed(&format!("{BODIES}{text}"));
+        let bodies = asperity_study::bodies(&case, SurfaceInput::default()).unwrap();
         let found = asperity_study::estimate(&case, &bodies);
         match found {
             Ok(_) => assert!(bears, "{text}"),
@@ -213,10 +87,7 @@ fn what_friction_is_not_asked_rightly_is_said_beforehand() {
         (smooth(&elastic(&rolling)), vec![]),
         (smooth(&rolling).replace("0.6 GPa", "0.2 GPa").replace("50 mN", "1 uN"), vec![]),
     ] {
-        let case = case::Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap();
-        let bodies = asperity_study::bodies(&case, asperity_study::SurfaceInput::default()).unwrap();
-        let estimate = asperity_study::estimate(&case, &bodies).unwrap();
-        let warnings = [estimate.warnings, estimate.predicted].concat().join("\n");
+        let warnings = foreseen(&parsed(&text)).join("\n");
         for part in [ONE_STEP, AT_ONCE, ROUGH, TRACK] {
             assert_eq!(warnings.contains(part), said.contains(&part), "{part}: {text}\n{warnings}");
         }
@@ -238,11 +109,7 @@ fn what_rolls_from_a_file_is_rough_by_what_it_holds() {
     };
     for (surface, is_rough) in [(ball.clone(), false), (rough(1e-11), false), (rough(2e-8), true)] {
         surface.write(folder.path().join("ball.npy")).unwrap();
-        let path = folder.path().join("case.toml");
-        let case = case::Case::parse(text, &path, folder.path()).unwrap();
-        let bodies = asperity_study::bodies(&case, asperity_study::SurfaceInput::default()).unwrap();
-        let estimate = asperity_study::estimate(&case, &bodies).unwrap();
-        let warnings = [estimate.warnings, estimate.predicted].concat();
+        let warnings = foreseen(&parsed_in(text, folder.path()));
         let said = |part: &str| warnings.iter().any(|warning| warning.contains(part));
         assert_eq!(said("steady rolling of a rough surface"), is_rough, "{warnings:?}");
         assert!(!said("not flattened before"), "{warnings:?}");
@@ -252,19 +119,8 @@ fn what_rolls_from_a_file_is_rough_by_what_it_holds() {
 #[test]
 fn what_only_the_answer_shows_is_said_with_it() {
     let folder = tempfile::tempdir().unwrap();
-    let warnings = |name: &str, text: &str| {
-        let case = case::Case::parse(text, "case.toml".as_ref(), "".as_ref()).unwrap();
-        let summary = asperity_study::run(
-            &case,
-            asperity_study::SurfaceInput::default(),
-            &folder.path().join(name),
-            Existing::Keep,
-            &(),
-        )
-        .unwrap()
-        .0;
-        summary.warnings.join("\n")
-    };
+    let warnings =
+        |name: &str, text: &str| run(&parsed(text), &folder.path().join(name)).0.warnings.join("\n");
     let contact = "[contact]\nload = \"20 mN\"\n[friction]\ncoefficient = 0.3\nincrements = 2\n";
     let both = |increments: usize| {
         format!(
@@ -291,8 +147,7 @@ fn a_stage_after_cycles_stays_where_they_ended() {
     const FIRST: &str = "[contact]\nload = \"20 mN\"\n[friction]\ncoefficient = 0.3\n";
     // Loads and forces along x after the stages from the second one on; the cycles come back to 20 mN, 2 mN.
     let last = |history: &str| {
-        let case = parsed(&format!("{FIRST}{history}"));
-        let result = asperity_study::rest(&case, asperity_study::SurfaceInput::default(), &()).unwrap();
+        let result = at_rest(&parsed(&format!("{BODIES}{FIRST}{history}")));
         let ends = result.increments.chunk_by(|one, next| one.stage == next.stage);
         ends.map(|stage| stage.last().unwrap().clone()).collect::<Vec<_>>()
     };

