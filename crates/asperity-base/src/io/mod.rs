@@ -5,6 +5,7 @@
 mod disk;
 #[cfg(any(feature = "memory", all(target_arch = "wasm32", target_os = "unknown")))]
 mod memory;
+pub mod packing;
 pub mod regular;
 pub mod text;
 

@@ -24,9 +24,10 @@ use rayon::prelude::*;
 use sha2::{Digest as _, Sha256};
 
 use super::draft::{FieldDraft, Packed, PackedArray};
-use super::{fs, packing, regular, sha256};
+use super::{fs, regular, sha256};
 use asperity_base::error::{Error, Result};
 use asperity_base::grid::{Field, Grid, check_finite};
+use asperity_base::io::packing;
 use asperity_base::units::Metre;
 
 /// A file of fields being written. Arrays are written to disk while others are added, so that only a few are in memory.

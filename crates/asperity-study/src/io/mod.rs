@@ -4,11 +4,6 @@ mod digest; // SHA-256
 mod draft; // a field file being written
 pub mod fields; // HDF5: named fields with unit, axes, pitch
 pub(crate) mod lock; // locks that end with their process
-#[cfg_attr(
-    any(feature = "memory", all(target_arch = "wasm32", target_os = "unknown")),
-    expect(dead_code, reason = "the library of HDF5 packs files in memory")
-)]
-mod packing; // chunks of arrays, deflated
 mod text; // text in UTF-8
 pub mod vti; // fields for ParaView
 

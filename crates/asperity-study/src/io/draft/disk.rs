@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::{Attributes, DEFLATE_LEVEL, PackedArray, Result, chunk, fill, image};
 use crate::io::atomic::Draft;
-use crate::io::packing;
+use asperity_base::io::packing;
 
 /// A field file under its temporary name.
 pub(in crate::io) struct FieldDraft {

@@ -11,7 +11,7 @@ use flate2::{Compress, Compression, Decompress, FlushCompress, FlushDecompress, 
 const WIDTH: usize = 8;
 
 /// Packs values for a chunk of `len` values, the last of which may be missing and become 0.
-pub(super) fn packed(values: &[f64], len: usize, level: u32) -> Vec<u8> {
+pub fn packed(values: &[f64], len: usize, level: u32) -> Vec<u8> {
     let mut planes = vec![0; WIDTH * len];
     shuffle(values, len, &mut planes);
     let mut stream = Stream::new(planes.len() / 2 + 1024, level);
@@ -23,7 +23,7 @@ pub(super) fn packed(values: &[f64], len: usize, level: u32) -> Vec<u8> {
 ///
 /// # Errors
 /// [`io::ErrorKind::InvalidData`] if the chunk is damaged.
-pub(super) fn unpack(packed: &[u8], len: usize, values: &mut [f64]) -> io::Result<()> {
+pub fn unpack(packed: &[u8], len: usize, values: &mut [f64]) -> io::Result<()> {
     let damaged = || io::Error::new(io::ErrorKind::InvalidData, "a damaged chunk");
     let mut planes = Vec::with_capacity(WIDTH * len);
     let mut stream = Decompress::new(true);
