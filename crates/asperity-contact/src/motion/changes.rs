@@ -1,4 +1,4 @@
-//! What the contacts of a course do to its bodies.
+//! Changes of the bodies of a course by its contacts.
 
 use crate::error::{Error, Result};
 use crate::grid::Field;
@@ -11,11 +11,10 @@ use crate::motion::rim::Interior;
 use crate::temperature::Thermal;
 use crate::units::Kelvin;
 
-/// What the contacts of a course do to its bodies: the laws that change them, what they remember of whole load cycles, the heat of their
-/// friction, and over how many passes or cycles a computed one is extrapolated. One list serves passes, loadings in stages and sliding in
-/// place.
+/// Changes of the bodies of a course by its contacts: laws, memories of whole load cycles, the heat of friction, and the extrapolation over
+/// passes or cycles that are not computed. One list serves passes, loadings in stages and sliding in place.
 pub struct Changes {
-    /// Those that act once for each computed pass come first.
+    /// The laws; the ones that act once for each computed pass come first.
     pub(super) laws: Vec<Box<dyn Law>>,
     pub(super) memories: Vec<Box<dyn Memory>>,
     pub(super) acceleration: Acceleration,
@@ -33,7 +32,7 @@ pub(super) struct FrictionalHeat {
     pub(super) every: usize,
 }
 
-/// What one action of the laws and of the memories has done.
+/// Result of one action of the laws and of the memories.
 pub(super) struct Taken {
     /// Depth that each law has taken from both bodies.
     pub(super) by_laws: Vec<[Field; 2]>,

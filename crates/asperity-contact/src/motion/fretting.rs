@@ -23,7 +23,7 @@ use crate::solver::{Before, Control, Equilibrium, FrictionalSolution, NormalProb
 use crate::subsurface::Tractions;
 use crate::units::{Joule, Metre, Second};
 
-/// What slip does to the bodies of a loading.
+/// Changes of the bodies of a loading by slip.
 pub(super) struct Fretting {
     changes: Changes,
     heat: Option<CyclicTemperature>,
@@ -108,7 +108,7 @@ impl Fretting {
         }
     }
 
-    /// What changes the bodies.
+    /// The laws, memories and heat of the loading.
     pub(super) fn changes(&self) -> &Changes {
         &self.changes
     }

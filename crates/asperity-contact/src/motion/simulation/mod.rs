@@ -52,7 +52,7 @@ pub struct Simulation {
     operators: Operators,
     boundary: Boundary,
     interiors: [Interior; 2],
-    /// What a pass does to the bodies.
+    /// Changes of the bodies by a pass.
     changes: Changes,
     /// Compliance of single cells; `None` if no law repeats, nothing is remembered, and passes are not extrapolated.
     compliance_of_grid: Option<GridCompliance>,
