@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from ._optional import need
 from ._plot import MISSING, bar, labelled, map_of, masked
+from ._raise import bad_input
 from ._show import Look, largest, scale
-from .errors import bad_input
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation

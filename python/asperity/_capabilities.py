@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _conductance, _gap_flow
+from ._keywords import takes
 from ._solved import Solved
 from ._table import Table, by_word, records
-from ._units import Quantity
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 class Observed:
@@ -31,7 +33,6 @@ class Observed:
         """
         return by_word(self._found("flow"), "along")
 
-
     @property
     def fatigue(self) -> dict[str, Table]:
         """A record for each pass of the ``"lower"`` and of the ``"upper"`` body whose fatigue was asked for: a table each.
@@ -44,17 +45,8 @@ class Observed:
 class OfContact(Observed, Solved):
     """What the capabilities compute from a contact."""
 
-    def conductance(
-        self,
-        *,
-        conductivity: Quantity | Sequence[Quantity],
-        kind: _conductance.Kind = "thermal",
-        film: Quantity | None = None,
-        gas: Quantity | None = None,
-        jump: Quantity | None = None,
-        tolerance: float = 1e-6,
-        threads: int | None = None,
-    ) -> _conductance.Conductance:
+    @takes(_conductance.ConductanceKeywords, kind="thermal", tolerance=1e-6)
+    def conductance(self, **options: Unpack[_conductance.ConductanceKeywords]) -> _conductance.Conductance:
         """Compute the thermal or electrical conductance of this contact.
 
         Cells in contact, gap, pitch and boundary are those of the contact. The bodies are half-spaces without coatings: for coated bodies
@@ -62,8 +54,7 @@ class OfContact(Observed, Solved):
 
         Parameters
         ----------
-        conductivity, kind, film, gas, jump, tolerance, threads
-            As in :func:`asperity.conductance`.
+        **options
 
         Returns
         -------
@@ -82,29 +73,17 @@ class OfContact(Observed, Solved):
         >>> f"{c.conductance(conductivity='46 W/(m K)').conductance:.3g} W/K"
         '0.00797 W/K'
         """
-        return _conductance.conductance(
-            self, conductivity=conductivity, kind=kind, film=film, gas=gas, jump=jump, tolerance=tolerance, threads=threads
-        )
+        return _conductance.conductance(self, **options)
 
-    def flow(
-        self,
-        *,
-        viscosity: Quantity | None = None,
-        pressure: Quantity | None = None,
-        outlet: Quantity | None = None,
-        ends: _gap_flow.Ends | None = None,
-        sides: _gap_flow.Sides | None = None,
-        faces: _gap_flow.Faces = "linear",
-        threads: int | None = None,
-    ) -> _gap_flow.GapFlow:
+    @takes(_gap_flow.FlowKeywords, faces="linear")
+    def flow(self, **options: Unpack[_gap_flow.FlowKeywords]) -> _gap_flow.GapFlow:
         """Compute the flow of a fluid through the gap of this contact.
 
         Gap and pitch are those of the contact. So are the ends and sides by default: along a free axis reservoirs and walls.
 
         Parameters
         ----------
-        viscosity, pressure, outlet, ends, sides, faces, threads
-            As in :func:`asperity.flow`.
+        **options
 
         Returns
         -------
@@ -124,13 +103,4 @@ class OfContact(Observed, Solved):
         >>> f"{c.flow(viscosity='80 mPa s', pressure='1 bar').leakage[0]:.2g} m³/s"
         '5e-15 m³/s'
         """
-        return _gap_flow.flow(
-            self,
-            viscosity=viscosity,
-            pressure=pressure,
-            outlet=outlet,
-            ends=ends,
-            sides=sides,
-            faces=faces,
-            threads=threads,
-        )
+        return _gap_flow.flow(self, **options)

@@ -7,9 +7,9 @@ from typing import Any
 
 from . import _core
 from ._keywords import LOADS
+from ._raise import bad_input
 from ._units import whole
 from .body import Handed
-from .errors import bad_input
 
 
 def tables(handed: Handed, keywords: Any, options: Mapping[str, Any]) -> dict[str, Any]:

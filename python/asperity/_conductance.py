@@ -1,22 +1,25 @@
 """The thermal or electrical conductance of a contact."""
 
-from __future__ import annotations
+# Annotations are not postponed here: types and texts are read when the package is imported.
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _core
-from .keys import Boundary
+from ._described import described
+from ._keywords import takes
 from ._optional import need
+from ._raise import bad_input
 from ._same import Comparable
 from ._solved import Solved
-from ._units import Pair, Quantity, lengths, number, quantity
-from .errors import bad_input
+from ._units import Pair, Quantity, choice, edges, lengths, matrix, number, quantity
+from .keys import Boundary
 
 if TYPE_CHECKING:
+    from typing_extensions import Unpack
     from xarray import DataArray
 
 
@@ -26,62 +29,40 @@ Kind = Literal["thermal", "electrical"]
 _UNITS = {"thermal": ("W/K", "W/(m² K)", "K/W"), "electrical": ("S", "S/m²", "Ω")}
 
 
+@described
 class Conductance(Comparable):
     """Conductance of a contact.
 
     Returned by :func:`asperity.conductance` and :meth:`Contact.conductance`.
-
-    Attributes
-    ----------
-    kind : str
-        ``"thermal"`` or ``"electrical"``.
-    conductance : float or None
-        Conductance G, at least 0, W/K or S; 0 if nothing conducts. ``None`` if the joint adds no resistance: all cells of a period
-        touch without a film.
-    joint_conductance : float or None
-        Conductance of the joint alone over the area of the grid, W/(m² K) or S/m²: 1/((R - R_full) A) under a free boundary. ``None`` with
-        the conductance, and where the two cannot be split: spots in a part of the grid, or all cells in contact.
-    resistance : float or None
-        1/G, K/W or Ω; ``None`` if there is none, and if nothing conducts.
-    full_resistance : float or None
-        Resistance if all cells touched without a film, K/W or Ω: the spreading from the grid into the half-spaces. ``None`` under a
-        periodic boundary, where there is none.
-    flux : ndarray or None
-        Flux of each cell per unit drop, W/(m² K) or S/m², 0 in cells that do not conduct; ``None`` with the conductance.
-    spot_share, gas_share : float
-        Shares of the flux through the cells in contact and through the gas.
-    film_share : float
-        Share of the resistance that the film takes. Above ½, the number given for the film decides.
-    spots : int
-        Number of spots: cells in contact that are connected over edges and corners.
-    median_cells : float
-        Median number of cells of a spot. Below 9, the cells are too coarse for the spots.
-    holm_greenwood : float or None
-        Resistance of the clean spots by the estimate of Holm and Greenwood, K/W or Ω; ``None`` without contact and unless the
-        boundary is free.
-    pitch : tuple of float
-        Size of a cell along x and y, m.
-    iterations : int
-        Iterations of the solution.
-    residual : float
-        Largest deviation of the drop of a cell from that of the joint, as a share of it.
     """
 
-    kind: str
-    conductance: float | None
-    joint_conductance: float | None
-    resistance: float | None
-    full_resistance: float | None
-    flux: NDArray[np.float64] | None
-    spot_share: float
-    gas_share: float
-    film_share: float
-    spots: int
-    median_cells: float
-    holm_greenwood: float | None
-    pitch: tuple[float, float]
-    iterations: int
-    residual: float
+    kind: Annotated[str, "``\"thermal\"`` or ``\"electrical\"``."]
+    conductance: Annotated[float | None,
+        "Conductance G, at least 0, W/K or S; 0 if nothing conducts. ``None`` if the joint adds no resistance: all "
+        "cells of a period touch without a film."]
+    joint_conductance: Annotated[float | None,
+        "Conductance of the joint alone over the area of the grid, W/(m² K) or S/m²: 1/((R - R_full) A) under a free "
+        "boundary. ``None`` with the conductance, and where the two cannot be split: spots in a part of the grid, or "
+        "all cells in contact."]
+    resistance: Annotated[float | None, "1/G, K/W or Ω; ``None`` if there is none, and if nothing conducts."]
+    full_resistance: Annotated[float | None,
+        "Resistance if all cells touched without a film, K/W or Ω: the spreading from the grid into the half-spaces. "
+        "``None`` under a periodic boundary, where there is none."]
+    flux: Annotated[NDArray[np.float64] | None,
+        "Flux of each cell per unit drop, W/(m² K) or S/m², 0 in cells that do not conduct; ``None`` with the "
+        "conductance."]
+    spot_share: Annotated[float, "Share of the flux through the cells in contact."]
+    gas_share: Annotated[float, "Share of the flux through the gas."]
+    film_share: Annotated[float,
+        "Share of the resistance that the film takes. Above ½, the number given for the film decides."]
+    spots: Annotated[int, "Number of spots: cells in contact that are connected over edges and corners."]
+    median_cells: Annotated[float, "Median number of cells of a spot. Below 9, the cells are too coarse for the spots."]
+    holm_greenwood: Annotated[float | None,
+        "Resistance of the clean spots by the estimate of Holm and Greenwood, K/W or Ω; ``None`` without contact and "
+        "unless the boundary is free."]
+    pitch: Annotated[tuple[float, float], "Size of a cell along x and y, m."]
+    iterations: Annotated[int, "Iterations of the solution."]
+    residual: Annotated[float, "Largest deviation of the drop of a cell from that of the joint, as a share of it."]
 
     def __init__(self, kind: str, pitch: tuple[float, float], found: dict[str, Any]) -> None:
         self.kind = kind
@@ -102,7 +83,7 @@ class Conductance(Comparable):
             parts.append(f"film {100.0 * self.film_share:.3g} % of the resistance")
         return f"<Conductance: {', '.join(parts)}>"
 
-    def to_xarray(self) -> DataArray:
+    def to_xarray(self) -> "DataArray":
         """Return the flux as an xarray DataArray over x and y, m; its attributes are the numbers.
 
         Raises
@@ -121,19 +102,37 @@ class Conductance(Comparable):
         return array
 
 
+# fmt: off
+class _RequiredKeywords(TypedDict):
+    conductivity: Annotated[Quantity | Sequence[Quantity],
+        "Conductivity of both bodies, or of the lower and the upper one, above 0, W/(m K) or S/m. One of a pair may be ``inf``."]
+
+
+class ConductanceKeywords(_RequiredKeywords, total=False):
+    """Keywords of the conductance of a contact."""
+
+    kind: Annotated[Kind, "``\"thermal\"`` (by default) or ``\"electrical\"``."]
+    film: Annotated[Quantity | None,
+        "Resistance of an area of the film on the spots, at least 0, m² K/W or Ω m²; none by default."]
+    gas: Annotated[Quantity | None,
+        "Conductivity of the gas in the gap between the bodies, above 0, W/(m K); none by default."]
+    jump: Annotated[Quantity | None,
+        "Temperature jump distance of the gas at both surfaces together, at least 0, m; 0 by default."]
+    tolerance: Annotated[float,
+        "Largest deviation of the drop of a cell from that of the joint, as a share of it; 1e-6 by default. The error of the "
+        "conductance is about its square."]
+    threads: Annotated[int | None, "Number of threads; one for each core by default."]
+
+
+# fmt: on
+@takes(ConductanceKeywords, kind="thermal", tolerance=1e-6)
 def conductance(
-    contact: Solved | ArrayLike,
+    contact: "Solved | ArrayLike",
     *,
-    conductivity: Quantity | Sequence[Quantity],
-    kind: Kind = "thermal",
-    pitch: Pair | None = None,
-    boundary: Boundary | Sequence[Boundary] | None = None,
-    film: Quantity | None = None,
-    gas: Quantity | None = None,
-    jump: Quantity | None = None,
-    gap: ArrayLike | None = None,
-    tolerance: float = 1e-6,
-    threads: int | None = None,
+    pitch: "Pair | None" = None,
+    boundary: "Boundary | Sequence[Boundary] | None" = None,
+    gap: "ArrayLike | None" = None,
+    **options: "Unpack[ConductanceKeywords]",
 ) -> Conductance:
     """Compute the thermal or electrical conductance of a contact.
 
@@ -146,27 +145,13 @@ def conductance(
     contact : Contact or array_like
         A contact, which provides cells in contact, gap, pitch and boundary; or a matrix ``[ix, iy]`` from anywhere, such as a mask, a
         map of pressure or an image: cells above 0 touch.
-    conductivity : float, str or pair of them
-        Conductivity of both bodies, or of the lower and the upper one, above 0, W/(m K) or S/m. One of a pair may be ``inf``.
-    kind : str
-        ``"thermal"`` (by default) or ``"electrical"``.
     pitch : float, str or pair of them, optional
         Size of a cell along x and y, m.
     boundary : str or pair of them, optional
         The surroundings of the grid: ``"free"`` (by default) or ``"periodic"``, for both axes or for each.
-    film : float or str, optional
-        Resistance of an area of the film on the spots, at least 0, m² K/W or Ω m²; none by default.
-    gas : float or str, optional
-        Conductivity of the gas in the gap, above 0, W/(m K); none by default. It needs a `gap`.
-    jump : float or str, optional
-        Temperature jump distance of the gas at both surfaces together, at least 0, m; 0 by default.
     gap : array_like, optional
-        Gap between the bodies, a matrix ``[ix, iy]``, m. Only open cells count.
-    tolerance : float
-        Largest deviation of the drop of a cell from that of the joint, as a share of it; 1e-6 by default. The error of the conductance
-        is about its square.
-    threads : int, optional
-        Number of threads; one for each core by default.
+        Gap between the bodies, a matrix ``[ix, iy]``, m; needed for a `gas`. Only open cells count.
+    **options
 
     Returns
     -------
@@ -190,8 +175,8 @@ def conductance(
     >>> found.spots, f"{found.conductance / (2 * 46 * 20e-6):.3f}"
     (1, '0.997')
     """
-    if kind not in _UNITS:
-        raise bad_input("kind", f"'kind' is {kind!r}, expected \"thermal\" or \"electrical\"")
+    kind, film, gas, jump = options["kind"], options["film"], options["gas"], options["jump"]
+    choice("kind", kind, *_UNITS)
     if isinstance(contact, Solved):
         for key, value in (("pitch", pitch), ("boundary", boundary), ("gap", gap)):
             if value is not None:
@@ -199,7 +184,10 @@ def conductance(
         pitch, boundary, gap = contact.pitch, contact.case["contact"]["boundary"], contact.gap
         touching = contact.touching
     else:
-        touching = _matrix("contact", contact, None) > 0.0
+        mask = matrix("contact", contact)
+        if np.isnan(mask).any():
+            raise bad_input("contact", "'contact' holds NaN, expected cells above 0 where the bodies touch")
+        touching = mask > 0.0
     if pitch is None:
         raise bad_input("pitch", "'pitch' is missing: how large is a cell?")
     size = lengths("pitch", pitch)
@@ -209,14 +197,14 @@ def conductance(
     insulance = "thermal insulance" if kind == "thermal" else "electrical insulance"
     found = _core.conductance(
         (touching, size),
-        _edges(boundary),
+        edges(boundary),
         kind,
-        _conductivities(kind, conductivity),
+        _conductivities(kind, options["conductivity"]),
         0.0 if film is None else quantity("film", film, insulance, positive=False),
         between,
-        _matrix("gap", gap, touching.shape) if between is not None else None,
-        _tolerance(tolerance),
-        _case.threads(threads),
+        matrix("gap", gap, ("contact", touching.shape)) if between is not None else None,
+        _tolerance(options["tolerance"]),
+        _case.threads(options["threads"]),
     )
     return Conductance(kind, size, found)
 
@@ -237,28 +225,6 @@ def _conductivities(kind: str, given: Any) -> list[float]:
     if len(values) != 2:
         raise bad_input("conductivity", f"'conductivity' has {len(values)} values, expected one or two")
     return [quantity("conductivity", value, dimension, infinite=not one) for value in values]
-
-
-def _edges(boundary: Any) -> list[str]:
-    both = ["free"] * 2 if boundary is None else [boundary] * 2 if isinstance(boundary, str) else list(boundary)
-    if len(both) != 2 or any(edge not in ("free", "periodic") for edge in both):
-        expected = 'expected "free" or "periodic", or one of them for each axis'
-        raise bad_input("boundary", f"'boundary' is {boundary!r}, {expected}")
-    return both
-
-
-def _matrix(key: str, values: Any, shape: tuple[int, ...] | None) -> NDArray[np.float64]:
-    try:
-        found = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise bad_input(key, f"'{key}' is no matrix of numbers: {error}") from error
-    if found.ndim != 2 or 0 in found.shape:
-        raise bad_input(key, f"'{key}' has the shape {found.shape}, expected a matrix [ix, iy]")
-    if shape is not None and found.shape != shape:
-        raise bad_input(key, f"'{key}' has the shape {found.shape}, expected that of the contact, {shape}")
-    if key == "contact" and np.isnan(found).any():
-        raise bad_input(key, f"'{key}' holds NaN, expected cells above 0 where the bodies touch")
-    return found
 
 
 def _tolerance(value: Any) -> float:

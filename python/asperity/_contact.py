@@ -4,21 +4,22 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _case, _core, fields
 from ._capabilities import OfContact
+from ._described import described
 from ._keywords import ContactKeywords, SlideKeywords, takes
 from ._plastic_state import PlasticState, of_results
 from ._progress import Teller
+from ._raise import Warner, bad_input
 from ._show import unit_of
 from ._table import records, Table, Units
 from ._units import path
 from .body import Body, Handed, bodies
-from .errors import Warner, bad_input
 from .fields import Fields
 from .material import Material
 from .surface import Surface
@@ -32,187 +33,138 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 
+@described
 class Contact(OfContact):
     """A computed static contact.
 
     :func:`contact`, :func:`slide` and :func:`open` return contacts. The numbers of a contact are attributes with the names of
     `summary.json`. The numbers of friction exist only with friction, those of rolling only in rolling.
-
-    Attributes
-    ----------
-    load : float
-        Normal force, N.
-    approach : float
-        Rigid-body approach of the two bodies, m.
-    contact_area : float
-        Real contact area, m²: the cells with pressure, or with more than the largest tension where the bodies attract each other.
-    apparent_area : float
-        Area of all cells, m².
-    max_pressure : float
-        Largest pressure, Pa.
-    mean_gap : float
-        Mean gap between the deformed surfaces, m.
-    elastic_energy : float
-        Elastic energy of both bodies, J.
-    plastic_cells : int
-        Number of cells at the hardness.
-    plastic_volume : float
-        Volume removed by plastic deformation, m³.
-    iterations : int
-        Number of iterations of the solver.
-    convolutions : float
-        Number of elastic operator applications, the main cost of the solution.
-    residual : float
-        Scale-free complementarity residual of the solution.
-    tangential_force : list of float
-        Tangential force of the upper body on the lower one along x and y, N.
-    tangential_displacement : list of float
-        Tangential displacement of the upper body relative to the lower one along x and y, m.
-    force_ratio : float
-        Magnitude of the tangential force over the load.
-    friction_coefficient : float or None
-        Magnitude of the tangential force over the load if no cell sticks, else `None`.
-    stick_area : float
-        Area of the cells that stick, m².
-    max_shear : float
-        Largest shear traction, Pa.
-    dissipation : float
-        Energy dissipated by friction, J. In rolling: while the contact advances by one cell, from the work of force, moment and
-        pressure.
-    slip_work : float
-        Work of the shear on the slip of the cells in rolling, J: the dissipation without the part of the step from cell to cell.
-    creepage : list of float
-        Creepage along x and y, in rolling.
-    spin : float
-        Spin in rolling, 1/m.
-    moment : float
-        Moment about z in rolling, N m.
-    adhesive_load : float
-        Force of the tension on the open cells of bodies that attract each other, N.
-    min_pressure : float
-        Least pressure of such bodies, below 0 in tension, Pa.
-    adhesion_energy : float
-        Energy of their attraction, J.
-    energy_lost : float
-        Energy that they lost in jumps, J.
-    jumps : int
-        Number of jumps.
-    cycles : int
-        Cycles of bodies that wear or grow films in them.
-    worn_volume_lower, worn_volume_upper : float
-        Volumes that they have worn off, m³.
-    max_wear_lower, max_wear_upper : float
-        Deepest wear of a cell of each body, m.
-    max_film_lower, max_film_upper : float
-        Thickest film on a cell of each body, m.
-    friction_work : float
-        Energy that friction took in all cycles, J.
-    wear_error : float
-        Estimate of the error of the heights by cycles that were not computed, m.
-    fields : Fields
-        The fields `pressure`, `gap`, `displacement`, `lower`, `upper`, `plastic`. Friction adds `traction_x`, `traction_y`,
-        `displacement_x`, `displacement_y`, `slip_x`, `slip_y` and `stick`. A map of the hardness adds `cap`. Adhesion adds
-        `contact`, 1 in contact and 0 elsewhere.
-    sweep : Table
-        A record for each point of a sweep, else empty. The numbers and fields of the contact are those of the last point.
-    increments : Table
-        A record for each increment of a loading in stages, else empty.
-    updates : Table
-        A record for each update of a contact that slides in place, see :func:`slide`, else empty. The first record is the contact
-        before sliding.
-    warnings : list of str
-        Warnings about doubtful input and results.
-    case : dict
-        The resolved case, SI.
-    plastic_state : dict
-        Plastic state of elasto-plastic bodies, a :class:`PlasticState` for ``"lower"`` and for ``"upper"``.
-    closed_form : dict or None
-        Closed form of the contact of two smooth forms (Hertz, Sneddon) at the same load, and the deviation of the computed contact
-        from it: the keys `theory`, `theory_max_pressure`, `max_pressure_deviation` and others of `closed_form` in `summary.json`.
-        `None` for other bodies, and if cells yield or wear.
-    adhesion : dict or None
-        Adhesion of the bodies in numbers: the keys `range`, `process_zone_cells`, `tabor`, `pull_off`, `work_of_separation` and
-        others of `adhesion` in `summary.json`. `None` without adhesion.
-    directory : pathlib.Path or None
-        The results directory, or `None` if the contact was computed without `out`.
     """
 
-    load: float
-    approach: float
-    contact_area: float
-    apparent_area: float
-    max_pressure: float
-    mean_gap: float
-    elastic_energy: float
-    plastic_cells: int
-    plastic_volume: float
-    iterations: int
-    convolutions: float
-    residual: float
-    tangential_force: list[float]
-    tangential_displacement: list[float]
-    force_ratio: float
-    friction_coefficient: float | None
-    stick_area: float
-    max_shear: float
-    dissipation: float
-    slip_work: float
-    creepage: list[float]
-    spin: float
-    moment: float
-    adhesive_load: float
-    min_pressure: float
-    adhesion_energy: float
-    energy_lost: float
-    jumps: int
-    cycles: int
-    worn_volume_lower: float
-    worn_volume_upper: float
-    max_wear_lower: float
-    max_wear_upper: float
-    max_film_lower: float
-    max_film_upper: float
-    friction_work: float
-    wear_error: float
-    fields: Fields
-    sweep: Table
-    increments: Table
-    updates: Table
-    warnings: list[str]
-    case: dict[str, Any]
-    plastic_state: dict[str, PlasticState]
-    closed_form: dict[str, Any] | None
-    adhesion: dict[str, Any] | None
-    directory: pathlib.Path | None
+    # Made from the columns of the results: UPDATE=1 cargo test -p asperity-study
+    load: Annotated[float, "Total normal force W, N."]
+    approach: Annotated[float, "Rigid-body approach δ, m."]
+    contact_area: Annotated[float,
+        "Area of the cells in contact, m²: with p > 0, or with p > −σ(0) where the bodies attract each other."]
+    apparent_area: Annotated[float, "Area of the whole grid, m²."]
+    max_pressure: Annotated[float, "Largest pressure, Pa."]
+    mean_gap: Annotated[float, "Mean deformed gap, m."]
+    elastic_energy: Annotated[float, "Elastic energy ½ ΔA Σ p u, with friction ½ ΔA Σ (p u + q·uₜ), J."]
+    plastic_cells: Annotated[int, "Number of cells at the hardness, or at their caps under shear."]
+    plastic_volume: Annotated[float,
+        "Plastic volume ΔA Σ w, with w the plastic interference of the cells over the whole loading, m³."]
+    iterations: Annotated[int, "Iterations of the solver."]
+    convolutions: Annotated[float, "Convolutions; a convolution on a coarser grid counts by its fraction of cells."]
+    residual: Annotated[float, "Scale-free complementarity residual η."]
+    tangential_force: Annotated[list[float], "Force of the upper body on the lower one, along x and y, N."]
+    force_ratio: Annotated[float, "Magnitude of the tangential force over the load; 0 unless the load is above 0."]
+    friction_coefficient: Annotated[float | None,
+        "Force ratio if no cell sticks, that is the friction coefficient of the whole contact; otherwise unknown."]
+    tangential_displacement: Annotated[list[float],
+        "Rigid-body displacement of the upper body relative to the lower one, along x and y, m; 0 in sliding."]
+    stick_area: Annotated[float, "Area of the cells that stick in the last increment, m²."]
+    max_shear: Annotated[float, "Largest shear traction, Pa."]
+    dissipation: Annotated[float,
+        "Energy dissipated by friction, J. In rolling it is the dissipation while the contact moves by one cell, from the work of "
+        "force, moment and pressure. In sliding it is 0, because the slip has no limit."]
+    slip_work: Annotated[float,
+        "In rolling, work of the shear on the slip of the cells while the contact moves by one cell, ΔA Σ q·Δs, J. It converges "
+        "to `dissipation` with smaller cells."]
+    creepage: Annotated[list[float],
+        "In rolling, velocity of the upper body relative to the lower one, over the rolling velocity, along x and y."]
+    spin: Annotated[float,
+        "In rolling, angular velocity of the upper body relative to the lower one, over the rolling velocity, about z through the "
+        "middle of the grid, 1/m."]
+    moment: Annotated[float, "In rolling, moment of the upper body on the lower one about the same axis, N m."]
+    adhesive_load: Annotated[float, "Force of the tension on the open cells, ΔA Σ σ(g), N."]
+    min_pressure: Annotated[float, "Least pressure, Pa; below 0 where the surfaces attract each other."]
+    adhesion_energy: Annotated[float,
+        "Energy of the attraction, ΔA Σ v(g), J: −w for each area in contact, 0 far apart."]
+    energy_lost: Annotated[float,
+        "Energy lost in jumps, J: the work done minus the energy stored, by the trapezoidal rule; 0 for bodies that come from "
+        "afar."]
+    jumps: Annotated[int,
+        "Number of jumps: increments, or positions, that lose more than 1 % of the energy, and more than the work of adhesion of "
+        "a cell."]
+    max_plastic_strain: Annotated[float, "Largest accumulated plastic strain."]
+    max_plastic_strain_position: Annotated[list[float],
+        "Position of the largest plastic strain, m: x and y from the corner of the body, z from its surface."]
+    yielded_volume: Annotated[float, "Volume of all cells with plastic strain, m³."]
+    plastic_work: Annotated[float, "Plastic work ∫ σ : dε, J."]
+    stored_energy: Annotated[float, "Energy stored in the residual stress, −½ ∫ ε : Kε, J."]
+    displaced_volume: Annotated[float,
+        "Volume ΔA Σ max(r, 0) by which the surfaces have been displaced inward, m³; r is the inward displacement by the plastic "
+        "strain."]
+    max_residual_tension: Annotated[float, "Largest principal residual stress, in tension, Pa."]
+    residual_displacement: Annotated[float,
+        "Range of the inward displacement r of a surface, m: its largest minus its smallest value."]
+    products: Annotated[int, "Applications of the operator of the residual stress, over all increments."]
+    mismatch: Annotated[float, "Largest return-mapping residual over the yield stress at the end of an increment."]
+    regime: Annotated[str, "Response of the bodies to repeated loading, as a word."]
+    strain_per_pass: Annotated[float, "Growth of the largest plastic strain per pass, if the bodies ratchet."]
+    shift_per_pass: Annotated[float,
+        "Displacement of the surface along x per pass, if the bodies ratchet, m; the larger one of the two bodies."]
+    residual_max_plastic_strain: Annotated[float, "`max_plastic_strain` after unloading."]
+    residual_yielded_volume: Annotated[float, "`yielded_volume` after unloading, m³."]
+    residual_plastic_work: Annotated[float, "`plastic_work` after unloading, J."]
+    residual_stored_energy: Annotated[float, "`stored_energy` after unloading, J."]
+    residual_displaced_volume: Annotated[float, "`displaced_volume` after unloading, m³."]
+    residual_max_residual_tension: Annotated[float, "`max_residual_tension` after unloading, Pa."]
+    residual_residual_displacement: Annotated[float, "`residual_displacement` after unloading, m."]
+    cycles: Annotated[int, "Cycles done at the end of the increment, with those that were not computed."]
+    worn_volume_lower: Annotated[float, "Volume that the lower body has worn off so far, m³."]
+    worn_volume_upper: Annotated[float, "Volume that the upper body has worn off so far, m³."]
+    max_wear_lower: Annotated[float, "Deepest wear of a cell of the lower body so far, m."]
+    max_wear_upper: Annotated[float, "Deepest wear of a cell of the upper body so far, m."]
+    max_film_lower: Annotated[float, "Thickest film on a cell of the lower body, m; 0 without a film."]
+    max_film_upper: Annotated[float, "Thickest film on a cell of the upper body, m; 0 without a film."]
+    friction_work: Annotated[float, "Energy dissipated by friction so far, with the cycles that were not computed, J."]
+    wear_error: Annotated[float, "Estimate of the error of the heights by cycles that were not computed, m."]
+    friction_power: Annotated[float, "Frictional power, W; of a cycle its mean."]
+    max_flash_temperature: Annotated[float, "Largest absolute temperature of the surfaces, K."]
+    # The end of what is made.
+    fields: Annotated[Fields,
+        "The fields `pressure`, `gap`, `displacement`, `lower`, `upper`, `plastic`. Friction adds `traction_x`, `traction_y`, "
+        "`displacement_x`, `displacement_y`, `slip_x`, `slip_y` and `stick`. A map of the hardness adds `cap`. Adhesion adds "
+        "`contact`, 1 in contact and 0 elsewhere."]
+    sweep: Annotated[Table,
+        "A record for each point of a sweep, else empty. The numbers and fields of the contact are those of the last point."]
+    increments: Annotated[Table, "A record for each increment of a loading in stages, else empty."]
+    updates: Annotated[Table,
+        "A record for each update of a contact that slides in place, see :func:`slide`, else empty. The first record is the contact "
+        "before sliding."]
+    warnings: Annotated[list[str], "Warnings about doubtful input and results."]
+    case: Annotated[dict[str, Any], "The resolved case, SI."]
+    plastic_state: Annotated[dict[str, PlasticState],
+        "Plastic state of elasto-plastic bodies, a :class:`PlasticState` for ``\"lower\"`` and for ``\"upper\"``."]
+    closed_form: Annotated[dict[str, Any] | None,
+        "Closed form of the contact of two smooth forms (Hertz, Sneddon) at the same load, and the deviation of the computed contact "
+        "from it: the keys `theory`, `theory_max_pressure`, `max_pressure_deviation` and others of `closed_form` in `summary.json`. "
+        "`None` for other bodies, and if cells yield or wear."]
+    adhesion: Annotated[dict[str, Any] | None,
+        "Adhesion of the bodies in numbers: the keys `range`, `process_zone_cells`, `tabor`, `pull_off`, `work_of_separation` and "
+        "others of `adhesion` in `summary.json`. `None` without adhesion."]
+    directory: Annotated["pathlib.Path | None",
+        "The results directory, or `None` if the contact was computed without `out`."]
 
     def __init__(
-        self,
-        record: dict[str, Any] | None,
-        sweep: list[dict[str, Any]],
-        increments: list[dict[str, Any]],
-        updates: list[dict[str, Any]],
-        seen: dict[str, list[dict[str, Any]]],
-        found: Fields,
-        warnings: list[str],
-        case: dict[str, Any],
-        plastic_state: dict[str, PlasticState],
-        closed_form: dict[str, Any] | None = None,
-        adhesion: dict[str, Any] | None = None,
-        directory: pathlib.Path | None = None,
+        self, found: Mapping[str, Any], of_cells: Fields, plastic_state: dict[str, PlasticState], directory: pathlib.Path | None = None
     ) -> None:
-        self.plastic_state = plastic_state
-        self.fields = found
-        self.increments = records(increments, _core.INCREMENT_COLUMNS)
-        self.updates = records(updates, ["update", "distance"])
-        self._seen = seen
+        sweep = found.get("sweep", [])
+        self.fields = of_cells
         self.sweep = records(sweep, _core.SWEEP_COLUMNS)
-        self.warnings = list(warnings)
-        self.case = case
-        self.closed_form = closed_form
-        self.adhesion = adhesion
+        self.increments = records(found["increments"], _core.INCREMENT_COLUMNS)
+        self.updates = records(found["updates"], ["update", "distance"])
+        self.warnings = list(found["warnings"])
+        self.case = found["case"]
+        self.plastic_state = plastic_state
+        self.closed_form = found.get("closed_form")
+        self.adhesion = found["interface"].get("adhesion")
         self.directory = directory
-        self._names = list(record if record is not None else sweep[-1])
-        self.__dict__.update(record if record is not None else sweep[-1])
+        self._seen: dict[str, list[dict[str, Any]]] = found["found"]
+        record = found.get("record") or sweep[-1]
+        self._names = list(record)
+        self.__dict__.update(record)
 
     def _compared(self) -> dict[str, Any]:
         return {name: value for name, value in vars(self).items() if name != "directory"}
@@ -233,16 +185,6 @@ class Contact(OfContact):
         return next((table for table in tables if len(table)), None)
 
     @property
-    def pressure(self) -> NDArray[np.float64]:
-        """Pressure on each cell, Pa, ``[ix, iy]``."""
-        return self.fields["pressure"].values
-
-    @property
-    def gap(self) -> NDArray[np.float64]:
-        """Gap between the deformed surfaces, m. It is 0 in contact, and negative where cells yield."""
-        return self.fields["gap"].values
-
-    @property
     def displacement(self) -> NDArray[np.float64]:
         """Sum of the normal displacements of both bodies, positive if it opens the gap, m."""
         return self.fields["displacement"].values
@@ -251,17 +193,6 @@ class Contact(OfContact):
     def plastic(self) -> NDArray[np.float64]:
         """Plastic interference of each cell, m."""
         return self.fields["plastic"].values
-
-    @property
-    def pitch(self) -> tuple[float, float]:
-        """Size of a cell along x and y, m."""
-        x, y = self.fields["pressure"].pitch
-        return x, y
-
-    @property
-    def touching(self) -> NDArray[np.bool_]:
-        """Whether each cell is in contact. With adhesion a cell in contact may be under tension."""
-        return np.asarray((self.fields["contact"].values if "contact" in self.fields else self.pressure) > 0.0)
 
     @property
     def contact_fraction(self) -> float:
@@ -501,22 +432,9 @@ def _solved(pair: tuple[Body, Body], keywords: Any, options: Mapping[str, Any]) 
         warner = Warner()
         with Teller(options["progress"]) as tell:
             found = _core.rest(case, handed.given, count, tell, warner)
-        pitch = (found["pitch"][0], found["pitch"][1])
-        arrays = fields.of_cells(found["fields"], pitch)
         warner.all(found["warnings"])
-        return Contact(
-            found.get("record"),
-            found.get("sweep", []),
-            found["increments"],
-            found["updates"],
-            found["found"],
-            arrays,
-            found["warnings"],
-            found["case"],
-            {body: PlasticState(**volume) for body, volume in found.get("plastic_state", {}).items()},
-            found["closed_form"],
-            found["interface"].get("adhesion"),
-        )
+        arrays = fields.of_cells(found["fields"], (found["pitch"][0], found["pitch"][1]))
+        return Contact(found, arrays, {body: PlasticState(**volume) for body, volume in found.get("plastic_state", {}).items()})
     out, warner = path("out", options["out"]), Warner()
     with Teller(options["progress"]) as tell:
         _core.run(case, handed.given, out, existing, count, tell, warner)
@@ -531,22 +449,12 @@ def stored(directory: str, core: Any) -> Contact:
     import pathlib
 
     summary = core.summary()
-    found = fields.stored(core, "contact", None)
     record = summary.get("static")
     if record is not None:
         # Only a converged contact has a summary.
         del record["converged"]
-    return Contact(
-        record,
-        core.sweep(),
-        core.increments(),
-        core.updates(),
-        core.found(),
-        found,
-        summary["warnings"],
-        core.case(),
-        of_results(core, None),
-        summary.get("closed_form"),
-        summary.get("adhesion"),
-        pathlib.Path(directory),
-    )
+    found = {
+        "record": record, "sweep": core.sweep(), "increments": core.increments(), "updates": core.updates(), "found": core.found(),
+        "warnings": summary["warnings"], "case": core.case(), "closed_form": summary.get("closed_form"), "interface": summary,
+    }  # fmt: skip
+    return Contact(found, fields.stored(core, "contact", None), of_results(core, None), pathlib.Path(directory))

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _core
+from ._described import described
+from ._raise import bad_input
 from ._same import Comparable
-from ._stress import Extreme, _dataset, _depths, _edges, _ratio
-from ._units import Pair, Quantity, lengths, quantity
-from .errors import bad_input
+from ._stress import Extreme, _dataset, _depths, _finite, _ratio
+from ._units import Pair, Quantity, choice, edges, lengths, quantity
 from .keys import Boundary
 from .material import Material
 
@@ -21,32 +21,24 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 
+@described
 class Fatigue(Comparable):
-    """What the points below a surface see in a pass that repeats; arrays ``[iz, ix, iy]``. Returned by :func:`asperity.fatigue`.
+    """What the points below a surface see in a pass that repeats; arrays ``[iz, ix, iy]``. Returned by :func:`asperity.fatigue`."""
 
-    Attributes
-    ----------
-    depths : ndarray
-        Depths of the planes, m.
-    pitch : tuple of float
-        Size of a cell along x and y, m.
-    f : ndarray
-        Dang Van's f: the largest τ + a σh in the pass, Pa. Nothing fails in the end where it is below the limit.
-    radius : ndarray
-        Radius of the smallest ball around the deviators in five dimensions, Pa.
-    shear_amplitude : ndarray
-        Half the range of σxz in the pass, Pa.
-    weight : float
-        Weight a of the hydrostatic stress, 3τ₋₁/σ₋₁ − 3/2.
-    limit : float
-        Limit b of f, Pa: that of alternating torsion τ₋₁.
-    """
+    depths: Annotated[NDArray[np.float64], "Depths of the planes, m."]
+    pitch: Annotated[tuple[float, float], "Size of a cell along x and y, m."]
+    f: Annotated[NDArray[np.float64],
+        "Dang Van's f: the largest τ + a σh in the pass, Pa. Nothing fails in the end where it is below the limit."]
+    radius: Annotated[NDArray[np.float64], "Radius of the smallest ball around the deviators in five dimensions, Pa."]
+    shear_amplitude: Annotated[NDArray[np.float64], "Half the range of σxz in the pass, Pa."]
+    weight: Annotated[float, "Weight a of the hydrostatic stress, 3τ₋₁/σ₋₁ − 3/2."]
+    limit: Annotated[float, "Limit b of f, Pa: that of alternating torsion τ₋₁."]
 
     def __init__(self, fields: list[NDArray[np.float64]], criterion: tuple[float, float], depths: list[float], pitch: Any) -> None:
         self.f, self.radius, self.shear_amplitude = fields
         self.weight, self.limit = criterion
         self.depths = np.array(depths)
-        self.pitch: tuple[float, float] = pitch
+        self.pitch = pitch
 
     def _compared(self) -> dict[str, Any]:
         return dict(vars(self))
@@ -162,22 +154,20 @@ def fatigue(
     >>> found.f.shape, bool(found.f[0].max() > found.f[1].max())
     ((2, 32, 2), True)
     """
-    if body not in ("lower", "upper"):
-        raise bad_input("body", f"'body' is {body!r}, expected \"lower\" or \"upper\"")
+    choice("body", body, "lower", "upper")
     try:
         found = np.asarray(pressures, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise bad_input("pressures", f"'pressures' are no numbers: {error}") from error
     if found.ndim != 3 or 0 in found.shape:
         raise bad_input("pressures", f"'pressures' has the shape {found.shape}, expected matrices [position, ix, iy]")
-    if not np.isfinite(found).all():
-        raise bad_input("pressures", "'pressures' holds a number that is not finite")
+    _finite("pressures", found)
     ratio = np.asarray(friction, dtype=np.float64)
     if ratio.ndim > 1 or ratio.size not in (1, len(found)) or not np.isfinite(ratio).all():
         raise bad_input("friction", f"'friction' has the shape {ratio.shape}, expected a number, or one for each of {len(found)} positions")
     ratio = np.broadcast_to(ratio, len(found)) * (-1.0 if body == "upper" else 1.0)
     planes = _depths(depths)
-    given = (found, lengths("pitch", pitch), ratio.tolist(), _edges(boundary), _ratio(poisson, material))
+    given = (found, lengths("pitch", pitch), ratio.tolist(), edges(boundary), _ratio(poisson, material))
     limits = (quantity("torsion", torsion, "pressure"), quantity("tension", tension, "pressure"))
     fields, criterion = _core.fatigue(given, limits, planes, _case.threads(threads))
     return Fatigue(fields, (criterion[0], criterion[1]), planes, given[1])

@@ -1,17 +1,22 @@
 """The flow of a fluid through the gap of a contact."""
 
-from __future__ import annotations
+# Annotations are not postponed here: types and texts are read when the package is imported.
 
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _core
+from ._described import described
+from ._keywords import takes
+from ._raise import bad_input
 from ._same import Comparable
 from ._solved import Solved
-from ._units import Pair, Quantity, lengths, quantity, written
-from .errors import bad_input
+from ._units import Pair, Quantity, choice, edges, lengths, matrix, quantity, written
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 Ends = Literal["periodic", "reservoirs"]
 """What lies beyond the ends of the gap along the pressure gradient."""
@@ -23,6 +28,7 @@ Faces = Literal["linear", "harmonic"]
 """Rule for the gap between two cells."""
 
 
+@described
 class GapFlow(Comparable):
     """The flow of a fluid through a gap, under a pressure gradient along x and under one along y.
 
@@ -30,67 +36,41 @@ class GapFlow(Comparable):
 
     An attribute with one value for each direction of the gradient is an array ``[along x, along y]``. Without an open path along an
     axis its numbers are 0.
-
-    Attributes
-    ----------
-    permeability : ndarray
-        Permeability K of the whole gap, 2 × 2, m³: the mean flux per width is −K ∇P/12η. Between reservoirs or closed sides the
-        elements off the diagonal are not defined, and 0.
-    leakage : ndarray or None
-        Volume that leaks in a unit of time along each axis, m³/s; of a gas, at the pressure of the outlet. None without a fluid.
-    hydraulic_gap : ndarray
-        Gap between parallel plates of the same permeability, m.
-    flow_factor : ndarray
-        Permeability over the cube of the mean gap.
-    critical_gap : ndarray
-        Critical constriction: the largest gap that all cells of some path reach, m.
-    critical_cell : list of tuple or None
-        Cell ``(ix, iy)`` of the critical constriction; None without a path.
-    flowing_share : ndarray
-        Share of the cells that are part of a path, with their dead ends.
-    trapped_volume : ndarray
-        Volume from which no path leads out, m³.
-    estimate : ndarray
-        Estimate of the relative error of the permeability, from the other rule for `faces`.
-    other_faces : ndarray
-        Lower and upper bound of the permeability with the other rule for `faces`, ``[direction, bound]``, m³.
-    residual : ndarray
-        Largest relative difference of the flux through a section from the mean of all sections.
-    dissipation : ndarray
-        Relative difference of the dissipated work from that of the mean flux.
-    pressure : ndarray
-        Pressure of the fluid over its drop, ``[direction, ix, iy]``: 1 at the start of the axis, 0 at its end. 0 in contact and where no path
-        leads to an end.
-    flux : ndarray
-        Flux per width over the mean gradient and 1/12η, ``[direction, component, ix, iy]``, m³; its mean is the permeability.
-    flowing : ndarray
-        Whether a cell is part of a path, ``[direction, ix, iy]``.
-    mean_gap : float
-        Mean gap over all cells, m.
-    closed_share : float
-        Share of the cells in contact.
-    effective_medium : float
-        Permeability of an isotropic effective medium (Bruggeman) with the same gaps, m³. It is a comparison only.
     """
 
-    permeability: NDArray[np.float64]
-    leakage: NDArray[np.float64] | None
-    hydraulic_gap: NDArray[np.float64]
-    flow_factor: NDArray[np.float64]
-    critical_gap: NDArray[np.float64]
-    critical_cell: list[tuple[int, int] | None]
-    flowing_share: NDArray[np.float64]
-    trapped_volume: NDArray[np.float64]
-    estimate: NDArray[np.float64]
-    other_faces: NDArray[np.float64]
-    residual: NDArray[np.float64]
-    dissipation: NDArray[np.float64]
-    pressure: NDArray[np.float64]
-    flux: NDArray[np.float64]
-    flowing: NDArray[np.bool_]
-    mean_gap: float
-    closed_share: float
-    effective_medium: float
+    permeability: Annotated[NDArray[np.float64],
+        "Permeability K of the whole gap, 2 × 2, m³: the mean flux per width is −K ∇P/12η. Between reservoirs or "
+        "closed sides the elements off the diagonal are not defined, and 0."]
+    leakage: Annotated[NDArray[np.float64] | None,
+        "Volume that leaks in a unit of time along each axis, m³/s; of a gas, at the pressure of the outlet. None "
+        "without a fluid."]
+    hydraulic_gap: Annotated[NDArray[np.float64], "Gap between parallel plates of the same permeability, m."]
+    flow_factor: Annotated[NDArray[np.float64], "Permeability over the cube of the mean gap."]
+    critical_gap: Annotated[NDArray[np.float64],
+        "Critical constriction: the largest gap that all cells of some path reach, m."]
+    critical_cell: Annotated[list[tuple[int, int] | None],
+        "Cell ``(ix, iy)`` of the critical constriction; None without a path."]
+    flowing_share: Annotated[NDArray[np.float64], "Share of the cells that are part of a path, with their dead ends."]
+    trapped_volume: Annotated[NDArray[np.float64], "Volume from which no path leads out, m³."]
+    estimate: Annotated[NDArray[np.float64],
+        "Estimate of the relative error of the permeability, from the other rule for `faces`."]
+    other_faces: Annotated[NDArray[np.float64],
+        "Lower and upper bound of the permeability with the other rule for `faces`, ``[direction, bound]``, m³."]
+    residual: Annotated[NDArray[np.float64],
+        "Largest relative difference of the flux through a section from the mean of all sections."]
+    dissipation: Annotated[NDArray[np.float64],
+        "Relative difference of the dissipated work from that of the mean flux."]
+    pressure: Annotated[NDArray[np.float64],
+        "Pressure of the fluid over its drop, ``[direction, ix, iy]``: 1 at the start of the axis, 0 at its end. 0 in "
+        "contact and where no path leads to an end."]
+    flux: Annotated[NDArray[np.float64],
+        "Flux per width over the mean gradient and 1/12η, ``[direction, component, ix, iy]``, m³; its mean is the "
+        "permeability."]
+    flowing: Annotated[NDArray[np.bool_], "Whether a cell is part of a path, ``[direction, ix, iy]``."]
+    mean_gap: Annotated[float, "Mean gap over all cells, m."]
+    closed_share: Annotated[float, "Share of the cells in contact."]
+    effective_medium: Annotated[float,
+        "Permeability of an isotropic effective medium (Bruggeman) with the same gaps, m³. It is a comparison only."]
 
     def __init__(self, found: tuple[Any, Any, Any]) -> None:
         numbers, coupling, along = found
@@ -121,18 +101,29 @@ class GapFlow(Comparable):
         )
 
 
-def flow(
-    source: Solved | ArrayLike,
-    *,
-    pitch: Pair | None = None,
-    viscosity: Quantity | None = None,
-    pressure: Quantity | None = None,
-    outlet: Quantity | None = None,
-    ends: Ends | None = None,
-    sides: Sides | None = None,
-    faces: Faces = "linear",
-    threads: int | None = None,
-) -> GapFlow:
+# fmt: off
+class FlowKeywords(TypedDict, total=False):
+    """Keywords of the flow through the gap of a contact."""
+
+    viscosity: Annotated[Quantity | None,
+        "Dynamic viscosity of the fluid, Pa s or a text such as ``\"80 mPa s\"``; needed for the leakage."]
+    pressure: Annotated[Quantity | None, "Drop of the pressure over the length of the gap, Pa; needed for the leakage."]
+    outlet: Annotated[Quantity | None,
+        "Absolute pressure at the outlet of an ideal gas of constant temperature, Pa. Without it the fluid is a liquid."]
+    ends: Annotated[Ends | None,
+        "``\"periodic\"``: a mean gradient on a gap that repeats itself; or ``\"reservoirs\"`` at both ends. By default they are "
+        "periodic; for a contact, along its periodic axes alone."]
+    sides: Annotated[Sides | None,
+        "``\"periodic\"`` or ``\"closed\"``. By default they are periodic; for a contact, along its periodic axes alone."]
+    faces: Annotated[Faces,
+        "The gap between two cells: ``\"linear\"`` between their centres, or ``\"harmonic\"``, the harmonic mean of their "
+        "permeabilities."]
+    threads: Annotated[int | None, "Number of threads; one for each core by default. The answer does not depend on it."]
+
+
+# fmt: on
+@takes(FlowKeywords, faces="linear")
+def flow(source: "Solved | ArrayLike", *, pitch: "Pair | None" = None, **options: "Unpack[FlowKeywords]") -> GapFlow:
     """Compute the flow of a fluid through a gap, along x and along y.
 
     The flow is slow and thin, and its viscosity is constant (Reynolds' equation). The pressure of the fluid does not deform the bodies.
@@ -144,21 +135,7 @@ def flow(
         positive is in contact, and closed.
     pitch : float, str or pair of them, optional
         Size of a cell along x and y, m.
-    viscosity : float or str, optional
-        Dynamic viscosity of the fluid, Pa s or a text such as ``"80 mPa s"``; needed for the leakage.
-    pressure : float or str, optional
-        Drop of the pressure over the length of the gap, Pa; needed for the leakage.
-    outlet : float or str, optional
-        Absolute pressure at the outlet of an ideal gas of constant temperature, Pa. Without it the fluid is a liquid.
-    ends : str, optional
-        ``"periodic"``: a mean gradient on a gap that repeats itself; or ``"reservoirs"`` at both ends. By default they are periodic; for
-        a contact, along its periodic axes alone.
-    sides : str, optional
-        ``"periodic"`` or ``"closed"``. By default they are periodic; for a contact, along its periodic axes alone.
-    faces : str
-        The gap between two cells: ``"linear"`` between their centres, or ``"harmonic"``, the harmonic mean of their permeabilities.
-    threads : int, optional
-        Number of threads; one for each core by default. The answer does not depend on it.
+    **options
 
     Returns
     -------
@@ -187,31 +164,21 @@ def flow(
         if pitch is not None:
             raise bad_input("pitch", "'pitch' is given beside a contact, which has its own")
         gap, size = np.where(source.touching, 0.0, source.gap), source.pitch
-        boundary = source.case["contact"]["boundary"]
-        repeats = [edge == "periodic" for edge in ([boundary] * 2 if isinstance(boundary, str) else boundary)]
+        repeats = [edge == "periodic" for edge in edges(source.case["contact"]["boundary"])]
     else:
         if pitch is None:
             raise bad_input("pitch", "'pitch' is missing: how far apart are the cells of the gap?")
-        gap, size = _gap(source), lengths("pitch", pitch)
-    for key, word, words in (
-        ("ends", ends, ("periodic", "reservoirs")), ("sides", sides, ("periodic", "closed")), ("faces", faces, ("linear", "harmonic")),
-    ):  # fmt: skip
-        if word not in words and not (word is None and key != "faces"):
-            raise bad_input(key, f"'{key}' is {word!r}, expected \"{words[0]}\" or \"{words[1]}\"")
-    fluid = _fluid(viscosity, pressure, outlet)
+        gap, size = matrix("gap", source), lengths("pitch", pitch)
+    ends, sides, faces = options["ends"], options["sides"], options["faces"]
+    if ends is not None:
+        choice("ends", ends, "periodic", "reservoirs")
+    if sides is not None:
+        choice("sides", sides, "periodic", "closed")
+    choice("faces", faces, "linear", "harmonic")
+    fluid = _fluid(options["viscosity"], options["pressure"], options["outlet"])
     all_ends = [ends or ("periodic" if repeats[axis] else "reservoirs") for axis in (0, 1)]
     all_sides = [sides or ("periodic" if repeats[1 - axis] else "closed") for axis in (0, 1)]
-    return GapFlow(_core.flow((gap, size), all_ends, all_sides, faces, fluid, _case.threads(threads)))
-
-
-def _gap(source: Any) -> NDArray[np.float64]:
-    try:
-        gap = np.asarray(source, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise bad_input("gap", f"'gap' is no matrix of numbers: {error}") from error
-    if gap.ndim != 2 or 0 in gap.shape:
-        raise bad_input("gap", f"'gap' has the shape {gap.shape}, expected a matrix [ix, iy]")
-    return gap
+    return GapFlow(_core.flow((gap, size), all_ends, all_sides, faces, fluid, _case.threads(options["threads"])))
 
 
 def _fluid(viscosity: Any, pressure: Any, outlet: Any) -> tuple[float, float, float | None] | None:

@@ -9,12 +9,12 @@ A keyword without a table says how a case is computed.
 import functools
 import inspect
 import os
-import textwrap
 from collections.abc import Callable
-from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, TypedDict, TypeVar, Union, cast, get_args, get_origin, is_typeddict
+from types import NoneType
+from typing import Annotated, Any, TypedDict, TypeVar, cast, get_args
 
 from . import keys
+from ._described import row, words
 from ._progress import Told
 
 
@@ -72,15 +72,15 @@ _FLAGS = {"resume": False, "overwrite": False, "retry": False, "progress": True}
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
-def takes(keywords: Any) -> Callable[[Function], Function]:
-    """Decorates a function whose ``**options`` are these `keywords`, one of the classes above.
+def takes(keywords: Any, **more: Any) -> Callable[[Function], Function]:
+    """Decorates a function whose ``**options`` are these `keywords`, a class such as those above; `more` are further defaults.
 
     The keywords are added to its signature, and replace ``**options`` in its docstring. The function is called with all of them,
     each by default with its default value.
     """
     annotations = keywords.__annotations__
     types = {key: get_args(annotation)[0] for key, annotation in annotations.items()}
-    defaults = {key: _FLAGS.get(key) for key in types.keys() - keywords.__required_keys__}
+    defaults = {key: {**_FLAGS, **more}.get(key) for key in types.keys() - keywords.__required_keys__}
 
     def decorate(function: Function) -> Function:
         name = function.__qualname__
@@ -127,17 +127,5 @@ def _meant(key: str, known: list[str]) -> str:
 def _row(key: str, annotation: Any) -> str:
     """A keyword as a row of a docstring."""
     kind, *_, text = get_args(annotation)
-    optional = ", optional" if NoneType in get_args(kind) else ""
-    return f"{key} : {_words(kind)}{optional}\n" + textwrap.indent(textwrap.fill(text, 116), "    ")
-
-
-def _words(kind: Any) -> str:
-    """The name of a type in docstrings: ``float or str``."""
-    if get_origin(kind) in (Union, UnionType):
-        return " or ".join(_words(member) for member in get_args(kind) if member is not NoneType)
-    if get_origin(kind) is Literal:
-        return "{" + ", ".join(f'"{word}"' for word in get_args(kind)) + "}"
-    if is_typeddict(kind):
-        return f"keys.{kind.__name__}"
-    name: str = (get_origin(kind) or kind).__name__.lower()
-    return "path" if name == "pathlike" else name
+    is_optional = NoneType in get_args(kind)
+    return row(key, words(kind).removesuffix(" or None") + (", optional" if is_optional else ""), text)

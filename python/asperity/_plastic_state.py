@@ -3,54 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ._described import described
 from ._same import Comparable
 
 
+@described
 class PlasticState(Comparable):
-    """The plastic state below the surface of an elasto-plastic body.
+    """The plastic state below the surface of an elasto-plastic body."""
 
-    Attributes
-    ----------
-    depths : ndarray
-        Depths of the faces of the layers, from 0 at the surface, m.
-    strain : ndarray
-        Plastic strain under the last load, ``[component, ix, iy, iz]``, with the components of `COMPONENTS`.
-    accumulated : ndarray
-        Accumulated plastic strain, ``[ix, iy, iz]``.
-    back_stress : ndarray or None
-        Back stress of a body with kinematic hardening, Pa, ``[component, ix, iy, iz]``.
-    displacement : ndarray
-        Inward displacement of the surface by the plastic strain under the last load, m, ``[ix, iy]``.
-    residual_stress : ndarray
-        Residual stress of the plastic strain, Pa, ``[component, ix, iy, iz]``; after unloading, if the load is removed.
-    residual_displacement : ndarray
-        Inward displacement of the surface by the plastic strain, m, ``[ix, iy]``; after unloading, if the load is removed.
-    """
+    depths: Annotated[NDArray[np.float64], "Depths of the faces of the layers, from 0 at the surface, m."]
+    strain: Annotated[NDArray[np.float64],
+        "Plastic strain under the last load, ``[component, ix, iy, iz]``, with the components of `COMPONENTS`."]
+    accumulated: Annotated[NDArray[np.float64], "Accumulated plastic strain, ``[ix, iy, iz]``."]
+    back_stress: Annotated[NDArray[np.float64] | None,
+        "Back stress of a body with kinematic hardening, Pa, ``[component, ix, iy, iz]``."]
+    displacement: Annotated[NDArray[np.float64],
+        "Inward displacement of the surface by the plastic strain under the last load, m, ``[ix, iy]``."]
+    residual_stress: Annotated[NDArray[np.float64],
+        "Residual stress of the plastic strain, Pa, ``[component, ix, iy, iz]``; after unloading, if the load is "
+        "removed."]
+    residual_displacement: Annotated[NDArray[np.float64],
+        "Inward displacement of the surface by the plastic strain, m, ``[ix, iy]``; after unloading, if the load is "
+        "removed."]
 
     COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 
-    def __init__(
-        self,
-        depths: Sequence[float],
-        strain: NDArray[np.float64],
-        accumulated: NDArray[np.float64],
-        displacement: NDArray[np.float64],
-        residual_stress: NDArray[np.float64],
-        residual_displacement: NDArray[np.float64],
-        back_stress: NDArray[np.float64] | None = None,
-    ) -> None:
-        self.depths: NDArray[np.float64] = np.array(depths, dtype=np.float64)
-        self.strain = strain
-        self.accumulated = accumulated
+    def __init__(self, depths: Sequence[float], back_stress: NDArray[np.float64] | None = None, **arrays: NDArray[np.float64]) -> None:
+        self.depths = np.array(depths, dtype=np.float64)
         self.back_stress = back_stress
-        self.displacement = displacement
-        self.residual_stress = residual_stress
-        self.residual_displacement = residual_displacement
+        vars(self).update(arrays)
 
     def __repr__(self) -> str:
         nx, ny, nz = self.accumulated.shape

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._optional import need
+from ._raise import bad_input
 from ._show import Look, largest, look, scale, unit_of, words
-from .errors import bad_input
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -5,36 +5,26 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
+
+from ._described import described
 
 _WAIT = 0.5
 """Computations shorter than this, in seconds, show nothing."""
 
 
+@described
 class Progress(NamedTuple):
-    """Progress of a computation.
+    """Progress of a computation."""
 
-    Attributes
-    ----------
-    pass_number, passes : int
-        The present pass, from 1, and the number of passes; 1 for a static contact.
-    trial : int
-        Number of the approach that is tried in this pass, from 1.
-    solved, positions : int
-        Number of positions solved in this trial, and of positions in a pass. A static contact has increments or points instead.
-    load : float
-        Load at the last solved position, N.
-    together : float or None
-        Fraction of the present solution, 0 to 1, if all positions are solved together or one contact is solved.
-    """
-
-    pass_number: int
-    passes: int
-    trial: int
-    solved: int
-    positions: int
-    load: float
-    together: float | None
+    pass_number: Annotated[int, "The present pass, from 1; 1 for a static contact."]
+    passes: Annotated[int, "Number of passes; 1 for a static contact."]
+    trial: Annotated[int, "Number of the approach that is tried in this pass, from 1."]
+    solved: Annotated[int, "Number of positions solved in this trial. A static contact has increments or points instead."]
+    positions: Annotated[int, "Number of positions in a pass. A static contact has increments or points instead."]
+    load: Annotated[float, "Load at the last solved position, N."]
+    together: Annotated[float | None,
+        "Fraction of the present solution, 0 to 1, if all positions are solved together or one contact is solved."]
 
     @property
     def fraction(self) -> float:

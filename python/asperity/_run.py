@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _case, _contact, _core, fields
+from ._capabilities import Observed
 from ._contact import Contact
+from ._described import described
 from ._keywords import Execution, takes
-from ._progress import Teller
 from ._optional import need
 from ._plastic_state import PlasticState, of_results
-from ._capabilities import Observed
+from ._progress import Teller
+from ._raise import Warner, bad_input, exception
 from ._same import Comparable
 from ._table import records, Table, Units
 from ._temporary import Temporary
 from ._units import path as paths
-from .errors import Warner, _make, bad_input
 from .fields import Fields
 from .surface import Surface
 
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 
+@described
 class Run(Observed, Comparable):
     """The results of a motion in a directory, finished or still running.
 
@@ -42,12 +44,9 @@ class Run(Observed, Comparable):
     ----------
     directory : path
         The results directory.
-
-    Attributes
-    ----------
-    directory : pathlib.Path
-        The results directory.
     """
+
+    directory: Annotated["pathlib.Path", "The results directory."]
 
     def __init__(self, directory: str | os.PathLike[str]) -> None:
         self.directory = _path(paths("directory", directory))
@@ -327,5 +326,5 @@ def open(directory: str | os.PathLike[str]) -> Run | Contact:
         return Run(directory)
     if core.summary() is None:
         message = f"{os.fspath(directory)} contains a contact that was not finished"
-        raise _make("NotResumable", message, {"path": os.fspath(directory)}, "resume=True goes on with it")
+        raise exception("NotResumable", message, {"path": os.fspath(directory)}, "resume=True goes on with it")
     return _contact.stored(where, core)

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _core
 from ._contact import Contact
-from .keys import Boundary
+from ._described import described
 from ._optional import need
+from ._raise import bad_input
 from ._same import Comparable
-from ._units import Pair, Quantity, lengths, quantity
-from .errors import bad_input
+from ._units import Pair, Quantity, choice, edges, lengths, matrix, quantity
+from .keys import Boundary
 from .material import Material, _poisson
 
 if TYPE_CHECKING:
@@ -25,22 +26,18 @@ COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 """The components in the order of their storage."""
 
 
+@described
 class Extreme(NamedTuple):
-    """The largest value of a stress and its position.
+    """The largest value of a stress and its position."""
 
-    Attributes
-    ----------
-    value : float
-        The value, Pa.
-    position : tuple of float
-        x and y of the centre of the cell, and the depth, m.
-    cell : tuple of int
-        Index ``(ix, iy)`` of the cell.
-    """
+    value: Annotated[float, "The value, Pa."]
+    position: Annotated[tuple[float, float, float], "x and y of the centre of the cell, and the depth, m."]
+    cell: Annotated[tuple[int, int], "Index ``(ix, iy)`` of the cell."]
 
-    value: float
-    position: tuple[float, float, float]
-    cell: tuple[int, int]
+
+def _component(name: str, text: str) -> Any:
+    """Declares the property of a component, with its docstring."""
+    return property(lambda stress: stress[name], doc=text)
 
 
 class Stress(Comparable):
@@ -99,35 +96,12 @@ class Stress(Comparable):
         part = self._parts[COMPONENTS.index(component)]
         return part if self.shape else float(part)
 
-    @property
-    def xx(self) -> Any:
-        """Normal stress along x, Pa."""
-        return self["xx"]
-
-    @property
-    def yy(self) -> Any:
-        """Normal stress along y, Pa."""
-        return self["yy"]
-
-    @property
-    def zz(self) -> Any:
-        """Normal stress along z, Pa."""
-        return self["zz"]
-
-    @property
-    def yz(self) -> Any:
-        """Shear stress in the y–z plane, Pa."""
-        return self["yz"]
-
-    @property
-    def xz(self) -> Any:
-        """Shear stress in the x–z plane, Pa."""
-        return self["xz"]
-
-    @property
-    def xy(self) -> Any:
-        """Shear stress in the x–y plane, Pa."""
-        return self["xy"]
+    xx = _component("xx", "Normal stress along x, Pa.")
+    yy = _component("yy", "Normal stress along y, Pa.")
+    zz = _component("zz", "Normal stress along z, Pa.")
+    yz = _component("yz", "Shear stress in the y–z plane, Pa.")
+    xz = _component("xz", "Shear stress in the x–z plane, Pa.")
+    xy = _component("xy", "Shear stress in the x–y plane, Pa.")
 
     @cached_property
     def von_mises(self) -> Any:
@@ -150,25 +124,21 @@ class Stress(Comparable):
         return values.reshape(shape) if shape else float(values[0])
 
 
+@described
 class SubsurfaceStress(Stress):
     """The stress in a body on planes parallel to its surface; components are arrays ``[iz, ix, iy]``.
 
     Returned by :func:`asperity.stress`.
-
-    Attributes
-    ----------
-    depths : ndarray
-        Depths of the planes, m.
-    pitch : tuple of float
-        Size of a cell along x and y, m.
-    body : str
-        ``"lower"`` or ``"upper"``.
     """
+
+    depths: Annotated[NDArray[np.float64], "Depths of the planes, m."]
+    pitch: Annotated[tuple[float, float], "Size of a cell along x and y, m."]
+    body: Annotated[str, "``\"lower\"`` or ``\"upper\"``."]
 
     def __init__(self, given: Any, depths: list[float], threads: int) -> None:
         super().__init__(*_core.stress(given, depths, threads))
         self.depths = np.array(depths)
-        self.pitch: tuple[float, float] = given[0][1]
+        self.pitch = given[0][1]
         self.body = "upper" if given[4] else "lower"
         self._given = given
 
@@ -277,8 +247,7 @@ def stress(
     >>> s.most_stressed.cell, f"{s.most_stressed.value / ball.peak_pressure():.2f}"
     ((32, 32), '0.62')
     """
-    if body not in ("lower", "upper"):
-        raise bad_input("body", f"'body' is {body!r}, expected \"lower\" or \"upper\"")
+    choice("body", body, "lower", "upper")
     if isinstance(source, Contact):
         for key, value in (
             ("poisson", poisson), ("material", material), ("boundary", boundary), ("shear", shear), ("pitch", pitch),
@@ -303,32 +272,15 @@ def _of_contact(contact: Contact, body: str) -> Any:
 def _of_tractions(pressure: Any, shear: Any, pitch: Any, boundary: Any, poisson: float, body: str) -> Any:
     if pitch is None:
         raise bad_input("pitch", "'pitch' is missing: how far apart are the tractions?")
-    normal = _traction("pressure", pressure, None)
+    normal = _finite("pressure", matrix("pressure", pressure))
     parts: list[Any] = [None, None] if shear is None else list(shear)
     if len(parts) != 2:
         raise bad_input("shear", f"'shear' has {len(parts)} entries, expected the traction along x and that along y")
-    along = [None if part is None else _traction("shear", part, normal.shape) for part in parts]
-    return (normal, lengths("pitch", pitch)), along, _edges(boundary), poisson, body == "upper"
+    along = [None if part is None else _finite("shear", matrix("shear", part, ("pressure", normal.shape))) for part in parts]
+    return (normal, lengths("pitch", pitch)), along, edges(boundary), poisson, body == "upper"
 
 
-def _edges(boundary: Any) -> list[str]:
-    one = "free" if boundary is None else boundary
-    edges = [one, one] if isinstance(one, str) else list(one)
-    if len(edges) != 2 or any(edge not in ("free", "periodic") for edge in edges):
-        expected = 'expected "free" or "periodic", or one of them for each axis'
-        raise bad_input("boundary", f"'boundary' is {boundary!r}, {expected}")
-    return edges
-
-
-def _traction(key: str, values: Any, shape: tuple[int, ...] | None) -> NDArray[np.float64]:
-    try:
-        found = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise bad_input(key, f"'{key}' is no matrix of numbers: {error}") from error
-    if found.ndim != 2 or 0 in found.shape:
-        raise bad_input(key, f"'{key}' has the shape {found.shape}, expected a matrix [ix, iy]")
-    if shape is not None and found.shape != shape:
-        raise bad_input(key, f"'{key}' has the shape {found.shape}, expected that of the pressure, {shape}")
+def _finite(key: str, found: NDArray[np.float64]) -> NDArray[np.float64]:
     if not np.isfinite(found).all():
         raise bad_input(key, f"'{key}' holds a number that is not finite")
     return found

@@ -3,24 +3,28 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _case, _core
 from ._contact import Contact
+from ._described import described
 from ._keywords import Tasks, takes
-from ._progress import Teller
-from ._run import Run, _path, open
 from ._optional import need
+from ._progress import Teller
+from ._raise import bad_input, exception, warn
+from ._run import Run, _path, open
 from ._same import Comparable
 from ._show import unit_of
 from ._table import Units, frame
 from ._units import path
-from .errors import FailedCases, NoResults, NotResumable, _make, bad_input, warn
+from .errors import FailedCases, NoResults, NotResumable
 
 if TYPE_CHECKING:
+    import pathlib
+
     from matplotlib.axes import Axes
     from pandas import DataFrame
     from typing_extensions import Unpack
@@ -29,6 +33,7 @@ if TYPE_CHECKING:
 _State = NDArray[np.str_]
 
 
+@described
 class Study(Comparable):
     """A study: many variants of one case.
 
@@ -42,19 +47,6 @@ class Study(Comparable):
     out : path, optional
         Directory of the study. By default it has the name of the file without its extension.
 
-    Attributes
-    ----------
-    file : pathlib.Path
-        The study file.
-    directory : pathlib.Path
-        Directory of the study, made by :meth:`run`.
-    title : str
-        Title of the study, by default the name of the file.
-    axes : dict of str to ndarray
-        Values of each axis by its key: numbers in SI, or texts.
-    units : dict of str to str
-        SI unit of each axis; empty for pure numbers and texts.
-
     Raises
     ------
     asperity.errors.CaseError
@@ -62,14 +54,20 @@ class Study(Comparable):
         every axis is checked.
     """
 
+    file: Annotated["pathlib.Path", "The study file."]
+    directory: Annotated["pathlib.Path", "Directory of the study, made by :meth:`run`."]
+    title: Annotated[str, "Title of the study, by default the name of the file."]
+    axes: Annotated[dict[str, NDArray[Any]], "Values of each axis by its key: numbers in SI, or texts."]
+    units: Annotated[dict[str, str], "SI unit of each axis; empty for pure numbers and texts."]
+
     def __init__(self, file: str | os.PathLike[str], out: str | os.PathLike[str] | None = None) -> None:
         self.file = _path(path("file", file))
         self.directory = self.file.with_suffix("") if out is None else _path(path("out", out))
         self._core = _core.Study(os.fspath(self.file), os.fspath(self.directory))
-        self.title: str = self._core.title()
+        self.title = self._core.title()
         axes = self._core.axes()
-        self.axes: dict[str, NDArray[Any]] = {key: np.array(values) for key, _, values in axes}
-        self.units: dict[str, str] = {key: unit for key, unit, _ in axes}
+        self.axes = {key: np.array(values) for key, _, values in axes}
+        self.units = {key: unit for key, unit, _ in axes}
 
     def _compared(self) -> dict[str, Any]:
         return {"plan": self.plan, "table": self.table}
@@ -190,7 +188,7 @@ class Study(Comparable):
             failure = self.failures.get(case)
             if failure is None:
                 raise
-        raise _make("NoResults", f"case {case} failed: {failure}", {"path": directory}, "retry=True computes it again")
+        raise exception("NoResults", f"case {case} failed: {failure}", {"path": directory}, "retry=True computes it again")
 
     @property
     def table_units(self) -> dict[str, str]:

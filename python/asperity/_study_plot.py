@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from ._optional import need
 from ._plot import axes, column, labelled
+from ._raise import bad_input
 from ._show import Scale, largest, scale, words
-from .errors import bad_input
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ._optional import need
 from ._show import largest, scale, unit_of
-from .errors import bad_input
+from ._units import choice
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -122,8 +122,7 @@ def by_word(rows: Sequence[Mapping[str, Any]], name: str) -> dict[str, Table]:
 
 def frame(table: NDArray[np.void], index: list[str], units: Mapping[str, str], shown: Units) -> DataFrame:
     """Makes a DataFrame of a structured array with these SI `units`, in SI or in units to display."""
-    if shown not in ("si", "display"):
-        raise bad_input("units", f"'units' is {shown!r}, expected \"si\" or \"display\"")
+    choice("units", shown, "si", "display")
     pandas = need("pandas", "to_pandas()")
     columns: dict[str, NDArray[Any]] = {}
     told: dict[str, str] = {}

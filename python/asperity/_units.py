@@ -8,9 +8,10 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _core
-from .errors import bad_input
+from ._raise import bad_input
 
 Quantity = float | str
 """A number in SI units, or text with a unit such as ``"210 GPa"``."""
@@ -61,6 +62,36 @@ def whole(key: str, value: Any, least: int, instead: str = "", most: int | None 
     if found is None or found < least or (most is not None and found > most):
         expected = f"of at least {least}" if most is None else f"from {least} to {most}"
         raise bad_input(key, f"'{key}' is {value!r}, expected a whole number {expected}{instead}")
+    return found
+
+
+def choice(key: str, value: Any, *words: str) -> None:
+    """Raises an exception unless the value is one of the words."""
+    if value not in words:
+        expected = " or ".join(f'"{word}"' for word in words)
+        raise bad_input(key, f"'{key}' is {value!r}, expected {expected}")
+
+
+def edges(boundary: Any) -> list[str]:
+    """The boundary along x and along y: one word for both, or one for each; free by default."""
+    one = "free" if boundary is None else boundary
+    both = [one, one] if isinstance(one, str) else list(one)
+    if len(both) != 2 or any(edge not in ("free", "periodic") for edge in both):
+        expected = 'expected "free" or "periodic", or one of them for each axis'
+        raise bad_input("boundary", f"'boundary' is {boundary!r}, {expected}")
+    return both
+
+
+def matrix(key: str, values: Any, like: tuple[str, tuple[int, ...]] | None = None) -> NDArray[np.float64]:
+    """A matrix of numbers, with the shape of the matrix that `like` names if it is given."""
+    try:
+        found = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise bad_input(key, f"'{key}' is no matrix of numbers: {error}") from error
+    if found.ndim != 2 or 0 in found.shape:
+        raise bad_input(key, f"'{key}' has the shape {found.shape}, expected a matrix [ix, iy]")
+    if like is not None and found.shape != like[1]:
+        raise bad_input(key, f"'{key}' has the shape {found.shape}, expected that of the {like[0]}, {like[1]}")
     return found
 
 

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 
 from . import keys
 from ._keywords import takes, with_rows
+from ._raise import bad_input
 from ._same import Comparable
-from .errors import bad_input
 from .material import Material
 from .surface import Surface
 

@@ -9,16 +9,17 @@ from __future__ import annotations
 import html
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import Any, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._described import described
 from ._points import Point, spread
+from ._raise import bad_input
 from ._same import Comparable, same
 from ._units import Quantity, number, quantity, whole
-from .errors import bad_input
 
 __all__ = [
     "Axis",
@@ -52,31 +53,17 @@ _Given = tuple[NDArray[np.float64], tuple[float, float]]
 """Heights and their pitch."""
 
 
+@described
 class Parameter(NamedTuple):
-    """A roughness parameter.
+    """A roughness parameter."""
 
-    Attributes
-    ----------
-    symbol : str
-        Symbol in the ISO standard.
-    value : float
-        Value in SI, a ratio between 0 and 1; NaN if it has no meaning.
-    unit : str
-        SI unit of the value; ``"1"`` for a pure number.
-    family : str
-        ``"height"``, ``"spatial"``, ``"hybrid"``, ``"functional"``, ``"feature"`` or ``"profile"``.
-    meaning : str
-        Meaning in a few words.
-    text : str
-        The value with a suitable unit.
-    """
-
-    symbol: str
-    value: float
-    unit: str
-    family: str
-    meaning: str
-    text: str
+    symbol: Annotated[str, "Symbol in the ISO standard."]
+    value: Annotated[float, "Value in SI, a ratio between 0 and 1; NaN if it has no meaning."]
+    unit: Annotated[str, "SI unit of the value; ``\"1\"`` for a pure number."]
+    family: Annotated[str,
+        "``\"height\"``, ``\"spatial\"``, ``\"hybrid\"``, ``\"functional\"``, ``\"feature\"`` or ``\"profile\"``."]
+    meaning: Annotated[str, "Meaning in a few words."]
+    text: Annotated[str, "The value with a suitable unit."]
 
     def __float__(self) -> float:
         return self.value
@@ -164,39 +151,42 @@ class Parameters(Mapping[str, Parameter]):
         return {symbol: row.value for symbol, row in self._rows.items()}
 
 
+@described
 class Core(NamedTuple):
-    """Core, peaks and pits of a material ratio curve. The names are the letters after S or R, such as Sk and Spk.
+    """Core, peaks and pits of a material ratio curve. The names are the letters after S or R, such as Sk and Spk."""
 
-    Attributes
-    ----------
-    upper, lower : float
-        Heights of the equivalent line at the ratios 0 and 1, from the mean, m.
-    k : float
-        Height of the core, m.
-    pk, vk : float
-        Reduced height of the peaks above the core, reduced depth of the pits below it, m.
-    pkx, vkx : float
-        Height of the highest sample above the core, depth of the lowest sample below it, m.
-    mrk1, mrk2 : float
-        Material ratios at the upper and at the lower end of the core.
-    ak1, ak2 : float
-        Material above and void below the core, m³/m² (for a profile m²/m).
-    """
-
-    upper: float
-    lower: float
-    k: float
-    pk: float
-    vk: float
-    pkx: float
-    vkx: float
-    mrk1: float
-    mrk2: float
-    ak1: float
-    ak2: float
+    upper: Annotated[float, "Height of the equivalent line at the ratio 0, from the mean, m."]
+    lower: Annotated[float, "Height of the equivalent line at the ratio 1, from the mean, m."]
+    k: Annotated[float, "Height of the core, m."]
+    pk: Annotated[float, "Reduced height of the peaks above the core, m."]
+    vk: Annotated[float, "Reduced depth of the pits below the core, m."]
+    pkx: Annotated[float, "Height of the highest sample above the core, m."]
+    vkx: Annotated[float, "Depth of the lowest sample below the core, m."]
+    mrk1: Annotated[float, "Material ratio at the upper end of the core."]
+    mrk2: Annotated[float, "Material ratio at the lower end of the core."]
+    ak1: Annotated[float, "Material above the core, m³/m² (for a profile m²/m)."]
+    ak2: Annotated[float, "Void below the core, m³/m² (for a profile m²/m)."]
 
 
-class BearingCurve(Comparable):
+class _Computed(Comparable):
+    """An object of the compiled module, which is made again from its data where it is unpickled."""
+
+    _kind: Any
+    _data: tuple[Any, ...]
+
+    @cached_property
+    def _core(self) -> Any:
+        return self._kind(*self._data)
+
+    def __getstate__(self) -> dict[str, Any]:
+        cached = {name for name in vars(self) if isinstance(getattr(type(self), name, None), cached_property)}
+        return {name: value for name, value in vars(self).items() if name not in cached}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+
+class BearingCurve(_Computed):
     """Material ratio curve (Abbott–Firestone curve): the height above which a share of the samples lies.
 
     The curve is linear between the samples in descending order; each lies in the middle of its share of the ratio. A ratio outside
@@ -220,22 +210,14 @@ class BearingCurve(Comparable):
     1.5e-06
     """
 
-    def __init__(self, samples: ArrayLike) -> None:
-        self._samples = np.array(samples, dtype=np.float64).ravel()
-        self._core  # noqa: B018
+    _kind = _core.BearingCurve
 
-    @cached_property
-    def _core(self) -> Any:
-        return _core.BearingCurve(self._samples)
+    def __init__(self, samples: ArrayLike) -> None:
+        self._data = (np.array(samples, dtype=np.float64).ravel(),)
+        self._core  # noqa: B018
 
     def _compared(self) -> dict[str, Any]:
         return {"heights": self.heights}
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {"_samples": self._samples}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
 
     def __repr__(self) -> str:
         return f"<BearingCurve of {self.heights.size} samples>"
@@ -271,16 +253,14 @@ class BearingCurve(Comparable):
         return spread((places,), lambda points: self._core.at(what, points[:, 0])[:, np.newaxis])
 
 
+@described
 class Distribution(Comparable):
-    """A probability density over classes of equal width. Its integral is 1.
+    """A probability density over classes of equal width. Its integral is 1."""
 
-    Attributes
-    ----------
-    edges : ndarray
-        Edges of the classes, one more than classes: heights from their mean, m, or slopes.
-    density : ndarray
-        Share of the values in each class over its width, 1/m for heights, 1 for slopes.
-    """
+    edges: Annotated[NDArray[np.float64],
+        "Edges of the classes, one more than classes: heights from their mean, m, or slopes."]
+    density: Annotated[NDArray[np.float64],
+        "Share of the values in each class over its width, 1/m for heights, 1 for slopes."]
 
     def __init__(self, lowest: float, width: float, density: NDArray[np.float64]) -> None:
         self.edges = lowest + width * np.arange(len(density) + 1, dtype=np.float64)
@@ -393,49 +373,36 @@ class Profile(Comparable):
         return BearingCurve(self.heights)
 
 
+@described
 class GreenwoodWilliamson(NamedTuple):
     """A rough surface in the model of Greenwood and Williamson: asperities of one radius with Gaussian heights.
 
     Greenwood & Williamson, Proc. R. Soc. A 295, 300 (1966).
-
-    Attributes
-    ----------
-    density : float
-        Number of asperities per area η, 1/m².
-    radius : float
-        Radius R of the tips, the inverse of their mean curvature, m.
-    height_deviation : float
-        Standard deviation σs of the heights of the asperities, m.
-    mean_height : float
-        Mean height of the summits above the mean of the surface, m.
     """
 
-    density: float
-    radius: float
-    height_deviation: float
-    mean_height: float
+    density: Annotated[float, "Number of asperities per area η, 1/m²."]
+    radius: Annotated[float, "Radius R of the tips, the inverse of their mean curvature, m."]
+    height_deviation: Annotated[float, "Standard deviation σs of the heights of the asperities, m."]
+    mean_height: Annotated[float, "Mean height of the summits above the mean of the surface, m."]
 
 
+@described
 class SpectralMoments(Comparable):
     """Spectral moments: variances of the heights and, along x and y, of slope and curvature.
 
     The shortest waves dominate m₂ and m₄. Longuet-Higgins, Phil. Trans. R. Soc. A 249, 321 (1957); Nayak, J. Lubr. Technol.
     93, 398 (1971).
-
-    Attributes
-    ----------
-    m0 : float
-        Variance of the heights, m².
-    m2, m4 : tuple of float
-        Variances along x and y of the slope, and of the curvature, 1 and 1/m².
-    mean_m2, mean_m4 : float
-        Means over x and y, for an isotropic surface, 1 and 1/m².
-    bandwidth : float
-        Nayak's α = m₀m₄/m₂² with the means: 3/2 for an isotropic surface of a single wavelength.
     """
 
+    m0: Annotated[float, "Variance of the heights, m²."]
+    m2: Annotated[tuple[float, float], "Variances of the slope along x and y."]
+    m4: Annotated[tuple[float, float], "Variances of the curvature along x and y, 1/m²."]
+    mean_m2: Annotated[float, "Mean of `m2` over x and y, for an isotropic surface."]
+    mean_m4: Annotated[float, "Mean of `m4` over x and y, for an isotropic surface, 1/m²."]
+    bandwidth: Annotated[float,
+        "Nayak's α = m₀m₄/m₂² with the means: 3/2 for an isotropic surface of a single wavelength."]
+
     def __init__(self, found: Any) -> None:
-        self.m0: float
         self.m0, m2, m4, self.mean_m2, self.mean_m4, self.bandwidth, asperities = found
         self.m2 = (float(m2[0]), float(m2[1]))
         self.m4 = (float(m4[0]), float(m4[1]))
@@ -453,77 +420,54 @@ class SpectralMoments(Comparable):
         return self._asperities
 
 
+@described
 class SelfAffinity(NamedTuple):
-    """The best fit of a self-affine law: C(q) ∝ q^(−2−2H), or mean square height differences ∝ τ^(2H).
+    """The best fit of a self-affine law: C(q) ∝ q^(−2−2H), or mean square height differences ∝ τ^(2H)."""
 
-    Attributes
-    ----------
-    hurst, hurst_error : float
-        Hurst exponent H and its standard error.
-    range : tuple of float
-        First and last fitted abscissa: wave numbers, rad/m, or lags, m.
-    points : int
-        Number of fitted points.
-    decades : float
-        Decades of the fitted range.
-    fractal_dimension : float
-        Fractal dimension 3 − H.
-    doubt : str or None
-        Reason why the exponent may be only a slope of the spectrum and no law of the surface.
-    """
-
-    hurst: float
-    hurst_error: float
-    range: tuple[float, float]
-    points: int
-    decades: float
-    fractal_dimension: float
-    doubt: str | None
+    hurst: Annotated[float, "Hurst exponent H."]
+    hurst_error: Annotated[float, "Standard error of the Hurst exponent."]
+    range: Annotated[tuple[float, float], "First and last fitted abscissa: wave numbers, rad/m, or lags, m."]
+    points: Annotated[int, "Number of fitted points."]
+    decades: Annotated[float, "Decades of the fitted range."]
+    fractal_dimension: Annotated[float, "Fractal dimension 3 − H."]
+    doubt: Annotated[str | None,
+        "Reason why the exponent may be only a slope of the spectrum and no law of the surface."]
 
 
-def _law(found: Any) -> SelfAffinity:
+def law(found: Any) -> SelfAffinity:
+    """The law that the compiled module has found."""
     hurst, error, ends, points, decades, dimension, doubt = found
     return SelfAffinity(hurst, error, (ends[0], ends[1]), points, decades, dimension, doubt)
 
 
 _SPECTRAL = np.dtype([("wave_number", np.float64), ("density", np.float64), ("waves", np.int64)])
-_LAGS = np.dtype([("lag", np.float64), ("value", np.float64)])
+LAGS = np.dtype([("lag", np.float64), ("value", np.float64)])
 
 
-class Spectrum(Comparable):
+@described
+class Spectrum(_Computed):
     """Power spectral density of a surface, C(q) = abs(z̃(q))²/A, m⁴.
 
     Without a window, its integral over wave vectors of both signs divided by (2π)² is Sq². Undefined samples are filled by a
     membrane. Jacobs, Junge & Pastewka, Surf. Topogr.: Metrol. Prop. 5, 013001 (2017).
 
     Returned by :meth:`asperity.Surface.spectrum`.
-
-    Attributes
-    ----------
-    window : str
-        The window.
     """
 
+    window: Annotated[str, "The window."]
+
+    _kind = _core.Spectrum
+
     def __init__(self, given: _Given, window: str) -> None:
-        self._given = given
+        self._data = (given, window)
         self.window = window
         self._core  # noqa: B018
 
-    @cached_property
-    def _core(self) -> Any:
-        return _core.Spectrum(self._given, self.window)
-
     def _compared(self) -> dict[str, Any]:
-        return {"density": self.density, "pitch": self._given[1], "window": self.window}
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {"_given": self._given, "window": self.window}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
+        return {"density": self.density, "pitch": self._data[0][1], "window": self.window}
 
     def __repr__(self) -> str:
-        nx, ny = self._given[0].shape
+        nx, ny = self._data[0][0].shape
         return f"<Spectrum of {nx} × {ny} samples, window {self.window!r}>"
 
     @cached_property
@@ -614,41 +558,31 @@ class Spectrum(Comparable):
         asperity.errors.OutOfRange
             If there are fewer than three points, or no range that follows a law.
         """
-        fit = None if wave_numbers is None else _range("wave_numbers", wave_numbers)
-        return _law(self._core.self_affinity(fit, whole("per_decade", per_decade, 1)))
+        fit = None if wave_numbers is None else ascending("wave_numbers", wave_numbers)
+        return law(self._core.self_affinity(fit, whole("per_decade", per_decade, 1)))
 
 
-class Correlation(Comparable):
+@described
+class Correlation(_Computed):
     """Autocorrelation function R(τ) = ⟨z(x) z(x + τ)⟩ over all pairs of defined samples, m².
 
     Returned by :meth:`asperity.Surface.autocorrelation`. The autocorrelation of ISO 25178-2 is R(τ)/R(0).
-
-    Attributes
-    ----------
-    periodic : bool
-        Whether the surface was treated as periodic.
     """
 
+    periodic: Annotated[bool, "Whether the surface was treated as periodic."]
+
+    _kind = _core.Correlation
+
     def __init__(self, given: _Given, periodic: bool) -> None:
-        self._given = given
+        self._data = (given, periodic)
         self.periodic = periodic
         self._core  # noqa: B018
 
-    @cached_property
-    def _core(self) -> Any:
-        return _core.Correlation(self._given, self.periodic)
-
     def _compared(self) -> dict[str, Any]:
-        return {"values": self.values, "pitch": self._given[1]}
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {"_given": self._given, "periodic": self.periodic}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
+        return {"values": self.values, "pitch": self._data[0][1]}
 
     def __repr__(self) -> str:
-        nx, ny = self._given[0].shape
+        nx, ny = self._data[0][0].shape
         return f"<Correlation of {nx} × {ny} samples{', periodic' if self.periodic else ''}>"
 
     @cached_property
@@ -660,7 +594,7 @@ class Correlation(Comparable):
     @property
     def lags(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lags along x and y of the rows and columns of `values`, m: half the surface in both directions."""
-        (nx, ny), (dx, dy) = self.values.shape, self._given[1]
+        (nx, ny), (dx, dy) = self.values.shape, self._data[0][1]
         x, y = np.arange(nx, dtype=np.float64), np.arange(ny, dtype=np.float64)
         return dx * (x - nx // 2), dy * (y - ny // 2)
 
@@ -671,11 +605,11 @@ class Correlation(Comparable):
 
     def along(self, axis: Axis) -> NDArray[np.void]:
         """Return R along an axis from lag 0 on: records of `lag`, m, and `value`, m²."""
-        return np.array(self._core.along(axis), dtype=_LAGS)
+        return np.array(self._core.along(axis), dtype=LAGS)
 
     def radial(self) -> NDArray[np.void]:
         """Return the mean of R over all directions: records of `lag`, m, and `value`, m²."""
-        return np.array(self._core.radial(), dtype=_LAGS)
+        return np.array(self._core.radial(), dtype=LAGS)
 
     def decay_length(self, angle: Quantity, level: float = 0.2) -> float:
         """Return the lag at which R(τ)/R(0) first falls to `level`, below 1, in a direction, m; NaN if it does not.
@@ -690,18 +624,17 @@ class Correlation(Comparable):
         return fastest, slowest
 
 
+@described
 class Summits(Comparable):
     """The summits of a surface: the samples higher than their eight neighbours.
 
     Their number depends on the pitch (Greenwood, Proc. R. Soc. A 393, 133, 1984).
-
-    Attributes
-    ----------
-    summits : ndarray
-        A record for each summit: its sample `ix`, `iy`; `height` above the mean, m; mean `curvature`, 1/m, not negative.
-    area : float
-        Area that was searched for summits, m².
     """
+
+    summits: Annotated[NDArray[np.float64],
+        "A record for each summit: its sample `ix`, `iy`; `height` above the mean, m; mean `curvature`, 1/m, not "
+        "negative."]
+    area: Annotated[float, "Area that was searched for summits, m²."]
 
     _DTYPE = np.dtype([("ix", np.int64), ("iy", np.int64), ("height", np.float64), ("curvature", np.float64)])
 
@@ -721,21 +654,21 @@ class Summits(Comparable):
         return self._asperities
 
 
+@described
 class Segmentation(Comparable):
     """A surface divided into hills around its peaks, or into dales around its pits.
 
     Insignificant ones are pruned. ISO 25178-2:2012, 3.3.1; ISO 16610-85; Wolf, Computers & Geosciences 17, 1359 (1991).
-
-    Attributes
-    ----------
-    labels : ndarray
-        Number of the hill or dale of each sample, from 1 in the order of `motifs`; 0 without one.
-    motifs : ndarray
-        A record for each hill or dale, beginning with the highest peak or the deepest pit: the sample `ix`, `iy` of the peak or
-        pit; its `height`, m; the height of its `saddle`, m; `local_height` between the two, m; `prominence`, the threshold above
-        which it would be pruned, m; mean `curvature`, 1/m, at least 0 at a peak, at most 0 at a pit; `area`, m²; `volume` above or
-        below the saddle, m³; `closed`, whether it stays clear of the rim at half the material.
     """
+
+    labels: Annotated[NDArray[np.float64],
+        "Number of the hill or dale of each sample, from 1 in the order of `motifs`; 0 without one."]
+    motifs: Annotated[NDArray[np.float64],
+        "A record for each hill or dale, beginning with the highest peak or the deepest pit: the sample `ix`, `iy` of "
+        "the peak or pit; its `height`, m; the height of its `saddle`, m; `local_height` between the two, m; "
+        "`prominence`, the threshold above which it would be pruned, m; mean `curvature`, 1/m, at least 0 at a peak, "
+        "at most 0 at a pit; `area`, m²; `volume` above or below the saddle, m³; `closed`, whether it stays clear of "
+        "the rim at half the material."]
 
     _DTYPE = np.dtype(
         [
@@ -757,59 +690,8 @@ class Segmentation(Comparable):
         return f"<Segmentation: {len(self)} motifs on {nx} × {ny} samples>"
 
 
-def parameters(given: _Given) -> Parameters:
-    """Computes all parameters of ISO 25178."""
-    return Parameters(_core.parameters(given))
-
-
-def feature_parameters(given: _Given, pruning: float) -> Parameters:
-    """Computes the feature parameters of ISO 25178."""
-    return Parameters(_core.feature_parameters(given, _share(pruning)))
-
-
-def profile(given: _Given, axis: str, index: int) -> Profile:
-    """Takes the profile along an axis."""
-    heights, pitch = _core.profile(given, axis, whole("index", index, 0))
-    return Profile(heights, pitch)
-
-
-def profile_parameters(given: _Given, axis: str, cutoff: Quantity) -> Parameters:
-    """Computes parameters of the roughness profiles along an axis."""
-    return Parameters(_core.profile_parameters(given, axis, quantity("cutoff", cutoff, "length")))
-
-
-def distribution(given: _Given, slope: str | None, classes: int | None) -> Distribution:
-    """Computes the distribution of heights or of a slope."""
-    count = None if classes is None else whole("classes", classes, 1)
-    return Distribution(*_core.distribution(given, slope, count))
-
-
-def moments_by_differences(given: _Given) -> SpectralMoments:
-    """Computes the spectral moments from differences between samples."""
-    return SpectralMoments(_core.moments_by_differences(given))
-
-
-def self_affinity_of_differences(given: _Given, axis: str, lags: tuple[float, float]) -> SelfAffinity:
-    """Fits a self-affine law to the height differences."""
-    return _law(_core.self_affinity_of_differences(given, axis, _range("lags", lags)))
-
-
-def height_differences(given: _Given, axis: str) -> NDArray[np.void]:
-    """Computes mean square height differences by lag."""
-    return np.array(_core.height_differences(given, axis), dtype=_LAGS)
-
-
-def summits(given: _Given) -> Summits:
-    """Finds the summits."""
-    return Summits(_core.summits(given))
-
-
-def segments(given: _Given, dales: bool, pruning: float) -> Segmentation:
-    """Divides a surface into hills or dales."""
-    return Segmentation(_core.segments(given, dales, _share(pruning)))
-
-
-def _share(pruning: Any) -> float:
+def share_of_sz(pruning: Any) -> float:
+    """The threshold of a pruning."""
     return number("pruning", pruning, "a share of Sz from 0 to 1", 0.0, 1.0)
 
 
@@ -817,7 +699,8 @@ def _level(level: Any) -> float:
     return number("level", level, "a part of R(0) below 1", -1.0, np.nextafter(1.0, 0.0))
 
 
-def _range(key: str, value: Any) -> list[float]:
+def ascending(key: str, value: Any) -> list[float]:
+    """Two numbers that ascend."""
     try:
         low, high = (float(end) for end in value)
     except (TypeError, ValueError):

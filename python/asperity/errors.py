@@ -3,14 +3,16 @@
 Every exception is an :class:`AsperityError`. Bad input is a :class:`ValueError`, a computation that failed a
 :class:`RuntimeError`, and a problem with a file or a directory an :class:`OSError`. A hint, if there is one, is a note
 (:pep:`678`), which tracebacks show.
+
+This file is made from the variants of the library's error: ``UPDATE=1 cargo test -p asperity-study``.
 """
 
 from __future__ import annotations
 
-import os
-import sys
-import warnings
-from typing import Any
+from typing import Annotated
+
+from ._described import described
+from ._exceptions import AsperityError, BadInput, CaseError, Failed, FailedCases, FileProblem, InternalError, ModelWarning
 
 __all__ = [
     "AsperityError",
@@ -31,7 +33,6 @@ __all__ = [
     "FailedCases",
     "File",
     "FileProblem",
-    "PlasticNotConverged",
     "GridMismatch",
     "InUse",
     "InternalError",
@@ -58,6 +59,7 @@ __all__ = [
     "OutOfRange",
     "OwnUnit",
     "PeriodicFullContact",
+    "PlasticNotConverged",
     "PullOff",
     "RanksDiffer",
     "ResultsExist",
@@ -72,364 +74,395 @@ __all__ = [
 ]
 
 
-class AsperityError(Exception):
-    """Base of all exceptions of asperity."""
-
-    hint: str | None = None
-    """Advice on what to do, if there is any."""
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return (type(self), (str(self),), dict(self.__dict__))
-
-
-class BadInput(AsperityError, ValueError):
-    """An argument, a key of a case or the content of a file is invalid."""
-
-
-class Failed(AsperityError, RuntimeError):
-    """A computation failed."""
-
-
-class FileProblem(AsperityError, OSError):
-    """A file or a directory cannot be read, written or used."""
-
-    path: str
-
-    def __str__(self) -> str:
-        return str(self.args[0]) if self.args else ""
-
-
+@described
 class OutOfRange(BadInput):
-    """A quantity is out of its range: `quantity`, `value` in SI, `expected`."""
+    """A quantity lies outside its valid range."""
 
-    quantity: str
-    value: float
-    expected: str
+    quantity: Annotated[str, "The quantity's name, as the user knows it."]
+    value: Annotated[float, "The value given, SI."]
+    expected: Annotated[str, "The accepted values."]
 
 
+@described
 class GridMismatch(BadInput):
-    """Two grids that must agree do not: `what` differs, and its values on the `left` and on the `right`."""
+    """Two grids that must agree do not."""
 
-    what: str
-    left: str
-    right: str
+    what: Annotated[str, "The property that must agree, for example \"pitch of the two bodies\"."]
+    left: Annotated[str, "Its value on the first grid."]
+    right: Annotated[str, "Its value on the second grid."]
+
+
+@described
+class TooManyRanks(BadInput):
+    """More ranks than rows of the grid that is divided among them."""
+
+    ranks: Annotated[int, "Number of ranks."]
+    rows: Annotated[int, "Number of rows."]
+
+
+@described
+class RanksDiffer(BadInput):
+    """Ranks that compute one contact together differ in something that must be the same."""
+
+    rank: Annotated[int, "The first rank that differs."]
+    what: Annotated[str, "The differing property, for example \"version of asperity\"."]
 
 
 class Unsupported(BadInput):
-    """A combination is not supported."""
+    """A combination that is not supported."""
 
 
-class CaseError(BadInput):
-    """An argument or a key of a case is wrong: `key`, with dots. In a case file also `path`, `line` and `column`, from 1."""
-
-    key: str
-
-
+@described
 class NotATopography(BadInput):
-    """A file has none of the known formats: `path`, `reason`, `export`."""
+    """A file in none of the supported formats."""
+
+    path: Annotated[str, "The file."]
+    reason: Annotated[str, "The apparent kind of the file."]
+    export: Annotated[str, "Advice on an export that is read; empty if any format that is read will do."]
 
 
+@described
 class CorruptTopography(BadInput):
-    """A topography file is damaged: `path`, `format`, `reason`."""
+    """A file of a known format that is damaged, or that uses an unsupported part of the format."""
+
+    path: Annotated[str, "The file."]
+    format: Annotated[str, "The format it was recognised as."]
+    reason: Annotated[str, "The defect and its place."]
 
 
+@described
 class NoChannel(BadInput):
-    """A file has no such channel: `path`, `channel`, `available`."""
+    """A channel that the file does not have, or no channel given for a file with several."""
+
+    path: Annotated[str, "The file."]
+    channel: Annotated[str, "The requested channel; empty if none was given."]
+    available: Annotated[list[str], "The channels of the file."]
 
 
+@described
 class OwnUnit(BadInput):
-    """A unit is given for a file that has one: `path`, `format`."""
+    """A unit given for a file that states the unit of its heights."""
+
+    path: Annotated[str, "The file."]
+    format: Annotated[str, "The format it was recognised as."]
 
 
+@described
 class OptionOfText(BadInput):
-    """``lines`` or ``skip`` is given for a file whose format leaves nothing open: `path`, `format`, `option`."""
+    """An option for text or for a matrix of open order, given for a file of another format."""
+
+    path: Annotated[str, "The file."]
+    format: Annotated[str, "The format it was recognised as."]
+    option: Annotated[str, "`lines` or `skip`."]
 
 
+@described
 class NoPitch(BadInput):
-    """A file has no pitch, and none is given: `path`, `format`."""
+    """A topography file without a pitch, and no pitch given."""
+
+    path: Annotated[str, "The file."]
+    format: Annotated[str, "The format it was recognised as."]
 
 
+@described
 class NoFormat(BadInput):
-    """The extension of a file belongs to no format: `path`."""
+    """A file name whose extension names no format for writing a topography."""
+
+    path: Annotated[str, "The file."]
 
 
+@described
 class UndefinedSamples(BadInput):
-    """Heights are missing: `undefined` of `samples`."""
+    """A topography with undefined samples where every sample is needed."""
 
-    undefined: int
-    samples: int
+    undefined: Annotated[int, "Number of undefined samples."]
+    samples: Annotated[int, "Number of all samples."]
 
 
+@described
 class NothingDefined(BadInput):
-    """None of the heights is defined: `samples`."""
+    """A topography without any defined sample, so that nothing can be filled."""
+
+    samples: Annotated[int, "Number of all samples."]
 
 
+@described
 class WindowOutside(BadInput):
-    """A window does not lie within the surface: `window`, `shape`."""
+    """A window that does not lie within the topography."""
+
+    window: Annotated[list[int], "First sample and number of samples, `[x0, y0, nx, ny]`."]
+    shape: Annotated[list[int], "Samples of the topography along x and y."]
 
 
-class OtherCase(BadInput):
-    """The results to resume belong to another case: `path`, `key`, `before`, `now`."""
-
-
-class SurfaceChanged(BadInput):
-    """A surface has changed since the results to resume were begun: `path`, `file`."""
-
-
-class NoField(BadInput):
-    """There is no field of that name: `path`, `name`, `available`."""
-
-
+@described
 class BeyondPlasticLimit(Failed):
-    """The load exceeds the load of all cells at the hardness: `load`, `limit`, N."""
+    """The load exceeds what the bodies can carry with every cell at the hardness."""
 
-    load: float
-    limit: float
+    load: Annotated[float, "The requested load, N."]
+    limit: Annotated[float, "The largest load that can be carried, N."]
 
 
+@described
 class BeyondFriction(Failed):
-    """A tangential force exceeds the largest friction force: `force`, `limit`, N."""
+    """The tangential force exceeds the friction limit: the bodies slide."""
 
-    force: float
-    limit: float
-
-
-class NotConverged(Failed):
-    """The solver stopped above the tolerance: `iterations`, `residual`, `tolerance`."""
-
-    iterations: int
-    residual: float
-    tolerance: float
+    force: Annotated[float, "The requested force, N."]
+    limit: Annotated[float, "The friction limit, N; the force must be smaller."]
 
 
+@described
 class NoDevice(BadInput):
-    """There is no such device, or the package was built without it: `device`, and what was `found`."""
+    """No device of the requested kind."""
 
-    device: str
-    found: str
+    device: Annotated[str, "The device, as the user named it."]
+    found: Annotated[str, "The devices or libraries that are there, or what is missing."]
 
 
+@described
 class DeviceMemory(Failed):
-    """A device has too little memory: `device`, its name; `needed` and `free`, bytes."""
+    """A device has too little memory."""
 
-    device: str
-    needed: float
-    free: float
+    device: Annotated[str, "Name of the device."]
+    needed: Annotated[float, "Memory that the contact takes, bytes."]
+    free: Annotated[float, "Memory that is free, bytes."]
 
 
+@described
 class DeviceFailed(Failed):
-    """A device or its driver failed: `device`, its name, and the `reason`."""
+    """A device, its driver or one of its libraries failed."""
 
-    device: str
-    reason: str
+    device: Annotated[str, "Name of the device."]
+    reason: Annotated[str, "The message of the driver or of the library."]
 
 
+@described
+class NotConverged(Failed):
+    """The iteration stopped above the tolerance."""
+
+    iterations: Annotated[int, "Iterations spent."]
+    residual: Annotated[float, "Scale-free complementarity residual η reached."]
+    tolerance: Annotated[float, "The requested η."]
+
+
+@described
 class PeriodicFullContact(Failed):
-    """At this approach a periodic contact has no solution: `approach`, `mean_gap`, m."""
+    """An approach at which a periodic contact has no solution: the mean displacement is free there."""
+
+    approach: Annotated[float, "The requested approach, m."]
+    mean_gap: Annotated[float, "The mean undeformed gap, the limit of the approach, m."]
 
 
+@described
 class PullOff(Failed):
-    """The `load` pulls the bodies apart: adhesion holds at most `least`, the pull-off force, N."""
+    """A load that pulls the bodies apart. Adhesion holds no more than `least`."""
 
-    load: float
-    least: float
+    load: Annotated[float, "The requested load, N."]
+    least: Annotated[float, "The least load found on the way apart, the pull-off force, N."]
 
 
+@described
 class LoadNotReached(Failed):
-    """No approach gives the mean load of a pass: `load`, `below`, N; `trials`; `approach`, m."""
+    """No approach was found that gives the requested pass-mean load."""
+
+    load: Annotated[float, "The requested pass-mean load, N."]
+    below: Annotated[float, "The largest load found that is smaller, N."]
+    trials: Annotated[int, "Approaches tried."]
+    approach: Annotated[float, "The last approach tried, m."]
 
 
+@described
 class BeyondPass(Failed):
-    """One approach for a whole pass cannot carry the load: `load`, `most`, N; `approach`, m; `cause`."""
+    """The requested load exceeds the largest that one approach for a whole pass can carry."""
+
+    load: Annotated[float, "The requested pass-mean load, N."]
+    most: Annotated[float, "The load at the approach, N."]
+    approach: Annotated[float, "The upper limit of the search for an approach, m."]
+    cause: Annotated[str, "The reason for the limit."]
 
 
+@described
 class AtPosition(Failed):
-    """A position of a motion could not be solved: `pass_number`, `position`, `positions`, and the `cause`."""
+    """A position of a motion could not be solved."""
 
-    cause: AsperityError
+    pass_number: Annotated[int, "The pass, from 1."]
+    position: Annotated[int, "The position, from 1."]
+    positions: Annotated[int, "Positions of the pass."]
+    cause: Annotated[AsperityError, "The cause."]
 
 
+@described
 class AtPoint(Failed):
-    """A point of a sweep could not be solved: `point`, `points`, and the `cause`."""
+    """A point of a load sweep could not be solved."""
 
-    cause: AsperityError
+    point: Annotated[int, "The point, from 1."]
+    points: Annotated[int, "Points of the sweep."]
+    cause: Annotated[AsperityError, "The cause."]
 
 
+@described
 class AtIncrement(Failed):
-    """An increment of a load could not be solved: `increment`, from 1, and the `cause`."""
+    """An increment of a load could not be solved."""
 
-    increment: int
-    cause: AsperityError
+    increment: Annotated[int, "The increment, from 1."]
+    cause: Annotated[AsperityError, "The cause."]
 
 
+@described
 class AtPass(Failed):
-    """A pass as a whole has no valid result: `pass_number`, from 1, and the `cause`."""
+    """A pass as a whole could not be solved, or its result is no longer a surface or not finite."""
 
-    cause: AsperityError
+    pass_number: Annotated[int, "The computed pass, from 1."]
+    cause: Annotated[AsperityError, "The cause."]
 
 
+@described
 class AtUpdate(Failed):
-    """An update of a contact that slides in place has no valid result: `update`, from 1 (0 before the first), and the `cause`."""
+    """An update of a contact that slides in place could not be solved, or its result is no longer a surface or not finite."""
 
-    update: int
-    cause: AsperityError
+    update: Annotated[int, "The update, from 1; 0 before the first."]
+    cause: Annotated[AsperityError, "The cause."]
 
 
+@described
 class NotFinite(Failed):
-    """A result is NaN or infinite: `field`, and `cell`, the index of the first such cell along each axis (empty for a number)."""
+    """A result is NaN or infinite."""
 
-    field: str
-    cell: list[int]
+    field: Annotated[str, "Name of the field, column or number."]
+    cell: Annotated[list[int], "Index of the first such cell along each axis, from 0; empty for a single number."]
 
 
+@described
 class WornAway(Failed):
-    """A `body` loses more height than it is long, and is no longer a surface: `depth`, `length`, m."""
+    """A body loses more material than it is long: it is no longer a surface."""
 
-    body: str
-    depth: float
-    length: float
+    body: Annotated[str, "The body: \"lower\" or \"upper\"."]
+    depth: Annotated[float, "The height that it loses, m."]
+    length: Annotated[float, "The longer side of its grid, m."]
 
 
+@described
 class PlasticNotConverged(Failed):
-    """The return mapping of plastic strain did not converge: `products`, `mismatch` over the yield stress, `tolerance`."""
+    """The return mapping did not converge: plastic strain and stress do not agree."""
 
-    products: int
-    mismatch: float
-    tolerance: float
+    products: Annotated[int, "Applications of the residual-stress operator."]
+    mismatch: Annotated[float, "Return-mapping residual over the yield stress."]
+    tolerance: Annotated[float, "The requested tolerance."]
 
 
+@described
 class Memory(Failed):
-    """A computation needs more memory than is available: `needed`, `available`, bytes."""
+    """A computation needs more memory than is free."""
 
-    needed: float
-    available: float
+    needed: Annotated[float, "The memory needed, bytes."]
+    available: Annotated[float, "The free memory, bytes."]
 
 
+@described
 class Threads(Failed):
-    """Threads cannot be started: `reason`."""
+    """Threads could not be created."""
 
-    reason: str
+    reason: Annotated[str, "Message of the operating system."]
 
 
 class Interrupted(Failed):
-    """A computation was interrupted."""
+    """The caller asked the computation to stop."""
 
 
+@described
+class ResultsExist(FileProblem, FileExistsError):
+    """The directory for the results is not empty."""
+
+    path: Annotated[str, "The directory."]
+    results: Annotated[bool, "Whether it holds results of this program."]
+
+
+@described
+class WithinResults(FileProblem):
+    """The directory for the results lies within other results."""
+
+    path: Annotated[str, "The directory."]
+    results: Annotated[str, "The directory of the other results."]
+
+
+@described
+class OtherCase(BadInput):
+    """The results to resume belong to another case."""
+
+    path: Annotated[str, "The directory."]
+    key: Annotated[str, "The first key that differs, dotted."]
+    before: Annotated[str, "The key's value in the results, JSON."]
+    now: Annotated[str, "The key's value in the case, JSON."]
+
+
+@described
+class SurfaceChanged(BadInput):
+    """A surface file has changed since the results to resume were begun."""
+
+    path: Annotated[str, "The directory."]
+    file: Annotated[str, "The surface file."]
+
+
+@described
+class NotResumable(FileProblem):
+    """The results to resume are incomplete."""
+
+    path: Annotated[str, "The file at fault."]
+    reason: Annotated[str, "The defect."]
+
+
+@described
+class OtherRows(FileProblem):
+    """The file of a rank holds other rows than the index of the run states."""
+
+    path: Annotated[str, "The file at fault."]
+    rows: Annotated[list[int], "First and last row in the file."]
+    ranks: Annotated[int, "Number of ranks of the run that wrote it."]
+    expected: Annotated[list[int], "First and last row expected."]
+    expected_ranks: Annotated[int, "Number of ranks in the index."]
+
+
+@described
+class InUse(FileProblem):
+    """Another process writes its results to the directory."""
+
+    path: Annotated[str, "The directory."]
+
+
+@described
+class NoResults(FileProblem):
+    """A directory without results."""
+
+    path: Annotated[str, "The directory."]
+
+
+@described
+class NotThisStudy(FileProblem):
+    """The directory for a study holds something else."""
+
+    path: Annotated[str, "The directory."]
+    what: Annotated[str, "Its content: \"holds another study\"."]
+
+
+@described
 class File(FileProblem):
-    """A file could not be read or written: `path`, `errno`, `reason`."""
+    """A file could not be read or written."""
+
+    path: Annotated[str, "The file."]
+    errno: Annotated[int | None, "Number of the error of the operating system."]
+    reason: Annotated[str, "Message of the operating system."]
+
+
+@described
+class NoField(BadInput):
+    """A field that a results file does not have."""
+
+    path: Annotated[str, "The file."]
+    name: Annotated[str, "The requested field."]
+    available: Annotated[list[str], "The fields of the file."]
 
 
 class MissingFile(File, FileNotFoundError):
-    """A file does not exist: `path`."""
-
-
-class ResultsExist(FileProblem, FileExistsError):
-    """A directory for results is not empty: `path`; `results`, whether it contains results."""
-
-
-class WithinResults(FileProblem):
-    """A directory for results lies within other results: `path`, `results`."""
-
-
-class NotResumable(FileProblem):
-    """The results to resume are incomplete: `path`, `reason`."""
-
-
-class InUse(FileProblem):
-    """Another run writes its results there: `path`."""
-
-
-class NotThisStudy(FileProblem):
-    """A directory for a study contains something else: `path`, `what`."""
-
-
-class NoResults(FileProblem):
-    """A directory contains no results: `path`."""
-
-
-class TooManyRanks(BadInput):
-    """There are more ranks than rows of the grid: `ranks`, `rows`."""
-
-    ranks: int
-    rows: int
-
-
-class OtherRows(FileProblem):
-    """The file of a rank contains other rows than the index of its run says.
-
-    `path`; `rows`, the first and the last row of the file, and `ranks`, the number of ranks of its run; `expected` and
-    `expected_ranks`, the same in the index.
-    """
-
-    rows: list[int]
-    ranks: int
-    expected: list[int]
-    expected_ranks: int
-
-
-class RanksDiffer(BadInput):
-    """The ranks of one contact differ in their input: `rank`, `what`."""
-
-    rank: int
-    what: str
-
-
-class InternalError(AsperityError, RuntimeError):
-    """A mistake in asperity itself. Please report it."""
-
-
-class ModelWarning(UserWarning):
-    """A model may not hold, or a result is less certain than it looks."""
-
-
-class FailedCases(UserWarning):
-    """Cases of a study could not be computed."""
-
-
-def warn(texts: list[str], category: type[UserWarning] = ModelWarning) -> None:
-    """Warns of each text at the line that called asperity."""
-    package = os.path.dirname(__file__)
-    level, frame = 1, sys._getframe()
-    while frame.f_back is not None and frame.f_code.co_filename.startswith(package):
-        level, frame = level + 1, frame.f_back
-    for text in texts:
-        warnings.warn(text, category, stacklevel=level)
-
-
-class Warner:
-    """Warns of each text once, at the line that called asperity."""
-
-    def __init__(self) -> None:
-        self._texts: set[str] = set()
-
-    def __call__(self, text: str) -> None:
-        """Warn of a text that is new."""
-        self.all([text])
-
-    def all(self, texts: list[str]) -> None:
-        """Warn of the texts that are new."""
-        new = [text for text in texts if text not in self._texts]
-        self._texts.update(new)
-        warn(new)
-
-
-def bad_input(key: str, message: str, hint: str | None = None) -> AsperityError:
-    """Makes the exception of an invalid argument, to be raised."""
-    return _make("CaseError", message, {"key": key}, hint)
-
-
-def _make(name: str, message: str, attributes: dict[str, Any], hint: str | None) -> AsperityError:
-    """Makes the exception of that name. The compiled module calls it."""
-    if name == "File" and attributes.get("errno") == 2:
-        name = "MissingFile"
-    error: AsperityError = globals()[name](message)
-    for key, value in attributes.items():
-        setattr(error, key, str(value) if isinstance(value, os.PathLike) else value)
-    if hint is not None:
-        error.hint = hint
-        # From Python 3.11 on tracebacks show them.
-        error.__dict__["__notes__"] = [f"hint: {hint}"]
-    return error
+    """A file does not exist."""
 
 
 def __dir__() -> list[str]:

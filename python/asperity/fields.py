@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ._described import described
 from ._optional import need
 from ._same import Comparable, same
 
@@ -16,24 +17,16 @@ if TYPE_CHECKING:
     from xarray import DataArray, Dataset
 
 
+@described
 class Field(Comparable):
-    """An array of a result with its unit and its grid.
+    """An array of a result with its unit and its grid."""
 
-    Attributes
-    ----------
-    name : str
-        Name of the field.
-    values : ndarray
-        The values; those of a field on cells are indexed ``[ix, iy]``.
-    unit : str
-        SI unit of the values.
-    axes : tuple of str
-        Names of the axes.
-    pitch : tuple of float
-        Distance of neighbouring values along each axis, m.
-    origin : tuple of float
-        Position of the first value along each axis, m.
-    """
+    name: Annotated[str, "Name of the field."]
+    values: Annotated[NDArray[np.float64], "The values; those of a field on cells are indexed ``[ix, iy]``."]
+    unit: Annotated[str, "SI unit of the values."]
+    axes: Annotated[tuple[str, ...], "Names of the axes."]
+    pitch: Annotated[tuple[float, ...], "Distance of neighbouring values along each axis, m."]
+    origin: Annotated[tuple[float, ...], "Position of the first value along each axis, m."]
 
     def __init__(
         self,

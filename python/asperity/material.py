@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._described import described
+from ._raise import bad_input, warn
 from ._same import Comparable
 from ._units import Quantity, number, quantity, written
-from .errors import bad_input, warn
 
 _SOFT = 1e6
 """Young's modulus that is softer than any rubber, Pa."""
@@ -258,6 +259,7 @@ def _named(young: Any) -> dict[str, Any] | None:
     return known[young]
 
 
+@described
 class Compliances(Comparable):
     """Elastic compliances of a pair of half-spaces without their coatings.
 
@@ -272,11 +274,6 @@ class Compliances(Comparable):
     lower, upper : Material
         Materials of the bodies.
 
-    Attributes
-    ----------
-    normal, lateral, coupling : float
-        1/E*, 1/N* and 1/G*, 1/Pa. `coupling` is negative if the lower body is the stiffer one.
-
     Raises
     ------
     asperity.errors.OutOfRange
@@ -286,6 +283,10 @@ class Compliances(Comparable):
     ----------
     Johnson, *Contact Mechanics* (1985), ch. 3 and 5.
     """
+
+    normal: Annotated[float, "1/E*, 1/Pa."]
+    lateral: Annotated[float, "1/N*, 1/Pa."]
+    coupling: Annotated[float, "1/G*, 1/Pa; negative if the lower body is the stiffer one."]
 
     def __init__(self, lower: Material, upper: Material) -> None:
         for key, material in (("lower", lower), ("upper", upper)):

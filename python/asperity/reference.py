@@ -18,18 +18,19 @@ Examples
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Annotated, Any, TypeVar, cast
 
 from numpy.typing import ArrayLike
 
 from . import _core
+from ._described import described
 from ._points import Point, spread
+from ._raise import bad_input
 from ._same import Comparable
-from ._units import Pair, Quantity, lengths, number, quantity
-from .errors import bad_input
-from .material import _poisson, tangential_modulus
 from ._stress import Stress
+from ._units import Pair, Quantity, lengths, number, quantity
+from .material import _poisson, tangential_modulus
 
 __all__ = [
     "BGT_COEFFICIENT",
@@ -60,6 +61,17 @@ __all__ = [
     "stick_ratio_plane",
     "tangential_modulus",
 ]
+
+
+Pressed = TypeVar("Pressed", bound="_Pressed")
+
+# Parameters of several closed forms.
+_Radius = Annotated[Quantity, "Relative radius R, 1/R = 1/R₁ + 1/R₂, above 0, m."]
+_PunchRadius = Annotated[Quantity, "Radius a of the punch, above 0, m."]
+_Modulus = Annotated[Quantity, "Composite modulus E*, above 0, Pa."]
+_Load = Annotated[Quantity, "Normal load W, at least 0, N."]
+_Friction = Annotated[float, "Coefficient of friction μ, above 0."]
+_Dundurs = Annotated[float, "Dundurs' β, from −0.5 to 0.5, see :func:`asperity.dundurs`; its sign does not matter."]
 
 
 def _answer(question: str, data: Sequence[float], *places: Any) -> Any:
@@ -96,8 +108,31 @@ def _dundurs(value: Any) -> float:
     return number("dundurs", value, "Dundurs' constant from -0.5 to 0.5", -0.5, 0.5)
 
 
+class _Number:
+    """Becomes a method that returns one number of a closed form."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        def number(self: Any) -> float:
+            return float(self._ask(name))
+
+        number.__name__, number.__qualname__, number.__doc__ = name, f"{owner.__qualname__}.{name}", self._text
+        number.__annotations__ = {"return": float}
+        setattr(owner, name, number)
+
+
+def _number(text: str) -> Callable[[Any], float]:
+    """Declares a method of a closed form that returns one number, with its docstring."""
+    return cast(Callable[[Any], float], _Number(text))
+
+
 class _Form(Comparable):
     """A closed form: its public attributes are its data."""
+
+    def __init_subclass__(cls) -> None:
+        described(cls)
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in vars(self).items())})"
@@ -117,20 +152,24 @@ class _Form(Comparable):
         return _answer(f"{type(self).__name__}.{question}", self._data(), *places)
 
 
-class HertzSphere(_Form):
+class _Pressed(_Form):
+    """A closed form whose last number is its load."""
+
+    load: float
+
+    def _pressed(self: Pressed, approach: Quantity) -> Pressed:
+        """Sets the load at an approach."""
+        *data, _ = self._data()
+        depth = _least_0("approach", approach, "length")
+        self.load = _answer(f"{type(self).__name__}.from_approach", [], *data, depth)
+        return self
+
+
+class HertzSphere(_Pressed):
     """Frictionless contact of two elastic spheres, or of a sphere and a plane, taken as paraboloids.
 
     h = r²/2R,  a = (3WR/4E*)^(1/3),  δ = a²/R,  p = p₀ √(1 − r²/a²),  p₀ = 3W/2πa². Exact for the paraboloid; a sphere
     differs by O(a²/R²).
-
-    Parameters
-    ----------
-    radius : float or str
-        Relative radius R, 1/R = 1/R₁ + 1/R₂, above 0, m.
-    modulus : float or str
-        Composite modulus E*, above 0, Pa.
-    load : float or str
-        Normal load W, at least 0, N.
 
     References
     ----------
@@ -144,7 +183,7 @@ class HertzSphere(_Form):
     9.994
     """
 
-    def __init__(self, radius: Quantity, modulus: Quantity, load: Quantity) -> None:
+    def __init__(self, radius: _Radius, modulus: _Modulus, load: _Load) -> None:
         self.radius = quantity("radius", radius, "length")
         self.modulus = quantity("modulus", modulus, "pressure")
         self.load = _load(load)
@@ -152,26 +191,12 @@ class HertzSphere(_Form):
     @classmethod
     def from_approach(cls, radius: Quantity, modulus: Quantity, approach: Quantity) -> HertzSphere:
         """The contact at an approach δ of at least 0, m: W = (4/3) E* R^(1/2) δ^(3/2)."""
-        made = cls(radius, modulus, 0.0)
-        depth = _least_0("approach", approach, "length")
-        made.load = _answer("HertzSphere.from_approach", [], made.radius, made.modulus, depth)
-        return made
+        return cls(radius, modulus, 0.0)._pressed(approach)
 
-    def contact_radius(self) -> float:
-        """Contact radius a, m."""
-        return float(self._ask("contact_radius"))
-
-    def approach(self) -> float:
-        """Rigid-body approach δ, m."""
-        return float(self._ask("approach"))
-
-    def peak_pressure(self) -> float:
-        """Pressure p₀ at the centre, Pa; 0 without load."""
-        return float(self._ask("peak_pressure"))
-
-    def elastic_energy(self) -> float:
-        """Elastic energy stored in both bodies, ⅖ W δ, J."""
-        return float(self._ask("elastic_energy"))
+    contact_radius = _number("Contact radius a, m.")
+    approach = _number("Rigid-body approach δ, m.")
+    peak_pressure = _number("Pressure p₀ at the centre, Pa; 0 without load.")
+    elastic_energy = _number("Elastic energy stored in both bodies, ⅖ W δ, J.")
 
     def pressure(self, r: Point) -> Point:
         """Pressure at distance `r` from the axis, Pa; 0 outside the contact."""
@@ -200,32 +225,23 @@ class HertzLine(_Form):
     h = x²/2R,  a² = 4P′R/πE*,  p = p₀ √(1 − x²/a²),  p₀ = 2P′/πa. The approach of a half-plane is unbounded: it depends on
     where it is measured.
 
-    Parameters
-    ----------
-    radius : float or str
-        Relative radius R, above 0, m.
-    modulus : float or str
-        Composite modulus E*, above 0, Pa.
-    load_per_length : float
-        Load P′ per length of the line, at least 0, N/m.
-
     References
     ----------
     Johnson (1985), eqs. 4.43–4.45.
     """
 
-    def __init__(self, radius: Quantity, modulus: Quantity, load_per_length: float) -> None:
+    def __init__(
+        self,
+        radius: _Radius,
+        modulus: _Modulus,
+        load_per_length: Annotated[float, "Load P′ per length of the line, at least 0, N/m."],
+    ) -> None:
         self.radius = quantity("radius", radius, "length")
         self.modulus = quantity("modulus", modulus, "pressure")
         self.load_per_length = _per_length("load_per_length", load_per_length)
 
-    def half_width(self) -> float:
-        """Half width a of the contact, m."""
-        return float(self._ask("half_width"))
-
-    def peak_pressure(self) -> float:
-        """Pressure p₀ on the centre line, aE*/2R, Pa."""
-        return float(self._ask("peak_pressure"))
+    half_width = _number("Half width a of the contact, m.")
+    peak_pressure = _number("Pressure p₀ on the centre line, aE*/2R, Pa.")
 
     def pressure(self, x: Point) -> Point:
         """Pressure at distance `x` from the centre line, Pa; 0 outside the contact."""
@@ -252,21 +268,17 @@ class HertzEllipse(_Form):
     By complete elliptic integrals, whose parameter is solved for to round-off: relative accuracy 1e-13 for ratios of the
     radii up to 1e6.
 
-    Parameters
-    ----------
-    radii : pair of float or str
-        Relative radii along x and y, above 0, m.
-    modulus : float or str
-        Composite modulus E*, above 0, Pa.
-    load : float or str
-        Normal load W, above 0, N.
-
     References
     ----------
     Hertz (1882); Johnson (1985), eqs. 4.25–4.32.
     """
 
-    def __init__(self, radii: Pair, modulus: Quantity, load: Quantity) -> None:
+    def __init__(
+        self,
+        radii: Annotated[Pair, "Relative radii along x and y, above 0, m."],
+        modulus: _Modulus,
+        load: Annotated[Quantity, "Normal load W, above 0, N."],
+    ) -> None:
         self.radii = lengths("radii", radii)
         self.modulus = quantity("modulus", modulus, "pressure")
         self.load = quantity("load", load, "force")
@@ -283,13 +295,8 @@ class HertzEllipse(_Form):
         """Pressure p₀ at the centre, Pa."""
         return float(self._found("peak_pressure"))
 
-    def contact_area(self) -> float:
-        """Area π a b of the contact, m²."""
-        return float(self._ask("contact_area"))
-
-    def elastic_energy(self) -> float:
-        """Elastic energy stored in both bodies, ⅖ W δ, J."""
-        return float(self._ask("elastic_energy"))
+    contact_area = _number("Area π a b of the contact, m².")
+    elastic_energy = _number("Elastic energy stored in both bodies, ⅖ W δ, J.")
 
     def pressure(self, x: ArrayLike, y: ArrayLike) -> Any:
         """Pressure p₀ √(1 − x²/a² − y²/b²) at (`x`, `y`) from the centre, Pa; 0 outside the contact."""
@@ -299,26 +306,22 @@ class HertzEllipse(_Form):
         return _answer(f"HertzEllipse.{question}", [], *self._data())
 
 
-class Cone(_Form):
+class Cone(_Pressed):
     """Frictionless indentation by a blunt cone, h = r tan θ, θ the angle between its flank and the plane.
 
     δ = ½π a tan θ,  W = ½π a² E* tan θ,  p = ½E* tan θ acosh(a/r). The half-space theory requires tan θ ≪ 1.
-
-    Parameters
-    ----------
-    slope : float
-        Slope tan θ of the flank, above 0.
-    modulus : float or str
-        Composite modulus E*, above 0, Pa.
-    load : float or str
-        Normal load W, at least 0, N.
 
     References
     ----------
     Love (1939); Sneddon, Int. J. Eng. Sci. 3, 47 (1965).
     """
 
-    def __init__(self, slope: float, modulus: Quantity, load: Quantity) -> None:
+    def __init__(
+        self,
+        slope: Annotated[float, "Slope tan θ of the flank, above 0."],
+        modulus: _Modulus,
+        load: _Load,
+    ) -> None:
         self.slope = number("slope", slope, "a slope above 0", math.ulp(0.0))
         self.modulus = quantity("modulus", modulus, "pressure")
         self.load = _load(load)
@@ -326,26 +329,12 @@ class Cone(_Form):
     @classmethod
     def from_approach(cls, slope: float, modulus: Quantity, approach: Quantity) -> Cone:
         """The cone at an approach δ of at least 0, m: W = 2E*δ²/(π tan θ)."""
-        made = cls(slope, modulus, 0.0)
-        depth = _least_0("approach", approach, "length")
-        made.load = _answer("Cone.from_approach", [], made.slope, made.modulus, depth)
-        return made
+        return cls(slope, modulus, 0.0)._pressed(approach)
 
-    def contact_radius(self) -> float:
-        """Contact radius a, m."""
-        return float(self._ask("contact_radius"))
-
-    def approach(self) -> float:
-        """Rigid-body approach δ, m."""
-        return float(self._ask("approach"))
-
-    def mean_pressure(self) -> float:
-        """Mean pressure over the contact, ½E* tan θ at any load, Pa."""
-        return float(self._ask("mean_pressure"))
-
-    def elastic_energy(self) -> float:
-        """Elastic energy stored in both bodies, ⅓ W δ, J."""
-        return float(self._ask("elastic_energy"))
+    contact_radius = _number("Contact radius a, m.")
+    approach = _number("Rigid-body approach δ, m.")
+    mean_pressure = _number("Mean pressure over the contact, ½E* tan θ at any load, Pa.")
+    elastic_energy = _number("Elastic energy stored in both bodies, ⅓ W δ, J.")
 
     def pressure(self, r: Point) -> Point:
         """Pressure at distance `r` from the axis, Pa: infinite at the tip, 0 outside the contact."""
@@ -359,26 +348,17 @@ class Cone(_Form):
         return self._ask("displacement", r)  # type: ignore[no-any-return]
 
 
-class FlatPunch(_Form):
+class FlatPunch(_Pressed):
     """Frictionless indentation by a rigid flat-ended cylinder.
 
     W = 2aE*δ,  p = W/(2πa²) (1 − r²/a²)^(−1/2).
-
-    Parameters
-    ----------
-    radius : float or str
-        Radius a of the punch, above 0, m.
-    modulus : float or str
-        Composite modulus E*, above 0, Pa.
-    load : float or str
-        Normal load W, at least 0, N.
 
     References
     ----------
     Boussinesq (1885); Johnson (1985), eqs. 3.34–3.37.
     """
 
-    def __init__(self, radius: Quantity, modulus: Quantity, load: Quantity) -> None:
+    def __init__(self, radius: _PunchRadius, modulus: _Modulus, load: _Load) -> None:
         self.radius = quantity("radius", radius, "length")
         self.modulus = quantity("modulus", modulus, "pressure")
         self.load = _load(load)
@@ -386,18 +366,10 @@ class FlatPunch(_Form):
     @classmethod
     def from_approach(cls, radius: Quantity, modulus: Quantity, approach: Quantity) -> FlatPunch:
         """The punch at an approach δ of at least 0, m."""
-        made = cls(radius, modulus, 0.0)
-        depth = _least_0("approach", approach, "length")
-        made.load = _answer("FlatPunch.from_approach", [], made.radius, made.modulus, depth)
-        return made
+        return cls(radius, modulus, 0.0)._pressed(approach)
 
-    def approach(self) -> float:
-        """Rigid-body approach δ, m."""
-        return float(self._ask("approach"))
-
-    def elastic_energy(self) -> float:
-        """Elastic energy stored, ½ W δ, J."""
-        return float(self._ask("elastic_energy"))
+    approach = _number("Rigid-body approach δ, m.")
+    elastic_energy = _number("Elastic energy stored, ½ W δ, J.")
 
     def pressure(self, r: Point) -> Point:
         """Pressure at distance `r` from the axis, Pa: infinite at the edge, 0 outside."""
@@ -413,47 +385,28 @@ class Westergaard(_Form):
 
     h = A (1 − cos 2πx/λ), a crest at x = 0. Contact is full from the mean pressure p* = π E* A/λ on.
 
-    Parameters
-    ----------
-    amplitude : float or str
-        Amplitude A, half the height from peak to valley, above 0, m.
-    wavelength : float or str
-        Wavelength λ, above 0, m.
-    modulus : float or str
-        Composite modulus E*, above 0, Pa.
-    mean_pressure : float or str
-        Mean pressure p̄, at least 0, Pa.
-
     References
     ----------
     Westergaard, J. Appl. Mech. 6, 49 (1939); Johnson (1985), eqs. 13.2–13.8.
     """
 
-    def __init__(self, amplitude: Quantity, wavelength: Quantity, modulus: Quantity, mean_pressure: Quantity) -> None:
+    def __init__(
+        self,
+        amplitude: Annotated[Quantity, "Amplitude A, half the height from peak to valley, above 0, m."],
+        wavelength: Annotated[Quantity, "Wavelength λ, above 0, m."],
+        modulus: _Modulus,
+        mean_pressure: Annotated[Quantity, "Mean pressure p̄, at least 0, Pa."],
+    ) -> None:
         self.amplitude = quantity("amplitude", amplitude, "length")
         self.wavelength = quantity("wavelength", wavelength, "length")
         self.modulus = quantity("modulus", modulus, "pressure")
         self.mean_pressure = _least_0("mean_pressure", mean_pressure, "pressure")
 
-    def full_contact_pressure(self) -> float:
-        """Mean pressure p* at which the last gap closes, Pa."""
-        return float(self._ask("full_contact_pressure"))
-
-    def half_width(self) -> float:
-        """Half width a of each strip of contact, m; λ/2 in full contact."""
-        return float(self._ask("half_width"))
-
-    def contact_fraction(self) -> float:
-        """Fraction of the plane in contact, 2a/λ."""
-        return float(self._ask("contact_fraction"))
-
-    def mean_gap(self) -> float:
-        """Mean deformed gap A (1 − s + s ln s), s = p̄/p*, m."""
-        return float(self._ask("mean_gap"))
-
-    def elastic_energy(self) -> float:
-        """Elastic energy per apparent area, ¼ p*A s² (1 − 2 ln s), J/m²; ¼ p*A in full contact."""
-        return float(self._ask("elastic_energy"))
+    full_contact_pressure = _number("Mean pressure p* at which the last gap closes, Pa.")
+    half_width = _number("Half width a of each strip of contact, m; λ/2 in full contact.")
+    contact_fraction = _number("Fraction of the plane in contact, 2a/λ.")
+    mean_gap = _number("Mean deformed gap A (1 − s + s ln s), s = p̄/p*, m.")
+    elastic_energy = _number("Elastic energy per apparent area, ¼ p*A s² (1 − 2 ln s), J/m²; ¼ p*A in full contact.")
 
     def pressure(self, x: Point) -> Point:
         """Pressure at `x` from a crest, Pa; 0 outside the contact.
@@ -472,24 +425,18 @@ class CattaneoMindlin(_Form):
 
     Exact for identical materials but for the slip's direction, which it takes along Q.
 
-    Parameters
-    ----------
-    normal : HertzSphere
-        The normal contact.
-    tangential_modulus : float or str
-        Composite tangential modulus Gₜ, above 0, Pa, see :func:`tangential_modulus`.
-    friction : float
-        Coefficient of friction μ, above 0.
-    tangential_load : float or str
-        Tangential load Q, from 0 to μW, N.
-
     References
     ----------
     Cattaneo (1938); Mindlin, J. Appl. Mech. 16, 259 (1949); Johnson (1985), eqs. 7.39–7.42.
     """
 
     def __init__(
-        self, normal: HertzSphere, tangential_modulus: Quantity, friction: float, tangential_load: Quantity
+        self,
+        normal: Annotated[HertzSphere, "The normal contact."],
+        tangential_modulus: Annotated[Quantity,
+            "Composite tangential modulus Gₜ, above 0, Pa, see :func:`tangential_modulus`."],
+        friction: _Friction,
+        tangential_load: Annotated[Quantity, "Tangential load Q, from 0 to μW, N."],
     ) -> None:
         self.normal = normal
         self.tangential_modulus = quantity("tangential_modulus", tangential_modulus, "pressure")
@@ -498,9 +445,7 @@ class CattaneoMindlin(_Form):
         most = self.friction * normal.load
         self.tangential_load = _within("tangential_load", self.tangential_load, "N", 0.0, most)
 
-    def stick_radius(self) -> float:
-        """Radius c of the circle that sticks, a (1 − Q/μW)^(1/3), m."""
-        return float(self._ask("stick_radius"))
+    stick_radius = _number("Radius c of the circle that sticks, a (1 − Q/μW)^(1/3), m.")
 
     def displacement(self) -> float:
         """Tangential displacement of the bodies against each other, (3μW/4aGₜ) [1 − (1 − Q/μW)^(2/3)], m."""
@@ -528,31 +473,23 @@ class MindlinDeresiewicz(_Form):
     all is as after a first push to −Q*; the way up from there is this one with the signs of Q, shear and displacement
     changed.
 
-    Parameters
-    ----------
-    turn : CattaneoMindlin
-        The contact where the tangential load turned, at Q*.
-    tangential_load : float or str
-        Tangential load Q, from −Q* to Q*, N.
-
     References
     ----------
     Mindlin & Deresiewicz, J. Appl. Mech. 20, 327 (1953); Johnson (1985), section 7.4.
     """
 
-    def __init__(self, turn: CattaneoMindlin, tangential_load: Quantity) -> None:
+    def __init__(
+        self,
+        turn: Annotated[CattaneoMindlin, "The contact where the tangential load turned, at Q*."],
+        tangential_load: Annotated[Quantity, "Tangential load Q, from −Q* to Q*, N."],
+    ) -> None:
         self.turn = turn
         self.tangential_load = quantity("tangential_load", tangential_load, "force", positive=False)
         most = turn.tangential_load
         self.tangential_load = _within("tangential_load", self.tangential_load, "N", -most, most)
 
-    def stick_radius(self) -> float:
-        """Radius of the region without reverse slip, a (1 − (Q* − Q)/2μW)^(1/3), m."""
-        return float(self._ask("stick_radius"))
-
-    def displacement(self) -> float:
-        """Tangential displacement of the bodies against each other, m, positive along Q*."""
-        return float(self._ask("displacement"))
+    stick_radius = _number("Radius of the region without reverse slip, a (1 − (Q* − Q)/2μW)^(1/3), m.")
+    displacement = _number("Tangential displacement of the bodies against each other, m, positive along Q*.")
 
     def shear(self, r: Point) -> Point:
         """Shear traction at distance `r` from the axis, Pa, positive along Q*."""
@@ -565,21 +502,17 @@ class Carter(_Form):
     The surfaces enter the contact at x = a, stick at first, and slip towards the trailing edge x = −a. Against the other
     body, the one on which the tangential load acts along x moves along −x, at the creepage times the speed of rolling.
 
-    Parameters
-    ----------
-    normal : HertzLine
-        The normal contact.
-    friction : float
-        Coefficient of friction μ, above 0.
-    tangential_load_per_length : float
-        Tangential load Q′ per length of the line, from 0 to μP′, N/m.
-
     References
     ----------
     Carter, Proc. R. Soc. A 112, 151 (1926); Johnson (1985), section 8.3.
     """
 
-    def __init__(self, normal: HertzLine, friction: float, tangential_load_per_length: float) -> None:
+    def __init__(
+        self,
+        normal: Annotated[HertzLine, "The normal contact."],
+        friction: _Friction,
+        tangential_load_per_length: Annotated[float, "Tangential load Q′ per length of the line, from 0 to μP′, N/m."],
+    ) -> None:
         self.normal = normal
         self.friction = _friction(friction)
         most = self.friction * normal.load_per_length
@@ -595,17 +528,9 @@ class Carter(_Form):
         made.tangential_load_per_length = load
         return made
 
-    def stick_half_width(self) -> float:
-        """Half width c of the stick, a √(1 − Q′/μP′), m."""
-        return float(self._ask("stick_half_width"))
-
-    def stick_centre(self) -> float:
-        """Centre d = a − c of the stick, which reaches from a − 2c to the leading edge a, m."""
-        return float(self._ask("stick_centre"))
-
-    def creepage(self) -> float:
-        """Creepage ξ = μd/R: difference of the circumferential speeds over the speed of rolling."""
-        return float(self._ask("creepage"))
+    stick_half_width = _number("Half width c of the stick, a √(1 − Q′/μP′), m.")
+    stick_centre = _number("Centre d = a − c of the stick, which reaches from a − 2c to the leading edge a, m.")
+    creepage = _number("Creepage ξ = μd/R: difference of the circumferential speeds over the speed of rolling.")
 
     def shear(self, x: Point) -> Point:
         """Shear traction at `x`, Pa, in the direction of Q′; 0 outside the contact."""
@@ -618,22 +543,18 @@ class SlidingSphere(_Form):
     Exact for identical materials, or where the shear does not change the pressure. Far away about 3 log₁₀(r/a) digits are
     lost.
 
-    Parameters
-    ----------
-    normal : HertzSphere
-        The normal contact.
-    friction : float
-        q/p, positive where the traction acts along +x.
-    poisson : float
-        Poisson's ratio of the body, 0 to 0.5.
-
     References
     ----------
     Hamilton & Goodman, J. Appl. Mech. 33, 371 (1966); Hamilton, Proc. Inst. Mech. Eng. 197C, 53 (1983); Johnson (1985),
     section 7.1.
     """
 
-    def __init__(self, normal: HertzSphere, friction: float, poisson: float) -> None:
+    def __init__(
+        self,
+        normal: Annotated[HertzSphere, "The normal contact."],
+        friction: Annotated[float, "q/p, positive where the traction acts along +x."],
+        poisson: Annotated[float, "Poisson's ratio of the body, 0 to 0.5."],
+    ) -> None:
         self.normal = normal
         self.friction = number("friction", friction, "a finite number", -math.inf)
         self.poisson = _poisson(poisson)
@@ -643,28 +564,17 @@ class SlidingSphere(_Form):
         return Stress(*self._ask("stress", x, y, depth))
 
 
-class StickingPunch(_Form):
+class StickingPunch(_Pressed):
     """Indentation by a rigid flat-ended cylinder that sticks, or a circle that sticks as a whole.
 
     W = 2aE*δ (atanh β)/β.
-
-    Parameters
-    ----------
-    radius : float or str
-        Radius a of the punch, above 0, m.
-    modulus : float or str
-        Composite modulus E*, above 0, Pa.
-    dundurs : float
-        Dundurs' β, from −0.5 to 0.5, see :func:`asperity.dundurs`; its sign does not matter.
-    load : float or str
-        Normal load W, at least 0, N.
 
     References
     ----------
     Mossakovskii (1954); Spence, Proc. R. Soc. A 305, 55 (1968).
     """
 
-    def __init__(self, radius: Quantity, modulus: Quantity, dundurs: float, load: Quantity) -> None:
+    def __init__(self, radius: _PunchRadius, modulus: _Modulus, dundurs: _Dundurs, load: _Load) -> None:
         self.radius = quantity("radius", radius, "length")
         self.modulus = quantity("modulus", modulus, "pressure")
         self.dundurs = _dundurs(dundurs)
@@ -673,39 +583,23 @@ class StickingPunch(_Form):
     @classmethod
     def from_approach(cls, radius: Quantity, modulus: Quantity, dundurs: float, approach: Quantity) -> StickingPunch:
         """The punch at an approach δ of at least 0, m."""
-        made = cls(radius, modulus, dundurs, 0.0)
-        depth = _least_0("approach", approach, "length")
-        made.load = _answer("StickingPunch.from_approach", [], made.radius, made.modulus, made.dundurs, depth)
-        return made
+        return cls(radius, modulus, dundurs, 0.0)._pressed(approach)
 
-    def approach(self) -> float:
-        """Rigid-body approach δ, m."""
-        return float(self._ask("approach"))
+    approach = _number("Rigid-body approach δ, m.")
 
 
-class StickingSphere(_Form):
+class StickingSphere(_Pressed):
     """A sphere on a plane, or two spheres, that stick as they come into touch, under a load that has grown from 0.
 
     W = (4E*a³/3R) (atanh β)/βJ,  δ = a²/RJ,  J = 2 ∫₀¹ t cos(ε ln((1 + t)/(1 − t))) dt,  ε = (atanh β)/π. Exact for the
     paraboloid.
-
-    Parameters
-    ----------
-    radius : float or str
-        Relative radius R, above 0, m.
-    modulus : float or str
-        Composite modulus E*, above 0, Pa.
-    dundurs : float
-        Dundurs' β, from −0.5 to 0.5, see :func:`asperity.dundurs`; its sign does not matter.
-    load : float or str
-        Normal load W, at least 0, N.
 
     References
     ----------
     Mossakovskii (1963); Spence (1968); Borodich & Keer, Proc. R. Soc. A 460, 507 (2004).
     """
 
-    def __init__(self, radius: Quantity, modulus: Quantity, dundurs: float, load: Quantity) -> None:
+    def __init__(self, radius: _Radius, modulus: _Modulus, dundurs: _Dundurs, load: _Load) -> None:
         self.radius = quantity("radius", radius, "length")
         self.modulus = quantity("modulus", modulus, "pressure")
         self.dundurs = _dundurs(dundurs)
@@ -714,34 +608,19 @@ class StickingSphere(_Form):
     @classmethod
     def from_approach(cls, radius: Quantity, modulus: Quantity, dundurs: float, approach: Quantity) -> StickingSphere:
         """The contact at an approach δ of at least 0, m."""
-        made = cls(radius, modulus, dundurs, 0.0)
-        depth = _least_0("approach", approach, "length")
-        made.load = _answer("StickingSphere.from_approach", [], made.radius, made.modulus, made.dundurs, depth)
-        return made
+        return cls(radius, modulus, dundurs, 0.0)._pressed(approach)
 
-    def contact_radius(self) -> float:
-        """Contact radius a, m."""
-        return float(self._ask("contact_radius"))
-
-    def approach(self) -> float:
-        """Rigid-body approach δ, m."""
-        return float(self._ask("approach"))
+    contact_radius = _number("Contact radius a, m.")
+    approach = _number("Rigid-body approach δ, m.")
 
 
 class CoupledPunch(_Form):
-    """A flat circular punch with slip at its edge, the shear acting back on the pressure: one of :data:`COUPLED`.
+    """A flat circular punch with slip at its edge, the shear acting back on the pressure: one of :data:`COUPLED`."""
 
-    Attributes
-    ----------
-    dundurs : float
-        Dundurs' β.
-    friction : float
-        Coefficient of friction μ.
-    stick_ratio : float
-        Stick ratio c/a, to 2e-6.
-    stiffening : float
-        Load over that without friction at the same approach, W/2aE*δ, to 5e-6.
-    """
+    dundurs: Annotated[float, "Dundurs' β."]
+    friction: Annotated[float, "Coefficient of friction μ."]
+    stick_ratio: Annotated[float, "Stick ratio c/a, to 2e-6."]
+    stiffening: Annotated[float, "Load over that without friction at the same approach, W/2aE*δ, to 5e-6."]
 
     def __init__(self, dundurs: float, friction: float, stick_ratio: float, stiffening: float) -> None:
         self.dundurs = dundurs

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _case, _core
+from ._described import described
 from ._keywords import MotionKeywords, takes
 from ._progress import Teller
+from ._raise import Warner, bad_input
 from ._run import Run
 from ._table import Table, records
 from ._temporary import Temporary
-from ._units import path
+from ._units import choice, path
 from .body import Body, Handed, bodies, heights_like
-from .errors import Warner, bad_input
 from .material import Material
 from .surface import Surface
 
@@ -25,37 +26,23 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 
+@described
 class Contacts(NamedTuple):
-    """The cells in contact at all positions of a pass, as flat arrays of one length.
+    """The cells in contact at all positions of a pass, as flat arrays of one length."""
 
-    Attributes
-    ----------
-    position : ndarray of int
-        Position in the pass, from 0, ascending.
-    lower_cell, upper_cell : ndarray of int
-        Cell of each body, an index into its raveled heights.
-    pressure : ndarray
-        Pressure on the cell, Pa.
-    plastic : ndarray
-        Plastic interference of the cell, m; 0 if the cell does not yield.
-    lower_beyond, upper_beyond : ndarray
-        Distance from the cell of the body to the contact along x, in cells, at least 0 and below 1. It is above 0 only in a shift
-        whose slower surface moves by parts of a cell. :meth:`Pass.on_bodies` distributes values over the cells with it.
-    shear : ndarray
-        Shear traction along x of the upper body on the lower one, Pa; 0 without friction.
-    temperature : ndarray
-        Temperature of both surfaces, K; NaN if it is not computed.
-    """
-
-    position: NDArray[np.int64]
-    lower_cell: NDArray[np.int64]
-    upper_cell: NDArray[np.int64]
-    pressure: NDArray[np.float64]
-    plastic: NDArray[np.float64]
-    lower_beyond: NDArray[np.float64]
-    upper_beyond: NDArray[np.float64]
-    shear: NDArray[np.float64]
-    temperature: NDArray[np.float64]
+    position: Annotated[NDArray[np.int64], "Position in the pass, from 0, ascending."]
+    lower_cell: Annotated[NDArray[np.int64], "Cell of the lower body, an index into its raveled heights."]
+    upper_cell: Annotated[NDArray[np.int64], "Cell of the upper body, an index into its raveled heights."]
+    pressure: Annotated[NDArray[np.float64], "Pressure on the cell, Pa."]
+    plastic: Annotated[NDArray[np.float64], "Plastic interference of the cell, m; 0 if the cell does not yield."]
+    lower_beyond: Annotated[NDArray[np.float64],
+        "Distance from the cell of the lower body to the contact along x, in cells, at least 0 and below 1. It is above 0 "
+        "only in a shift whose slower surface moves by parts of a cell. :meth:`Pass.on_bodies` distributes values "
+        "over the cells with it."]
+    upper_beyond: Annotated[NDArray[np.float64], "Distance from the cell of the upper body to the contact, as `lower_beyond`."]
+    shear: Annotated[NDArray[np.float64],
+        "Shear traction along x of the upper body on the lower one, Pa; 0 without friction."]
+    temperature: Annotated[NDArray[np.float64], "Temperature of both surfaces, K; NaN if it is not computed."]
 
     def by_position(self) -> Iterator[Contacts]:
         """Iterate over the contacts of each position. Positions without contact are left out."""
@@ -83,27 +70,22 @@ class _Moving:
         return heights
 
 
+@described
 class Pass(_Moving):
     """A solved pass of a :class:`Simulation`, before its bodies change.
 
     It is valid until the next iteration of the loop.
-
-    Attributes
-    ----------
-    number : int
-        Number of the pass, from 1.
-    numbers : dict
-        Numbers of the pass with the columns of `passes.csv`, before material is removed. With `acceleration` a pass may represent
-        several passes, ``numbers["represents"]`` of them.
-    pitch : tuple of float
-        Size of a cell along x and y, m.
-    sliding_distance : float
-        Sliding distance for which a position stands, m; the way of a pass over the number of its positions.
-    time : float
-        Time for which a position stands, s; NaN without a speed.
-    shapes : tuple
-        Number of cells of the lower and of the upper body along x and y.
     """
+
+    number: Annotated[int, "Number of the pass, from 1."]
+    numbers: Annotated[dict[str, Any],
+        "Numbers of the pass with the columns of `passes.csv`, before material is removed. With `acceleration` a pass "
+        "may represent several passes, ``numbers[\"represents\"]`` of them."]
+    pitch: Annotated[tuple[float, float], "Size of a cell along x and y, m."]
+    sliding_distance: Annotated[float,
+        "Sliding distance for which a position stands, m; the way of a pass over the number of its positions."]
+    time: Annotated[float, "Time for which a position stands, s; NaN without a speed."]
+    shapes: Annotated[tuple[tuple[int, int], tuple[int, int]], "Number of cells of the lower and of the upper body along x and y."]
 
     def __init__(
         self,
@@ -118,8 +100,8 @@ class Pass(_Moving):
         self.sliding_distance = distance
         self.time = time
         self.shapes = shapes
-        self.numbers: dict[str, Any] = core.record()
-        self.number: int = self.numbers["pass"]
+        self.numbers = core.record()
+        self.number = self.numbers["pass"]
 
     def __repr__(self) -> str:
         return f"<Pass {self.number}>"
@@ -149,8 +131,7 @@ class Pass(_Moving):
         body : str
             ``"lower"`` or ``"upper"``.
         """
-        if body not in ("lower", "upper"):
-            raise bad_input("body", f"'body' is {body!r}, expected \"lower\" or \"upper\"")
+        choice("body", body, "lower", "upper")
         index = 0 if body == "lower" else 1
         nx, ny = self.shapes[index]
         contacts, cells = self.contacts, nx * ny

@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core, describe
+from . import _core
 from ._same import Comparable
-from ._units import Pair, Quantity, lengths, quantity
+from ._units import Pair, Quantity, choice, lengths, quantity, whole
 from ._units import path as paths
 from .describe import (
+    LAGS,
     WOLF_PRUNING,
     Axis,
     BearingCurve,
@@ -28,8 +29,12 @@ from .describe import (
     Spectrum,
     Summits,
     Window,
+    ascending,
+    law,
+    share_of_sz,
 )
-from .errors import AsperityError, _make, bad_input
+from ._raise import bad_input, exception
+from .errors import AsperityError
 from .fields import Field
 
 if TYPE_CHECKING:
@@ -320,7 +325,7 @@ class Surface(Comparable):
         """
         made = self._all()
         if "parameters" not in made:
-            made["parameters"] = describe.parameters(self._grid)
+            made["parameters"] = Parameters(_core.parameters(self._grid))
         found: Parameters = made["parameters"]
         return found
 
@@ -346,15 +351,15 @@ class Surface(Comparable):
 
     def feature_parameters(self, pruning: float = WOLF_PRUNING) -> Parameters:
         """Return the feature parameters of ISO 25178, with hills and dales pruned at this share of Sz, 0 to 1."""
-        return describe.feature_parameters(self._grid, pruning)
+        return Parameters(_core.feature_parameters(self._grid, share_of_sz(pruning)))
 
     def profile(self, axis: Axis = "x", index: int = 0) -> Profile:
         """Return the profile along an axis at the sample `index` of the other axis."""
-        return describe.profile(self._grid, axis, index)
+        return Profile(*_core.profile(self._grid, axis, whole("index", index, 0)))
 
     def profile_parameters(self, axis: Axis, cutoff: Quantity) -> Parameters:
         """Return the mean ISO 21920 parameters of the roughness profiles along an axis; `cutoff` is λc, m."""
-        return describe.profile_parameters(self._grid, axis, cutoff)
+        return Parameters(_core.profile_parameters(self._grid, axis, quantity("cutoff", cutoff, "length")))
 
     def bearing_curve(self) -> BearingCurve:
         """Return the areal material ratio curve of the defined samples."""
@@ -365,13 +370,17 @@ class Surface(Comparable):
 
         Without a number of `classes` the rule of Freedman and Diaconis is used.
         """
-        return describe.distribution(self._grid, None, classes)
+        return self._distribution(None, classes)
 
     def slope_distribution(
         self, slope: Literal["x", "y", "magnitude"] = "magnitude", classes: int | None = None
     ) -> Distribution:
         """Return the probability density of the slope along an axis, or of its magnitude."""
-        return describe.distribution(self._grid, slope, classes)
+        return self._distribution(slope, classes)
+
+    def _distribution(self, slope: str | None, classes: int | None) -> Distribution:
+        count = None if classes is None else whole("classes", classes, 1)
+        return Distribution(*_core.distribution(self._grid, slope, count))
 
     def spectrum(self, window: Window = "hann") -> Spectrum:
         """Return the power spectral density. A periodic surface needs ``window="none"``."""
@@ -383,13 +392,14 @@ class Surface(Comparable):
 
     def moments(self, by: Literal["spectrum", "differences"] = "spectrum", window: Window = "hann") -> SpectralMoments:
         """Return the spectral moments from the spectrum, or from differences, which attenuate short waves."""
-        if by not in ("spectrum", "differences"):
-            raise bad_input("by", f"'by' is {by!r}, expected \"spectrum\" or \"differences\"")
-        return describe.moments_by_differences(self._grid) if by == "differences" else self.spectrum(window).moments()
+        choice("by", by, "spectrum", "differences")
+        if by == "differences":
+            return SpectralMoments(_core.moments_by_differences(self._grid))
+        return self.spectrum(window).moments()
 
     def summits(self) -> Summits:
         """Return the summits, and the Greenwood–Williamson asperities derived from them."""
-        return describe.summits(self._grid)
+        return Summits(_core.summits(self._grid))
 
     def self_affinity(
         self,
@@ -408,19 +418,19 @@ class Surface(Comparable):
             return self.spectrum(window).self_affinity(wave_numbers)
         if wave_numbers is not None:
             raise bad_input("lags", "'lags' and 'wave_numbers' are both given, expected one of them")
-        return describe.self_affinity_of_differences(self._grid, axis, lags)
+        return law(_core.self_affinity_of_differences(self._grid, axis, ascending("lags", lags)))
 
     def height_differences(self, axis: Axis = "x") -> NDArray[np.void]:
         """Return the mean square height differences along an axis: records of `lag`, m, and `value`, m²."""
-        return describe.height_differences(self._grid, axis)
+        return np.array(_core.height_differences(self._grid, axis), dtype=LAGS)
 
     def hills(self, pruning: float = WOLF_PRUNING) -> Segmentation:
         """Return the hills that rise at least `pruning` times Sz, 0 to 1, above their saddles."""
-        return describe.segments(self._grid, False, pruning)
+        return Segmentation(_core.segments(self._grid, False, share_of_sz(pruning)))
 
     def dales(self, pruning: float = WOLF_PRUNING) -> Segmentation:
         """Return the dales that lie at least `pruning` times Sz, 0 to 1, below their saddles."""
-        return describe.segments(self._grid, True, pruning)
+        return Segmentation(_core.segments(self._grid, True, share_of_sz(pruning)))
 
     # ---- output
 
@@ -497,7 +507,7 @@ def read(
     """
     path = paths("path", path)
     if not os.path.exists(path):
-        raise _make("File", f"{path}: no such file", {"path": path, "errno": 2}, None)
+        raise exception("File", f"{path}: no such file", {"path": path, "errno": 2}, None)
     table: dict[str, Any] = {"file": path, "channel": channel, "unit": unit, "lines": lines, "skip": skip or None}
     if pitch is not None:
         table["pitch"] = list(lengths("pitch", pitch))

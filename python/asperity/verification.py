@@ -4,60 +4,40 @@ from __future__ import annotations
 
 import html
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 from . import _case, _core
+from ._described import described
 from ._progress import Teller, Told
+from ._raise import bad_input
 from ._same import Comparable
-from .errors import bad_input
 
 
+@described
 class Check(NamedTuple):
-    """One quantity of a closed form on finer and finer grids.
+    """One quantity of a closed form on finer and finer grids."""
 
-    Attributes
-    ----------
-    case, source : str
-        What is computed, and the work in which the closed form is found.
-    quantity : str
-        What is compared.
-    refinement : str
-        What grows: cells per length, steps, a ratio.
-    sizes : tuple of int
-        Values of the refinement, ascending.
-    errors : tuple of float
-        Relative error at each size.
-    order : float
-        Order k of error ∝ size^(−k), by least squares; NaN where an error is 0 or there is a single size.
-    expected : str
-        What theory expects.
-    passed : bool
-        Whether the errors are as expected.
-    """
-
-    case: str
-    source: str
-    quantity: str
-    refinement: str
-    sizes: tuple[int, ...]
-    errors: tuple[float, ...]
-    order: float
-    expected: str
-    passed: bool
+    case: Annotated[str, "What is computed."]
+    source: Annotated[str, "Work in which the closed form is found."]
+    quantity: Annotated[str, "What is compared."]
+    refinement: Annotated[str, "What grows: cells per length, steps, a ratio."]
+    sizes: Annotated[tuple[int, ...], "Values of the refinement, ascending."]
+    errors: Annotated[tuple[float, ...], "Relative error at each size."]
+    order: Annotated[float,
+        "Order k of error ∝ size^(−k), by least squares; NaN where an error is 0 or there is a single size."]
+    expected: Annotated[str, "What theory expects."]
+    passed: Annotated[bool, "Whether the errors are as expected."]
 
 
+@described
 class Verification(Comparable):
     """What came of the checks; printed, it is the table of ``asperity verify``.
 
     Made by :func:`asperity.verify`. To go through it is to go through its checks.
-
-    Attributes
-    ----------
-    checks : list of Check
-        All checks that could be computed, in their order.
-    failures : dict
-        The message for each case that could not be computed, by name.
     """
+
+    checks: Annotated[list[Check], "All checks that could be computed, in their order."]
+    failures: Annotated[dict[str, str], "The message for each case that could not be computed, by name."]
 
     def __init__(self, checks: list[Check], failures: dict[str, str], parts: list[str]) -> None:
         self.checks = checks

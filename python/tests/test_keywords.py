@@ -10,7 +10,7 @@ from typing import Any
 
 import asperity as asp
 import pytest
-from asperity import _keywords
+from asperity import _conductance, _gap_flow, _keywords
 
 TAKING = {
     asp.contact: _keywords.ContactKeywords,
@@ -19,6 +19,10 @@ TAKING = {
     asp.run: _keywords.Execution,
     asp.study: _keywords.Tasks,
     asp.Study.run: _keywords.Tasks,
+    asp.conductance: _conductance.ConductanceKeywords,
+    asp.Contact.conductance: _conductance.ConductanceKeywords,
+    asp.flow: _gap_flow.FlowKeywords,
+    asp.Contact.flow: _gap_flow.FlowKeywords,
 }
 
 
@@ -31,6 +35,17 @@ def test_help_tells_each_keyword_with_its_type_and_meaning(function: Callable[..
         assert parameters[key].kind is inspect.Parameter.KEYWORD_ONLY and parameters[key].annotation == hints[key]
         assert re.search(rf"^{key} : .+\n    \S", told, re.MULTILINE), f"nothing is told of {key}"
     assert not any(each.kind is each.VAR_KEYWORD for each in parameters.values()) and "**" not in told
+
+
+@pytest.mark.parametrize("kind", [asp.Contact, asp.Parameter, asp.GapFlow, asp.reference.HertzSphere, asp.errors.PullOff])
+def test_help_tells_each_attribute_and_parameter_of_a_class(kind: type) -> None:
+    told = inspect.getdoc(kind) or ""
+    names = [*inspect.signature(kind).parameters] if kind is asp.reference.HertzSphere else [*kind.__annotations__]
+    for name in names:
+        assert re.search(rf"^{name} : .+\n    \S", told, re.MULTILINE), f"nothing is told of {name}"
+    assert "Annotated" not in told
+    if kind in (asp.Parameter, asp.reference.HertzSphere):
+        assert "Annotated" not in str(inspect.signature(kind))
 
 
 def test_a_simulation_takes_what_simulate_takes_but_its_law() -> None:

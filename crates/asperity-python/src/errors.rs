@@ -31,7 +31,7 @@ fn make<'py>(
     attributes: &Bound<'py, PyDict>,
     hint: Option<String>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    py.import("asperity.errors")?.getattr("_make")?.call1((name, message, attributes, hint))
+    py.import("asperity._raise")?.getattr("exception")?.call1((name, message, attributes, hint))
 }
 
 fn raised<'py>(py: Python<'py>, error: &Error) -> PyResult<Bound<'py, PyAny>> {

@@ -1,5 +1,8 @@
 //! `python/asperity/keys.py`: the types of the tables that Python's arguments take, made from the declarations of their keys.
 
+mod errors;
+mod numbers;
+
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -156,16 +159,22 @@ const KEYWORDS: &[Keywords] = &[
 
 #[test]
 fn the_types_of_python_are_those_of_the_keys() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../python/asperity/keys.py");
-    let made = file();
+    agrees("keys.py", |_| file());
+}
+
+/// Compares a file of the package with what is made of it, or writes it anew.
+fn agrees(name: &str, make: impl FnOnce(&str) -> String) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../python/asperity").join(name);
+    let stands = std::fs::read_to_string(&path).unwrap();
+    let made = make(&stands);
     if std::env::var_os("UPDATE").is_some() {
         std::fs::write(&path, &made).unwrap();
+        return;
     }
-    let stands = std::fs::read_to_string(&path).unwrap();
     if let Some((stands, made)) = stands.lines().zip(made.lines()).find(|(stands, made)| stands != made) {
-        panic!("keys.py has\n{stands}\nthe declarations have\n{made}\nUPDATE=1 writes it anew");
+        panic!("{name} has\n{stands}\nthe declarations have\n{made}\nUPDATE=1 writes it anew");
     }
-    assert_eq!(stands.len(), made.len(), "UPDATE=1 writes it anew");
+    assert_eq!(stands.len(), made.len(), "{name}: UPDATE=1 writes it anew");
 }
 
 fn file() -> String {
@@ -341,6 +350,17 @@ fn class(class: &Class) -> String {
         text += &field(each);
     }
     text
+}
+
+/// An attribute of a class with its type and its meaning.
+fn annotated(name: &str, kind: &str, text: &str) -> String {
+    let line = format!("    {name}: Annotated[{kind}, {}]\n", quoted(text));
+    if line.chars().count() <= WIDTH {
+        return line;
+    }
+    let text = wrapped(text, 0).replace('\n', " \n");
+    let lines: Vec<String> = text.lines().map(|line| format!("        {}", quoted(line))).collect();
+    format!("    {name}: Annotated[{kind},\n{}]\n", lines.join("\n"))
 }
 
 /// The type of the values of a key.
