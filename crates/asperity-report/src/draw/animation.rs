@@ -1,10 +1,8 @@
-//! A figure that changes, as an endless GIF or APNG, or as an MP4.
+//! A figure that changes, as an endless GIF.
 
 use std::collections::HashMap;
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
-use std::process::{Command, Stdio};
-use std::thread;
 
 use rayon::prelude::*;
 
@@ -19,8 +17,8 @@ const DPI: f64 = 110.0;
 /// Index of the colour that leaves the frame before as it is.
 const UNCHANGED: u8 = 255;
 
-/// Shows `frames` one after the other, each for `delay` hundredths of a second, in the file `path`: a GIF, or by its ending an
-/// APNG or MP4. The frames differ in a map of `colours` only, and are of one size.
+/// Shows `frames` one after the other, each for `delay` hundredths of a second, in the GIF `path`. The frames differ in a map
+/// of `colours` only, and are of one size.
 pub(crate) fn animation(path: &Path, frames: &[Scene], colours: Colours, delay: u16) -> Result<()> {
     let images: Vec<Image> =
         frames.par_iter().map(|frame| pixels(frame, DPI)).collect::<io::Result<_>>().map_err(at(path))?;
@@ -28,12 +26,7 @@ pub(crate) fn animation(path: &Path, frames: &[Scene], colours: Colours, delay: 
     if images.iter().any(|image| (image.width, image.height) != (first.width, first.height)) {
         return Err(invalid(path, "frames of different sizes".to_owned()));
     }
-    let bytes = match path.extension().and_then(|extension| extension.to_str()) {
-        Some("apng") => apng(&images, delay),
-        Some("mp4") => mp4(&images, delay),
-        _ => gif(&images, colours, delay),
-    };
-    write(path, &bytes.map_err(at(path))?)
+    write(path, &gif(&images, colours, delay).map_err(at(path))?)
 }
 
 fn gif(images: &[Image], colours: Colours, delay: u16) -> io::Result<Vec<u8>> {
@@ -51,60 +44,6 @@ fn gif(images: &[Image], colours: Colours, delay: u16) -> io::Result<Vec<u8>> {
         before = Some(indices);
     }
     encoder.into_inner().map_err(failed)
-}
-
-/// All colours as they are.
-fn apng(images: &[Image], delay: u16) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, images[0].width as u32, images[0].height as u32);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_animated(images.len() as u32, 0)?;
-    encoder.set_frame_delay(delay, 100)?;
-    let mut writer = encoder.write_header()?;
-    for image in images {
-        writer.write_image_data(image.pixels.as_flattened())?;
-    }
-    writer.finish()?;
-    Ok(bytes)
-}
-
-/// By the program `ffmpeg`.
-fn mp4(images: &[Image], delay: u16) -> io::Result<Vec<u8>> {
-    let (size, rate) = (format!("{}x{}", images[0].width, images[0].height), format!("100/{delay}"));
-    let input = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-video_size", &size, "-framerate", &rate, "-i", "-"];
-    // Players want even numbers of pixels, and halves of colours.
-    let output = ["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-pix_fmt", "yuv420p"];
-    let to_stdout = ["-movflags", "frag_keyframe+empty_moov", "-f", "mp4", "-"];
-    let started = Command::new("ffmpeg")
-        .args(["-v", "error"])
-        .args(input)
-        .args(output)
-        .args(to_stdout)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn();
-    let mut ffmpeg = started.map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => io::Error::new(
-            io::ErrorKind::InvalidInput,
-            "MP4 is made by ffmpeg, which is not there: `apt-get install ffmpeg`, `brew install ffmpeg`, or take GIF or APNG",
-        ),
-        _ => error,
-    })?;
-    let mut stdin = ffmpeg.stdin.take().expect("it was asked for");
-    let output = thread::scope(|scope| {
-        // It reads while it writes.
-        let fed = scope
-            .spawn(move || images.iter().try_for_each(|image| stdin.write_all(image.pixels.as_flattened())));
-        let output = ffmpeg.wait_with_output();
-        let _ = fed.join();
-        output
-    })?;
-    match output.status.success() {
-        true => Ok(output.stdout),
-        false => Err(io::Error::other(format!("ffmpeg: {}", String::from_utf8_lossy(&output.stderr).trim()))),
-    }
 }
 
 /// The rectangle that changes, transparent where it does not.

@@ -109,7 +109,7 @@ impl<'a> Sheet<'a> {
         Ok(())
     }
 
-    /// Adds an animation, if it is wanted, whose frames differ in a map of `colours`: as a GIF, or as what is named.
+    /// Adds an animation, if it is wanted, whose frames differ in a map of `colours`: as a GIF.
     pub(super) fn animate<F: Figure>(
         &mut self,
         name: &str,
@@ -117,21 +117,15 @@ impl<'a> Sheet<'a> {
         colours: Colours,
         frames: impl FnOnce() -> Result<Vec<(String, F)>>,
     ) -> Result {
-        let kinds = ["gif", "apng", "mp4"].map(|kind| format!("{name}.{kind}"));
-        let [gif, named @ ..] = kinds;
-        let mut wanted: Vec<String> = if self.wants(&gif) { vec![gif] } else { Vec::new() };
-        let named = named.into_iter().filter(|kind| self.wants(kind) && !self.wanted.only.is_empty());
-        wanted.extend(named.collect::<Vec<_>>());
-        if wanted.is_empty() {
+        let name = format!("{name}.gif");
+        if !self.wants(&name) {
             return Ok(());
         }
         self.check_interrupted()?;
         let paper = Paper { format: Format::Png, dpi: 100.0, ..self.wanted.paper };
         let frames = frames()?.into_iter().map(|(of, figure)| (figure, self.caption(title, &of)));
         let scenes = draw::captioned_alike(&frames.collect::<Vec<_>>(), &paper);
-        for name in wanted {
-            self.drawings.push((self.folder.join(name), Drawing::Moving(scenes.clone(), colours)));
-        }
+        self.drawings.push((self.folder.join(name), Drawing::Moving(scenes, colours)));
         Ok(())
     }
 
