@@ -331,9 +331,10 @@ pub fn gives<P: Part>(source: &dyn Source) -> bool {
 /// # Errors
 /// Several are given.
 pub fn at_most_one(source: &dyn Source, keys: &[&'static str], hint: &str) -> Result<()> {
-    match keys.iter().any(|key| source.value(key).is_some()) {
-        true => source.exactly_one(keys, hint).map(|_| ()),
-        false => Ok(()),
+    if keys.iter().any(|key| source.value(key).is_some()) {
+        source.exactly_one(keys, hint).map(|_| ())
+    } else {
+        Ok(())
     }
 }
 

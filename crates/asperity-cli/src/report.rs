@@ -294,11 +294,14 @@ fn hint(error: &Error) -> Option<String> {
             "fewer cells take less: `shape` or `resample`; so do fewer threads, and `pressure_every = 0` in [output]"
                 .to_owned(),
         ),
-        Error::NoDevice { found, .. } => Some(match found.contains("without the feature") {
-            true => "install the command with `--features cuda`; without `device` the processor solves the contact".to_owned(),
-            false => "`LD_LIBRARY_PATH` may name the folder of the libraries; without `device` the processor solves the contact"
-                .to_owned(),
-        }),
+        Error::NoDevice { found, .. } => {
+            let advice = if found.contains("without the feature") {
+                "install the command with `--features cuda`"
+            } else {
+                "`LD_LIBRARY_PATH` may name the folder of the libraries"
+            };
+            Some(format!("{advice}; without `device` the processor solves the contact"))
+        }
         Error::DeviceMemory { .. } => {
             Some("fewer cells take less: `shape` or `resample`; or leave `device` out".to_owned())
         }
@@ -313,12 +316,11 @@ fn hint(error: &Error) -> Option<String> {
             "give a force below {}, a displacement, or `sliding = [1, 0]` for bodies that slide",
             units::format(*limit, Dimension::Force)
         )),
-        Error::PullOff { least, .. } => Some(match *least < 0.0 {
-            true => format!(
-                "give a load above {}, or an `approach`, at which the bodies part",
-                units::format(*least, Dimension::Force)
-            ),
-            false => "press the bodies together first, or give an `approach`".to_owned(),
+        Error::PullOff { least, .. } => Some(if *least < 0.0 {
+            let least = units::format(*least, Dimension::Force);
+            format!("give a load above {least}, or an `approach`, at which the bodies part")
+        } else {
+            "press the bodies together first, or give an `approach`".to_owned()
         }),
         Error::NotConverged { .. } => {
             Some("raise `tolerance` in [contact], or try another `method` there".to_owned())

@@ -158,9 +158,10 @@ fn tell(table: &Table, study: &Study, folder: &Folder) -> Outcome {
 
 /// Prints the cases of a task without results, with the reasons.
 fn list(study: &Study, directory: &Path, task: Task) -> Outcome {
-    let states = match directory.join("study.json").exists() {
-        true => Folder::open(directory, study)?.states(study)?,
-        false => vec![State::Open; study.len()],
+    let states = if directory.join("study.json").exists() {
+        Folder::open(directory, study)?.states(study)?
+    } else {
+        vec![State::Open; study.len()]
     };
     let listed = || states.iter().enumerate().filter(|(n, _)| task.has(n + 1));
     let mut text = String::new();

@@ -229,11 +229,10 @@ impl<'a> Field<'a> {
         let (name, of) = (&self.name, self.of);
         if self.part().is_some() {
             let read = quote!(<#of as ::asperity_base::table::Part>::read(__source)?);
-            return match self.is_optional {
-                true => {
-                    quote!(let #name = if ::asperity_base::table::gives::<#of>(__source) { Some(#read) } else { None };)
-                }
-                false => quote!(let #name = #read;),
+            return if self.is_optional {
+                quote!(let #name = if ::asperity_base::table::gives::<#of>(__source) { Some(#read) } else { None };)
+            } else {
+                quote!(let #name = #read;)
             };
         }
         let given = self.given(key);
@@ -295,9 +294,10 @@ impl<'a> Field<'a> {
             }
             _ => return TokenStream::new(),
         };
-        match self.is_optional {
-            true => quote!(if let Some(value) = #value { #one }),
-            false => quote!({ let value = #value; #one }),
+        if self.is_optional {
+            quote!(if let Some(value) = #value { #one })
+        } else {
+            quote!({ let value = #value; #one })
         }
     }
 
@@ -416,10 +416,7 @@ fn meaning(attributes: &[Attribute], name: &Ident) -> Result<String> {
     // A symbol, an abbreviation and a name in the genitive keep their capital.
     let is_name = text.split(' ').next().is_some_and(|word| word.ends_with("'s"));
     let is_word = characters.clone().next().is_some_and(char::is_lowercase) && !is_name;
-    match is_word {
-        true => Ok(first.to_lowercase().chain(characters).collect()),
-        false => Ok(text.to_owned()),
-    }
+    if is_word { Ok(first.to_lowercase().chain(characters).collect()) } else { Ok(text.to_owned()) }
 }
 
 /// A default as a case file would write it: a number, true or false, or the word of a choice.

@@ -29,16 +29,15 @@ pub(crate) fn derive(input: &DeriveInput) -> Result<TokenStream> {
     let read = part::reader(&fields, &list, check.as_ref());
     let check = part::checkers(&fields, &list, |name| quote!(&self.#name));
     let table = &input.ident;
-    let default = match has_default {
-        false => TokenStream::new(),
-        true => {
-            let values = fields.iter().map(Field::default).collect::<Result<Vec<_>>>()?;
-            let fields = fields.iter().map(|field| &field.name);
-            quote! {
-                impl Default for #table {
-                    fn default() -> Self {
-                        Self { #(#fields: #values),* }
-                    }
+    let default = if !has_default {
+        TokenStream::new()
+    } else {
+        let values = fields.iter().map(Field::default).collect::<Result<Vec<_>>>()?;
+        let fields = fields.iter().map(|field| &field.name);
+        quote! {
+            impl Default for #table {
+                fn default() -> Self {
+                    Self { #(#fields: #values),* }
                 }
             }
         }

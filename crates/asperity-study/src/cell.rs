@@ -6,9 +6,10 @@ const FORMULAS: [char; 6] = ['=', '+', '-', '@', '\t', '\r'];
 /// Writes a cell of a CSV table. A text that a spreadsheet would compute as a formula gets an apostrophe in front; a number
 /// gets none.
 pub(crate) fn quoted(text: &str) -> String {
-    match text.starts_with(FORMULAS) && text.parse::<f64>().is_err() {
-        true => in_quotes(&format!("'{text}")),
-        false => in_quotes(text),
+    if text.starts_with(FORMULAS) && text.parse::<f64>().is_err() {
+        in_quotes(&format!("'{text}"))
+    } else {
+        in_quotes(text)
     }
 }
 

@@ -119,9 +119,10 @@ impl Passes {
                     Some(_) => resumed.with_plastic_states(writer.results().plastic_states_after(done)?),
                     None => resumed,
                 };
-                match represented >= motion.passes {
-                    true => resumed,
-                    false => resumed.resumed(done, writer.results().warm_start_after(done)?),
+                if represented >= motion.passes {
+                    resumed
+                } else {
+                    resumed.resumed(done, writer.results().warm_start_after(done)?)
                 }
             }
         };
@@ -167,10 +168,7 @@ impl Passes {
     /// # Errors
     /// The errors of [`Simulation::solve`].
     pub fn solve(&self, watch: &dyn Watch) -> Result<Option<SolvedPass>> {
-        match self.represented < self.motion.passes {
-            true => self.simulation.solve(watch).map(Some),
-            false => Ok(None),
-        }
+        if self.represented < self.motion.passes { self.simulation.solve(watch).map(Some) } else { Ok(None) }
     }
 
     /// Finishes a pass: writes it, and uses its bodies for the next one.

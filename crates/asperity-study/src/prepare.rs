@@ -430,15 +430,17 @@ pub fn hardness(
     if let Some(((i, j), &value)) =
         values.indexed_iter().find(|(_, value)| !Dimension::Pressure.range().holds(**value))
     {
-        let found = match value.is_nan() {
-            true => "no number".to_owned(),
-            false => format!("a hardness of {}", units::format(value, Dimension::Pressure)),
+        let found = if value.is_nan() {
+            "no number".to_owned()
+        } else {
+            format!("a hardness of {}", units::format(value, Dimension::Pressure))
         };
         let message =
             format!("{file} has {found} in cell [{i}, {j}], expected a pressure above 0 of a solid");
-        let hint = match value > 0.0 {
-            true => "give the unit of its numbers, for example `unit = \"GPa\"`",
-            false => "every cell has a hardness; for one that never yields give more than any pressure",
+        let hint = if value > 0.0 {
+            "give the unit of its numbers, for example `unit = \"GPa\"`"
+        } else {
+            "every cell has a hardness; for one that never yields give more than any pressure"
         };
         return Err(error(key, message, Some(hint.to_owned())));
     }

@@ -70,9 +70,10 @@ impl GrowingTable {
         // Once a law has removed volume in one pass, the rows of all passes have its columns.
         let known = self.columns.iter().filter(|column| !columns.contains(column));
         columns.extend(known.cloned().collect::<Vec<_>>());
-        let mut before = match self.columns.is_empty() {
-            true => Vec::new(),
-            false => raw_rows(&self.path).map_err(failed(&self.path))?,
+        let mut before = if self.columns.is_empty() {
+            Vec::new()
+        } else {
+            raw_rows(&self.path).map_err(failed(&self.path))?
         };
         before.extend(rows);
         write_rows(&self.path, &columns, &before)?;

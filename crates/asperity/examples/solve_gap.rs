@@ -31,13 +31,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let pitch = number("pitch", 1.0)?;
     let grid = Grid::new([gap.nrows(), gap.ncols()], [pitch; 2])?;
     let hardness = number("hardness", f64::INFINITY)?;
-    let control = match options.contains_key("approach") {
-        true => Control::Approach(number("approach", f64::NAN)?),
-        false => Control::Load(number("load", number("mean", f64::NAN)? * grid.area())?),
+    let control = if options.contains_key("approach") {
+        Control::Approach(number("approach", f64::NAN)?)
+    } else {
+        Control::Load(number("load", number("mean", f64::NAN)? * grid.area())?)
     };
-    let adhesion = match options.contains_key("work") {
-        true => Some(Adhesion::new(number("work", f64::NAN)?, number("range", f64::NAN)?)?),
-        false => None,
+    let adhesion = if options.contains_key("work") {
+        Some(Adhesion::new(number("work", f64::NAN)?, number("range", f64::NAN)?)?)
+    } else {
+        None
     };
     let boundary = Boundary([choice(&options, "boundary", Edge::Free)?; 2]);
     let method: Method = choice(&options, "method", Method::ActiveSet)?;

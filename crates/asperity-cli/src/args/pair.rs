@@ -144,9 +144,10 @@ fn both(text: &str, good: impl Fn(&str) -> Result<(), String>) -> Result<Both, S
 }
 
 pub(crate) fn pair_of_materials(text: &str) -> Result<Both, String> {
-    both(text, |name| match material::NAMES.contains(&name) {
-        true => Ok(()),
-        false => {
+    both(text, |name| {
+        if material::NAMES.contains(&name) {
+            Ok(())
+        } else {
             let near = material::NamedMaterial::near(name).map_or(String::new(), |hint| format!(" ({hint})"));
             Err(format!("no material `{name}`{near}; `asperity materials` lists them"))
         }
@@ -175,9 +176,10 @@ pub(crate) fn load(text: &str) -> Result<Load, String> {
             return Err(hint.map_or(EXPECTED.to_owned(), |hint| format!("{EXPECTED}; {hint}")));
         }
     };
-    match value > 0.0 && value.is_finite() {
-        true => Ok(Load { key, text: text.to_owned() }),
-        false => Err(EXPECTED.to_owned()),
+    if value > 0.0 && value.is_finite() {
+        Ok(Load { key, text: text.to_owned() })
+    } else {
+        Err(EXPECTED.to_owned())
     }
 }
 

@@ -27,9 +27,10 @@ pub(crate) fn example(arguments: &Example) -> Outcome {
         return Err(Failure::usage(message, Some("name another folder with --out")));
     }
     let paths = write(kit, &folder)?;
-    let next = match kit.files.iter().any(|(name, _)| *name == STUDY) {
-        true => format!("study {}", folder.join(STUDY).display()),
-        false => format!("run {}", folder.join("case.toml").display()),
+    let next = if kit.files.iter().any(|(name, _)| *name == STUDY) {
+        format!("study {}", folder.join(STUDY).display())
+    } else {
+        format!("run {}", folder.join("case.toml").display())
     };
     note(&format!("next: asperity {next}"));
     print(&paths.iter().map(|path| format!("{}\n", path.display())).collect::<String>())

@@ -89,9 +89,12 @@ impl Conductance {
             Ok(_) => Err("expected one value, or two with a comma between".to_owned()),
             Err(error) => Err(error.clone()),
         };
-        let both = both.and_then(|both| match both.iter().any(|value| value.is_finite()) {
-            true => Ok(both),
-            false => Err("expected a finite conductivity of one body at least".to_owned()),
+        let both = both.and_then(|both| {
+            if both.iter().any(|value| value.is_finite()) {
+                Ok(both)
+            } else {
+                Err("expected a finite conductivity of one body at least".to_owned())
+            }
         });
         both.map_err(|error| format!("invalid value '{}' for --conductivity: {error}", self.conductivity))
     }

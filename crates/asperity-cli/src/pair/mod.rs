@@ -88,10 +88,7 @@ fn compute(
         let case = place::shown(&case);
         note(&format!("the case is {case}: edit it, then `asperity run {case} --overwrite`"));
     }
-    match writing.open {
-        true => show(&directory.join(page::FILE)),
-        false => Ok(()),
-    }
+    if writing.open { show(&directory.join(page::FILE)) } else { Ok(()) }
 }
 
 /// Time of a run from which on it is told, s.

@@ -138,12 +138,11 @@ pub(super) fn seen_from(folder: &Path, file: &Path) -> PathBuf {
     }
     let is_plain =
         |path: &Path| path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
-    match is_plain(folder) {
-        true => {
-            let parts = folder.components().filter(|part| matches!(part, Component::Normal(_)));
-            parts.map(|_| "..").collect::<PathBuf>().join(file)
-        }
-        false => std::path::absolute(file).unwrap_or_else(|_| file.to_owned()),
+    if is_plain(folder) {
+        let parts = folder.components().filter(|part| matches!(part, Component::Normal(_)));
+        parts.map(|_| "..").collect::<PathBuf>().join(file)
+    } else {
+        std::path::absolute(file).unwrap_or_else(|_| file.to_owned())
     }
 }
 

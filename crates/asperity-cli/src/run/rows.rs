@@ -238,9 +238,10 @@ impl Rows {
         if first {
             self.apart = approach < 0.0;
         }
-        match self.apart {
-            true => Cell::of("apart", "approach", -approach),
-            false => Cell::of("approach", "approach", approach),
+        if self.apart {
+            Cell::of("apart", "approach", -approach)
+        } else {
+            Cell::of("approach", "approach", approach)
         }
     }
 }

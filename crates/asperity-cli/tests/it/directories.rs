@@ -3,10 +3,8 @@
 use std::fs;
 use std::time::{Duration, Instant};
 
-use asperity::io::fields::Fields;
-
 use crate::support::{BALL, PUSH, folder_with, moving, pushed, run, set};
-use crate::support::{asperity, assert_has, assert_refused, command, failed, files, limited, ok, refused};
+use crate::support::{asperity, assert_has, assert_refused, failed, files, limited, ok};
 use crate::support::{send, spawn, wait_for};
 
 #[test]

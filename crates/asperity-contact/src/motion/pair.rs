@@ -202,9 +202,10 @@ impl Pair {
 
     /// Returns [`Error::Unsupported`] if viscoelastic bodies yield or have an interface other than hard walls.
     pub(super) fn check_creep(&self) -> Result<()> {
-        match self.creep.is_some() && (!self.interface.is_hard() || self.yields()) {
-            true => Err(Error::Unsupported("viscoelastic bodies that attract each other or have a hardness")),
-            false => Ok(()),
+        if self.creep.is_some() && (!self.interface.is_hard() || self.yields()) {
+            Err(Error::Unsupported("viscoelastic bodies that attract each other or have a hardness"))
+        } else {
+            Ok(())
         }
     }
 
@@ -245,9 +246,10 @@ impl Pair {
     /// [`Error::Unsupported`].
     pub(super) fn check_flow(&self, bodies: &[Option<PlasticBody>; 2]) -> Result<()> {
         let mut hardness = [&self.lower, &self.upper].map(|body| body.hardness.min()).into_iter().zip(bodies);
-        match hardness.any(|(hardness, body)| body.is_some() && hardness.is_finite()) {
-            true => Err(Error::Unsupported("an elasto-plastic body does not take a hardness")),
-            false => Ok(()),
+        if hardness.any(|(hardness, body)| body.is_some() && hardness.is_finite()) {
+            Err(Error::Unsupported("an elasto-plastic body does not take a hardness"))
+        } else {
+            Ok(())
         }
     }
 

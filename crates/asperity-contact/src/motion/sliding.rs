@@ -306,10 +306,8 @@ impl SlidingContact {
             let next = self.compliance(&state.pair, &sums, position_data.distance, &solution.pressure);
             // A cell whose pressure is hardly one may go on changing between pressure and tension.
             let highest = contact.max_pressure();
-            let weight = |pressure: f64| match state.pair.interface().is_hard() {
-                true => 1.0,
-                false => pressure.abs() / highest,
-            };
+            let weight =
+                |pressure: f64| if state.pair.interface().is_hard() { 1.0 } else { pressure.abs() / highest };
             let change = |(cell, pressure): &(u32, f64)| {
                 weight(*pressure) * (next.at(*cell as usize) - compliance.at(*cell as usize)).abs()
             };

@@ -168,9 +168,10 @@ impl Cycles {
     /// Checks the numbers.
     pub(super) fn checked(self) -> Result<Self> {
         let is_good = self.period.is_none_or(|period| period > 0.0 && period.is_finite());
-        match self.count > 0 && is_good {
-            true => Ok(self),
-            false => Err(Error::Unsupported("cycles need a number of at least 1 and a time above 0")),
+        if self.count > 0 && is_good {
+            Ok(self)
+        } else {
+            Err(Error::Unsupported("cycles need a number of at least 1 and a time above 0"))
         }
     }
 }

@@ -238,9 +238,10 @@ impl LoadingState {
         };
         let memory = restored_memory(from, pair)?;
         let has_friction = from.holds("stick");
-        let contact = match has_friction {
-            false => Equilibrium::Frictionless(Box::new(normal)),
-            true => Equilibrium::Frictional(Box::new(FrictionalSolution {
+        let contact = if !has_friction {
+            Equilibrium::Frictionless(Box::new(normal))
+        } else {
+            Equilibrium::Frictional(Box::new(FrictionalSolution {
                 normal,
                 shear: restore_both(from, "traction")?,
                 shear_limit: from.field("shear_limit")?,
@@ -248,7 +249,7 @@ impl LoadingState {
                 rigid_displacement: from.vector("rigid_displacement")?,
                 slip: restore_both(from, "last_slip")?,
                 stick: from.field("stick")?,
-            })),
+            }))
         };
         Ok(Self {
             increments,

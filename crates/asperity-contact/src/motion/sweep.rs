@@ -177,9 +177,10 @@ impl Sweep<'_> {
         let contact = LoadedContact::at_once(pair, solver.solve(&problem)?);
         let record = record(*boundary, number, &contact);
         // A tension on open cells changes with the approach, too.
-        let (stiffness, stats) = match pair.interface().is_hard() {
-            false => (None, Stats::default()),
-            true => normal_stiffness(solver.normal(), &contact.solution.normal().elastic_cells(), params)?,
+        let (stiffness, stats) = if !pair.interface().is_hard() {
+            (None, Stats::default())
+        } else {
+            normal_stiffness(solver.normal(), &contact.solution.normal().elastic_cells(), params)?
         };
         let convolutions = record.convolutions + stats.convolutions;
         self.solver = Some((regime, solver));

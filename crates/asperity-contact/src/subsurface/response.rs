@@ -70,9 +70,8 @@ impl StressAtDepth {
             let pair = if imaginary { [None, Some(traction)] } else { [Some(traction), None] };
             let mut symbol = self.body.symbol(component, pair, self.depth);
             // Two real tables may share a transform, so that only one part of it belongs to this traction.
-            let part = |value: Complex64| match imaginary {
-                true => Complex64::new(0.0, value.im),
-                false => Complex64::new(value.re, 0.0),
+            let part = |value: Complex64| {
+                if imaginary { Complex64::new(0.0, value.im) } else { Complex64::new(value.re, 0.0) }
             };
             symbol.mapv_inplace(part);
             symbol

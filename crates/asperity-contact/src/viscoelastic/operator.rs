@@ -143,9 +143,12 @@ impl Kernels {
                 if zero(kx, ky) { 0.0.into() } else { response(kx, ky) }
             }),
             // Only the even part of the shortest wave of an even number of cells is known, and it has no slope.
-            slope: SkewKernel::from_transform(grid.shape, |kx, ky| match zero(kx, ky) || 2 * kx == nx {
-                true => 0.0.into(),
-                false => Complex64::i() * wave(kx, ky)[0] * response(kx, ky),
+            slope: SkewKernel::from_transform(grid.shape, |kx, ky| {
+                if zero(kx, ky) || 2 * kx == nx {
+                    0.0.into()
+                } else {
+                    Complex64::i() * wave(kx, ky)[0] * response(kx, ky)
+                }
             }),
             preconditioner: SkewKernel::from_transform(grid.shape, |kx, ky| {
                 if zero(kx, ky) { mean } else { response(kx, ky).inv() }
@@ -158,11 +161,14 @@ impl Kernels {
         let (pitch, line) = (grid.pitch, boundary.line(grid, boundary.datum(grid)));
         let columns = grid.shape[1];
         let near = |x: Metre, across: bool| -> Option<Vec<f64>> {
-            let row = |y: Metre, columns: usize| match across {
-                true => normal_displacements_across(x, y, columns, pitch, 1.0),
-                false => (0..columns)
-                    .map(|j| normal_displacement(x, y + j as f64 * pitch[1], pitch, 1.0))
-                    .collect(),
+            let row = |y: Metre, columns: usize| {
+                if across {
+                    normal_displacements_across(x, y, columns, pitch, 1.0)
+                } else {
+                    (0..columns)
+                        .map(|j| normal_displacement(x, y + j as f64 * pitch[1], pitch, 1.0))
+                        .collect()
+                }
             };
             let nearest = |line: Line, j: usize| {
                 line.nearest(j as f64 * pitch[1]).map(|y| row(y, 1)[0]).iter().sum::<f64>()

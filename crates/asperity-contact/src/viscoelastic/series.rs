@@ -57,9 +57,10 @@ impl Relaxation {
             check_in(Dimension::Time, "time", term.time, is_valid(term.time), "a finite time above 0")?;
         }
         terms.sort_by(|a, b| b.time.total_cmp(&a.time));
-        match terms.windows(2).any(|pair| pair[0].time == pair[1].time) {
-            true => Err(Error::Unsupported("two moduli with the same relaxation time")),
-            false => Ok(Self { relaxed, terms }),
+        if terms.windows(2).any(|pair| pair[0].time == pair[1].time) {
+            Err(Error::Unsupported("two moduli with the same relaxation time"))
+        } else {
+            Ok(Self { relaxed, terms })
         }
     }
 
@@ -106,9 +107,10 @@ impl Relaxation {
         let lower = index.checked_sub(1).map(|before| self.terms[before].time);
         // E(−r) falls from +∞, or E₀, to −∞. The rate is sought from the end that is nearer, so that its distance has all digits.
         let half = 0.5 * (1.0 / upper - lower.map_or(0.0, |lower| 1.0 / lower));
-        let (pole, sign) = match self.at(Rate { pole: lower, distance: half }) < 0.0 {
-            true => (lower, 1.0),
-            false => (Some(upper), -1.0),
+        let (pole, sign) = if self.at(Rate { pole: lower, distance: half }) < 0.0 {
+            (lower, 1.0)
+        } else {
+            (Some(upper), -1.0)
         };
         let (mut least, mut most) = (f64::MIN_POSITIVE, half);
         loop {
@@ -116,9 +118,10 @@ impl Relaxation {
             if distance <= least || distance >= most {
                 return Rate { pole, distance: sign * most };
             }
-            match (self.at(Rate { pole, distance: sign * distance }) > 0.0) == (sign > 0.0) {
-                true => least = distance,
-                false => most = distance,
+            if (self.at(Rate { pole, distance: sign * distance }) > 0.0) == (sign > 0.0) {
+                least = distance
+            } else {
+                most = distance
             }
         }
     }

@@ -140,9 +140,10 @@ fn flat_bodies_agree_with_those_of_the_processor() {
             for (boundary, coated) in
                 [(Boundary::PERIODIC, false), (Boundary::FREE, false), (Boundary::PERIODIC, true)]
             {
-                let operators = match coated {
-                    true => Operators::new(grid, response(&soft, &rigid).unwrap(), boundary),
-                    false => Operators::new(grid, 1.0, boundary),
+                let operators = if coated {
+                    Operators::new(grid, response(&soft, &rigid).unwrap(), boundary)
+                } else {
+                    Operators::new(grid, 1.0, boundary)
                 };
                 let bounds = Bounds::up_to(0.05);
                 let drawn = Drawn { operators, gap: grid.zeros(), bounds, control, grid };

@@ -109,9 +109,10 @@ impl Case {
             bump * (x * x + y * y) + random.random_range(-0.1..0.1)
         });
         let hardness = random.random_range(0.03..0.12);
-        let (young, poisson) = match random.random_bool(0.5) {
-            true => ([2.0, 2.0], [0.3, 0.3]),
-            false => ([1.0, random.random_range(1.5..30.0)], [random.random_range(0.1..0.4), 0.3]),
+        let (young, poisson) = if random.random_bool(0.5) {
+            ([2.0, 2.0], [0.3, 0.3])
+        } else {
+            ([1.0, random.random_range(1.5..30.0)], [random.random_range(0.1..0.4), 0.3])
         };
         let harder = *[1.0, 2.0, f64::INFINITY].get(random.random_range(0..3)).unwrap();
         let materials = [0, 1]
@@ -139,13 +140,15 @@ impl Case {
                 let direction = [angle.cos(), angle.sin()];
                 Stage::new(
                     Loading {
-                        normal: match by_load {
-                            true => Control::Load(load),
-                            false => Control::Approach(lowest + random.random_range(-0.05..0.5)),
+                        normal: if by_load {
+                            Control::Load(load)
+                        } else {
+                            Control::Approach(lowest + random.random_range(-0.05..0.5))
                         },
-                        tangential: match by_force {
-                            true => Tangential::Force(direction.map(|n| n * share * bound)),
-                            false => Tangential::Displacement(direction.map(|n| n * share * 0.2)),
+                        tangential: if by_force {
+                            Tangential::Force(direction.map(|n| n * share * bound))
+                        } else {
+                            Tangential::Displacement(direction.map(|n| n * share * 0.2))
                         },
                     },
                     random.random_range(1..4),
@@ -290,9 +293,10 @@ fn any_tolerance(seed: u64) {
         assert!(row.residual <= tolerance, "case {seed}: {:e} of {tolerance:e}", row.residual);
         let normal = state.contact.normal();
         // With its shear a cell may exceed its cap by as much as the tolerance allows in the displacement.
-        let beyond = match case.friction.is_some_and(|friction| friction.junction_growth > 0.0) {
-            true => 1.5 * tolerance * normal.displacement.std(0.0) * modulus,
-            false => 0.0,
+        let beyond = if case.friction.is_some_and(|friction| friction.junction_growth > 0.0) {
+            1.5 * tolerance * normal.displacement.std(0.0) * modulus
+        } else {
+            0.0
         };
         let most = case.hardness() + beyond;
         assert!(

@@ -127,13 +127,11 @@ impl Case {
             let young = 100e9 * 10f64.powf(rng.random_range(-2.0..2.0));
             Coating::new(thickness, young, [0.0, 0.3, 0.5][pick(rng, 3)]).unwrap()
         };
-        let coatings = match coated {
-            true => {
-                motion.friction = None;
-                [[true, false], [false, true], [true, true]][seed as usize % 3]
-                    .map(|is| is.then(&mut coating))
-            }
-            false => [None; 2],
+        let coatings = if coated {
+            motion.friction = None;
+            [[true, false], [false, true], [true, true]][seed as usize % 3].map(|is| is.then(&mut coating))
+        } else {
+            [None; 2]
         };
         Self {
             boundary,

@@ -167,9 +167,10 @@ fn what_is_not_known_of_a_response_is_refused() {
             .with_friction(Some(friction.with_coupling(coupling)))
             .with_load_tolerance(1e-3);
         let made = Simulation::new(pair(), Boundary::FREE, motion, params);
-        match slides {
-            true => made.unwrap().run(&(), &mut []).unwrap(),
-            false => unsupported(made.map(|_| ()).unwrap_err(), "gross sliding"),
+        if slides {
+            made.unwrap().run(&(), &mut []).unwrap()
+        } else {
+            unsupported(made.map(|_| ()).unwrap_err(), "gross sliding")
         }
     }
 }

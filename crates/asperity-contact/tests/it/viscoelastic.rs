@@ -99,11 +99,12 @@ fn a_hundred_random_histories_are_those_of_boltzmanns_superposition() {
         for step in 0..8 {
             let is_sudden = step == 0 || random.random_bool(0.2);
             let duration = if is_sudden { 0.0 } else { 10f64.powf(random.random_range(-2.0..1.5)) };
-            let control = match random.random_bool(0.5) {
-                true => Control::Load(
+            let control = if random.random_bool(0.5) {
+                Control::Load(
                     10f64.powf(random.random_range(-2.0..0.0)) * grid.extent()[0] * grid.extent()[1],
-                ),
-                false => Control::Approach(random.random_range(0.2..0.9) * gap.mean().unwrap()),
+                )
+            } else {
+                Control::Approach(random.random_range(0.2..0.9) * gap.mean().unwrap())
             };
             let params = Params::default().with_tolerance(1e-10);
             let (operator, memory) = (operator.as_mut(), &mut memory);

@@ -137,9 +137,12 @@ impl<T: Precision> TensorConvolution<T> {
         let given = input.map(|field| field.is_some());
         let asked = output.each_ref().map(|field| field.is_some());
         // Without coupling, the fields in the plane and the field along z are independent.
-        let meet = |flags: [bool; 3]| match kernel.coupled {
-            true => [flags.contains(&true); 3],
-            false => [flags[0] || flags[1], flags[0] || flags[1], flags[2]],
+        let meet = |flags: [bool; 3]| {
+            if kernel.coupled {
+                [flags.contains(&true); 3]
+            } else {
+                [flags[0] || flags[1], flags[0] || flags[1], flags[2]]
+            }
         };
         let both = |a: [bool; 3], b: [bool; 3]| std::array::from_fn::<bool, 3, _>(|n| a[n] && b[n]);
         let (forward, back) = (both(given, meet(asked)), both(asked, meet(given)));

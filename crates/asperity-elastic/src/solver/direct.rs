@@ -200,10 +200,8 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         let found = self.between_bounds(mean_gap, sets);
         self.stiffening = 0.0;
         let (pressure, _) = found?;
-        let way = |cell: usize, p: f64| match rises {
-            true => bounds.at(cell).upper - p,
-            false => p - bounds.at(cell).lower,
-        };
+        let way =
+            |cell: usize, p: f64| if rises { bounds.at(cell).upper - p } else { p - bounds.at(cell).lower };
         let ways = pressure.indexed_iter().enumerate().map(|(cell, (index, p))| (index, way(cell, *p)));
         let nearest = ways.min_by(|a, b| a.1.total_cmp(&b.1));
         sets[nearest.expect("a cell").0] = set;
@@ -239,9 +237,10 @@ impl<'a, 'b> Pivoting<'a, 'b> {
         }
         let width = sets.ncols();
         let coefficient = |a: (usize, usize), b: (usize, usize)| {
-            let influence = match a == b {
-                true => self.self_influence.at(a.0 * width + a.1),
-                false => self.influence[[a.0.abs_diff(b.0), a.1.abs_diff(b.1)]],
+            let influence = if a == b {
+                self.self_influence.at(a.0 * width + a.1)
+            } else {
+                self.influence[[a.0.abs_diff(b.0), a.1.abs_diff(b.1)]]
             };
             influence + self.stiffening
         };

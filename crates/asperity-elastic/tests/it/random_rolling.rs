@@ -118,9 +118,10 @@ impl Case {
             }
             _ => Creep::Creepage(direction.map(|part| size * part)),
         };
-        let spin = match boundary == Boundary::FREE && pick(rng, 2) == 0 {
-            true => [-1.0, 1.0][pick(rng, 2)] * size * decades(rng, -1.0, 1.0) / extent[0].max(extent[1]),
-            false => 0.0,
+        let spin = if boundary == Boundary::FREE && pick(rng, 2) == 0 {
+            [-1.0, 1.0][pick(rng, 2)] * size * decades(rng, -1.0, 1.0) / extent[0].max(extent[1])
+        } else {
+            0.0
         };
         Self {
             shape,
@@ -161,17 +162,21 @@ impl Case {
 
     /// Returns the hardness of each cell.
     fn caps(&self) -> Field {
-        Field::from_shape_fn(self.shape, |(i, j)| match self.maps {
-            true => self.hardness * (0.75 + 0.25 * ((3 * i + 5 * j) as f64 + self.phase).sin()),
-            false => self.hardness,
+        Field::from_shape_fn(self.shape, |(i, j)| {
+            if self.maps {
+                self.hardness * (0.75 + 0.25 * ((3 * i + 5 * j) as f64 + self.phase).sin())
+            } else {
+                self.hardness
+            }
         })
     }
 
     fn solve(&self) -> Result<RollingSolution, Error> {
         let mut operator = Operators::new(self.grid(), self.pair(), self.boundary).coupled_on(self.shape);
-        let bounds = match self.maps && self.hardness.is_finite() {
-            true => Bounds::up_to(self.caps()),
-            false => Bounds::up_to(self.hardness),
+        let bounds = if self.maps && self.hardness.is_finite() {
+            Bounds::up_to(self.caps())
+        } else {
+            Bounds::up_to(self.hardness)
         };
         solve_rolling(
             operator.as_mut(),

@@ -270,9 +270,10 @@ impl<'a> Drawn<'a> {
             let within = |y: f64| {
                 y.clamp(at.y + 0.5 * SMALL + 2.0, (at.bottom() - 0.5 * SMALL - 2.0).max(at.y + SMALL))
             };
-            match x > at.middle()[0] {
-                true => scene.text(words, [x - 5.0, within(y - 7.0)], SMALL, Anchor::End),
-                false => scene.text(words, [x + 5.0, within(y + 8.0)], SMALL, Anchor::Start),
+            if x > at.middle()[0] {
+                scene.text(words, [x - 5.0, within(y - 7.0)], SMALL, Anchor::End)
+            } else {
+                scene.text(words, [x + 5.0, within(y + 8.0)], SMALL, Anchor::Start)
             }
         }
         if nothing {

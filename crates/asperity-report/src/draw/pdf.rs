@@ -139,9 +139,10 @@ impl Glyphs {
         let [x, y] = words.at;
         let (along, down) = (start(words), words.size * CAPITAL / 2.0);
         // The text's own y runs up.
-        let matrix = match words.upright {
-            false => [1.0, 0.0, 0.0, -1.0, x + along, y + down],
-            true => [0.0, -1.0, -1.0, 0.0, x + down, y - along],
+        let matrix = if !words.upright {
+            [1.0, 0.0, 0.0, -1.0, x + along, y + down]
+        } else {
+            [0.0, -1.0, -1.0, 0.0, x + down, y - along]
         };
         let [r, g, b] = unit(words.colour);
         content.begin_text().set_fill_rgb(r, g, b).set_font(Name(b"F"), words.size as f32);

@@ -166,9 +166,10 @@ impl<'s, 'a> Layout<'s, 'a> {
 
     /// Width of the bar that all maps share.
     fn shared_bar(&self) -> f64 {
-        match self.shared && !self.sheet.maps[0].shading.is_of_classes() {
-            true => BAR + GAP + beside(&self.bar_scale(0)),
-            false => 0.0,
+        if self.shared && !self.sheet.maps[0].shading.is_of_classes() {
+            BAR + GAP + beside(&self.bar_scale(0))
+        } else {
+            0.0
         }
     }
 

@@ -82,9 +82,12 @@ pub fn field_map<'a, R>(
     place: Option<[f64; 2]>,
 ) -> Maps<'a> {
     let extent = grid.extent();
-    let draw = |colours| match map.is_section {
-        true => Map::section("", field, [[0.0, extent[0]], [0.0, extent[1]]], quantity, colours),
-        false => Map::new("", field, grid, quantity, colours),
+    let draw = |colours| {
+        if map.is_section {
+            Map::section("", field, [[0.0, extent[0]], [0.0, extent[1]]], quantity, colours)
+        } else {
+            Map::new("", field, grid, quantity, colours)
+        }
     };
     let drawn = match logarithmic(map.scale, field) {
         None => draw(Colours::Pressure),
@@ -193,9 +196,10 @@ impl Order {
     }
 
     fn axis(&self) -> Axis {
-        match self.by_pressure {
-            true => Axis { log: self.log, ..Axis::of("mean pressure", "mean_pressure") },
-            false => Axis::linear("contact", Unit::Number),
+        if self.by_pressure {
+            Axis { log: self.log, ..Axis::of("mean pressure", "mean_pressure") }
+        } else {
+            Axis::linear("contact", Unit::Number)
         }
     }
 

@@ -32,9 +32,10 @@ fn most_of(pressures: impl Iterator<Item = f64>) -> (f64, Option<&'static str>) 
     all.sort_unstable_by(f64::total_cmp);
     let Some(largest) = all.last().copied() else { return (f64::MIN_POSITIVE, None) };
     let most = all[((all.len() - 1) as f64 * SHARE) as usize];
-    match largest > 1.5 * most {
-        true => (most, Some("colours end at the percentile 98 % of the cells in contact")),
-        false => (largest, None),
+    if largest > 1.5 * most {
+        (most, Some("colours end at the percentile 98 % of the cells in contact"))
+    } else {
+        (largest, None)
     }
 }
 
@@ -142,9 +143,10 @@ fn topographies<'a>(
     is_fresh: bool,
 ) -> Maps<'a> {
     let at_end = format!("after pass {pass}");
-    let upper_before = match is_fresh {
-        true => "upper body of the first pass, underside, before",
-        false => "upper body, underside, before",
+    let upper_before = if is_fresh {
+        "upper body of the first pass, underside, before"
+    } else {
+        "upper body, underside, before"
     };
     let mut remarks = Vec::new();
     let ranges = [0, 1].map(|body| {
@@ -173,9 +175,10 @@ fn of_bodies(fields: &Fields, state: &str, bodies: &[StoredArray; 2]) -> Result<
     let names = fields.names()?;
     let read = |body: usize| {
         let name = format!("{state}_{}", ["lower", "upper"][body]);
-        match names.contains(&name) {
-            true => StoredArray::read(fields, &name),
-            false => Ok(bodies[body].with(Field::zeros(bodies[body].field.raw_dim()))),
+        if names.contains(&name) {
+            StoredArray::read(fields, &name)
+        } else {
+            Ok(bodies[body].with(Field::zeros(bodies[body].field.raw_dim())))
         }
     };
     let known = ["lower", "upper"].iter().any(|body| names.contains(&format!("{state}_{body}")));
@@ -235,9 +238,12 @@ fn pressures(
         (0..number).map(|k| kept[(2 * k + 1) * kept.len() / (2 * number)]).collect();
     let caps: Vec<Cap> = middles
         .iter()
-        .map(|step| match names.contains(&cap_name(step.step)) {
-            true => Ok(Cap::Field(StoredArray::read(fields, &cap_name(step.step))?.framed(lower).field)),
-            false => Cap::read(fields),
+        .map(|step| {
+            if names.contains(&cap_name(step.step)) {
+                Ok(Cap::Field(StoredArray::read(fields, &cap_name(step.step))?.framed(lower).field))
+            } else {
+                Cap::read(fields)
+            }
         })
         .collect::<Result<_>>()?;
     let shown: Vec<(String, StoredArray)> = middles

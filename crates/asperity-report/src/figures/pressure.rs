@@ -30,11 +30,10 @@ fn distribution<P: Iterator<Item = f64>>(pressures: impl Fn() -> P, cap: &Cap) -
     let all: usize = counts.iter().sum();
     let width = (largest - least) / CLASSES as f64;
     let share = |count: usize| 100.0 * count as f64 / all as f64;
-    let bars: Vec<[f64; 2]> = match all == 0 {
-        true => Vec::new(),
-        false => {
-            counts.iter().enumerate().map(|(i, n)| [least + (i as f64 + 0.5) * width, share(*n)]).collect()
-        }
+    let bars: Vec<[f64; 2]> = if all == 0 {
+        Vec::new()
+    } else {
+        counts.iter().enumerate().map(|(i, n)| [least + (i as f64 + 0.5) * width, share(*n)]).collect()
     };
     let highest = bars.iter().map(|bar| bar[1]).fold(0.0, f64::max);
     let mut series = vec![Series::new("cells in contact", bars, Mark::Bars)];

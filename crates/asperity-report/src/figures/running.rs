@@ -20,9 +20,10 @@ pub(super) fn curves(passes: &[PassRecord], sq: [f64; 2]) -> Option<Curves> {
 }
 
 fn charts(passes: &[PassRecord], sq: [f64; 2], log: bool) -> Charts {
-    let x = match log {
-        true => Axis::log("sliding distance", Unit::Of("m")),
-        false => Axis::of("sliding distance", "distance"),
+    let x = if log {
+        Axis::log("sliding distance", Unit::Of("m"))
+    } else {
+        Axis::of("sliding distance", "distance")
     };
     let over = |value: &dyn Fn(&PassRecord) -> f64| -> Curve {
         passes.iter().filter_map(|p| Some([p.running?.distance, value(p)])).collect()

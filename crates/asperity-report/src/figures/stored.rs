@@ -103,9 +103,10 @@ impl StoredArray {
     /// Values above 0 on the cells in contact under this pressure: the field `contact` of bodies that attract each other at rest, which
     /// pull across the gap. Others have no pressure there.
     pub fn touching<'a>(fields: &Fields, pressure: &'a Self) -> Result<Cow<'a, Field>> {
-        match fields.names()?.iter().any(|name| name == "contact") {
-            true => Ok(Cow::Owned(Self::read(fields, "contact")?.field)),
-            false => Ok(Cow::Borrowed(&pressure.field)),
+        if fields.names()?.iter().any(|name| name == "contact") {
+            Ok(Cow::Owned(Self::read(fields, "contact")?.field))
+        } else {
+            Ok(Cow::Borrowed(&pressure.field))
         }
     }
 }

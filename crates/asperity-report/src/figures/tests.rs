@@ -77,9 +77,10 @@ fn moving(u: &mut Unstructured) -> Arbitrary<String> {
         let hardness = ["", "hardness = 4e9, ", "hardness = 1e12, "][u.choose_index(3)?];
         let seed = u.int_in_range(1..=99)?;
         let shape = format!("shape = [{columns}, {rows}], pitch = 1e-6");
-        let topography = match rough && columns.min(rows) > 4 {
-            true => format!("generate = \"low-pass\", {shape}, sq = 20e-9, cutoff = 4e-6, seed = {seed}"),
-            false => format!("form = \"flat\", {shape}"),
+        let topography = if rough && columns.min(rows) > 4 {
+            format!("generate = \"low-pass\", {shape}, sq = 20e-9, cutoff = 4e-6, seed = {seed}")
+        } else {
+            format!("form = \"flat\", {shape}")
         };
         Ok(format!(
             "{name} = {{ young = 210e9, poisson = 0.3, {hardness}topography = {{ {topography} }} }}\n"

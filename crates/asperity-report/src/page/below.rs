@@ -19,9 +19,10 @@ use crate::words::captions;
 pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<Value>) -> Option<String> {
     found.case.subsurface.as_ref()?;
     let pass = found.passes.last().map(|pass| pass.pass);
-    let there = match found.moves() {
-        true => pass.is_some(),
-        false => found.is_finished() || fs::exists(found.directory().join("subsurface.h5")),
+    let there = if found.moves() {
+        pass.is_some()
+    } else {
+        found.is_finished() || fs::exists(found.directory().join("subsurface.h5"))
     };
     if !there {
         return None;

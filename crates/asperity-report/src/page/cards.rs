@@ -69,12 +69,13 @@ fn of_passes(found: &PageData, first: &PassRecord, last: &PassRecord) -> Vec<Car
     let length = |value| format(value, Dimension::Length);
     let of_overlap =
         share_of_overlap(last).map_or(String::new(), |share| format!(", {share} % of the overlap"));
-    let inside = match differ(last.mean_contact_area, last.mean_contact_area_interior) {
-        true => format!(
+    let inside = if differ(last.mean_contact_area, last.mean_contact_area_interior) {
+        format!(
             " {} of it in the interior, without the rim.",
             format(last.mean_contact_area_interior, Dimension::Area)
-        ),
-        false => String::new(),
+        )
+    } else {
+        String::new()
     };
     let mut cards = vec![
         Card::new(
@@ -116,12 +117,13 @@ fn of_passes(found: &PageData, first: &PassRecord, last: &PassRecord) -> Vec<Car
         [("lower", last.sq_lower, last.sq_lower_interior), ("upper", last.sq_upper, last.sq_upper_interior)];
     for ((body, after, inside), before) in after.into_iter().zip(before.into_iter().flatten()) {
         if differ(before, after) {
-            let about = match differ(after, inside) {
-                true => format!(
+            let about = if differ(after, inside) {
+                format!(
                     "Before the first and after the last pass, the whole body; {} without the rim.",
                     length(inside)
-                ),
-                false => "Before the first and after the last pass.".to_owned(),
+                )
+            } else {
+                "Before the first and after the last pass.".to_owned()
             };
             cards.push(Card::new(
                 &format!("Sq of the {body} body"),
@@ -155,9 +157,10 @@ fn of_passes(found: &PageData, first: &PassRecord, last: &PassRecord) -> Vec<Car
         let coefficient = format_number(last.friction_coefficient);
         cards.push(Card::of("coefficient of friction", "friction_coefficient", coefficient));
     }
-    let approach = match differ(first.approach, last.approach) {
-        true => change([first.approach, last.approach], Dimension::Length),
-        false => length(last.approach),
+    let approach = if differ(first.approach, last.approach) {
+        change([first.approach, last.approach], Dimension::Length)
+    } else {
+        length(last.approach)
     };
     cards.push(Card::new("approach", approach, "Rigid-body approach in the first and in the last pass."));
     cards
@@ -192,9 +195,10 @@ fn of_points(points: &[SweepRecord]) -> Vec<Card> {
     }
     let from_to = "From the first to the last point.";
     let last = &points[points.len() - 1];
-    let load = match points.iter().all(|point| (point.load / last.load - 1.0).abs() < 1e-6) {
-        true => Card::of("load", "load", format(last.load, Dimension::Force)),
-        false => Card::new("load", ends(|point| point.load, Dimension::Force), from_to),
+    let load = if points.iter().all(|point| (point.load / last.load - 1.0).abs() < 1e-6) {
+        Card::of("load", "load", format(last.load, Dimension::Force))
+    } else {
+        Card::new("load", ends(|point| point.load, Dimension::Force), from_to)
     };
     let mut cards = vec![
         load,
@@ -265,12 +269,11 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> Vec<Card> {
         let stick = format_number(100.0 * shear.stick_area / record.contact_area);
         let sticks = format!("{stick} % of the contact sticks.");
         let [x, y] = shear.tangential_force;
-        cards.push(match record.load > 0.0 {
-            true => {
-                let about = format!("Tangential force over load; {sticks}");
-                Card::new("traction coefficient", format_number(shear.force_ratio), about)
-            }
-            false => Card::new("tangential force", format(x.hypot(y), Dimension::Force), sticks),
+        cards.push(if record.load > 0.0 {
+            let about = format!("Tangential force over load; {sticks}");
+            Card::new("traction coefficient", format_number(shear.force_ratio), about)
+        } else {
+            Card::new("tangential force", format(x.hypot(y), Dimension::Force), sticks)
         });
     }
     if let Some(plastic) = record.plastic.as_ref().filter(|plastic| plastic.max_plastic_strain > 0.0) {

@@ -81,10 +81,7 @@ pub(super) fn section(found: &mut PageData, data: &mut Value, charts: &mut Vec<V
         html += &section_of(profile, "", charts);
         return Some(html);
     }
-    let frames = match found.points.is_empty() {
-        true => of_rest(found)?,
-        false => of_sweep(found),
-    };
+    let frames = if found.points.is_empty() { of_rest(found)? } else { of_sweep(found) };
     if frames.is_empty() {
         return None;
     }
@@ -127,9 +124,10 @@ fn blocks(frames: &[Frame]) -> String {
 }
 
 fn in_blocks(block: usize, pulls: bool) -> String {
-    let shown = match pulls {
-        true => "pressures and gaps by their mean",
-        false => "of each the largest pressure, gaps by their mean",
+    let shown = if pulls {
+        "pressures and gaps by their mean"
+    } else {
+        "of each the largest pressure, gaps by their mean"
     };
     match block {
         0 | 1 => String::new(),
@@ -206,9 +204,10 @@ fn affordable(found: &PageData, fields: &Fields, kept: &[usize]) -> (Vec<usize>,
     let samples = evenly(kept.len(), 6);
     let size = |at: &usize| {
         let stored = StoredArray::read(fields, &pressure_name(kept[*at])).ok()?;
-        let packed = match stored.field.iter().any(|p| *p < 0.0) {
-            true => QuantisedField::even(&stored.field, stored.grid.pitch),
-            false => QuantisedField::positive(&stored.field, stored.grid.pitch),
+        let packed = if stored.field.iter().any(|p| *p < 0.0) {
+            QuantisedField::even(&stored.field, stored.grid.pitch)
+        } else {
+            QuantisedField::positive(&stored.field, stored.grid.pitch)
         };
         Some(packed.size())
     };
@@ -240,9 +239,10 @@ fn read_pass(
     let all = of_pass().count();
     let frame = |step: &StepRecord| -> Result<Frame> {
         let pressure = StoredArray::read(fields, &pressure_name(step.step))?;
-        let own = match names.contains(&cap_name(step.step)) {
-            true => Some(Cap::Field(StoredArray::read(fields, &cap_name(step.step))?.field)),
-            false => None,
+        let own = if names.contains(&cap_name(step.step)) {
+            Some(Cap::Field(StoredArray::read(fields, &cap_name(step.step))?.field))
+        } else {
+            None
         };
         let contact = pressure.contact(own.as_ref().unwrap_or(&cap));
         let seam = cut_by_the_edge(&pressure, columns);
@@ -325,9 +325,10 @@ fn of_sweep(found: &mut PageData) -> Vec<Frame> {
     let is_there = |point: &&SweepRecord| is_kept(point.point) || has_last && point.point == points.len();
     let kept: Vec<&SweepRecord> = points.iter().filter(is_there).collect();
     for point in chosen(&kept, |point| answering_rank(StepRow::Point(point))) {
-        let opened = match fs::exists(found.results.point_path(point.point)) {
-            true => found.results.point_fields(point.point),
-            false => found.results.static_fields(),
+        let opened = if fs::exists(found.results.point_path(point.point)) {
+            found.results.point_fields(point.point)
+        } else {
+            found.results.static_fields()
         };
         let Some(fields) = found.fields(opened) else { continue };
         let Some(maps) = found.kept(at_rest(&fields)) else { continue };

@@ -79,13 +79,14 @@ impl<'a> Overview<'a> {
     /// At most so many rows, evenly chosen, and a sentence about those that are left out.
     fn shown(&self, most: usize) -> (Vec<Vec<String>>, String) {
         let shown = table::evenly(self.rows.len(), most);
-        let left_out = match shown.len() < self.rows.len() {
-            true => format!(
+        let left_out = if shown.len() < self.rows.len() {
+            format!(
                 "{} of {} combinations, evenly chosen; table.csv has all cases.",
                 shown.len(),
                 self.rows.len()
-            ),
-            false => String::new(),
+            )
+        } else {
+            String::new()
         };
         (shown.into_iter().map(|n| self.cells(&self.rows[n])).collect(), left_out)
     }
@@ -109,12 +110,13 @@ impl<'a> Overview<'a> {
             let largest = spreads()
                 .filter_map(|spread| Some(spread.deviation? / spread.mean.abs()))
                 .fold(f64::NAN, f64::max);
-            let about = match largest.is_finite() {
-                true => format!(
+            let about = if largest.is_finite() {
+                format!(
                     "Range of the means; their standard deviation is up to {} %.",
                     format_number_digits(100.0 * largest, 2)
-                ),
-                false => quantity.about.to_owned(),
+                )
+            } else {
+                quantity.about.to_owned()
             };
             let _ = write!(
                 html,

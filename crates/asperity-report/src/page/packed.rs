@@ -78,9 +78,8 @@ impl Levels {
         let high = above().fold(0.0, f64::max);
         let low = above().fold(high, f64::min).max(least * high);
         let steps = 254.0 / (high / low).ln().max(f64::MIN_POSITIVE);
-        let level = |value: &f64| match *value > 0.0 {
-            true => 1 + ((value / low).ln() * steps).round().clamp(0.0, 254.0) as u8,
-            false => 0,
+        let level = |value: &f64| {
+            if *value > 0.0 { 1 + ((value / low).ln() * steps).round().clamp(0.0, 254.0) as u8 } else { 0 }
         };
         let levels: Vec<u8> = field.iter().map(level).collect();
         Self::new(Code::Logarithmic, &field, pitch, [low, high], levels)

@@ -154,9 +154,10 @@ fn rows(table: &Table, quantities: &[Quantity], directory: &Path) -> String {
     for n in &listed {
         let row = &table.rows()[*n];
         let page = format!("cases/{:04}/{}", row.case, super::FILE);
-        let name = match fs::exists(directory.join(&page)) {
-            true => format!("<a href=\"{page}\">{}</a>", explorer::name_of(row)),
-            false => explorer::name_of(row),
+        let name = if fs::exists(directory.join(&page)) {
+            format!("<a href=\"{page}\">{}</a>", explorer::name_of(row))
+        } else {
+            explorer::name_of(row)
         };
         let _ = write!(html, "<tr><th scope=\"row\">{name}</th>");
         for (n, (axis, measure)) in table.axes().iter().zip(&axes).enumerate() {

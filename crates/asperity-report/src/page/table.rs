@@ -73,9 +73,10 @@ impl Table {
         if is_hidden.contains(&true) {
             left_out.push("without the columns of zeros".to_owned());
         }
-        let mut html = match left_out.is_empty() {
-            true => String::new(),
-            false => format!("<p class=\"remark\">Shown: {}. {file} has all.</p>", left_out.join(", ")),
+        let mut html = if left_out.is_empty() {
+            String::new()
+        } else {
+            format!("<p class=\"remark\">Shown: {}. {file} has all.</p>", left_out.join(", "))
         };
         let _ = write!(
             html,

@@ -95,12 +95,13 @@ fn cost(found: &PageData) -> Vec<(String, String)> {
 
 /// How many passes were computed, and the error of the extrapolation over the others, if there are any.
 fn computed_passes(computed: usize, represented: usize, error: f64) -> String {
-    match computed == represented {
-        true => format!("all {computed} computed"),
-        false => format!(
+    if computed == represented {
+        format!("all {computed} computed")
+    } else {
+        format!(
             "{computed} of {represented} computed; the extrapolation over the others changes heights by an estimated {} at most",
             format(error, Dimension::Length)
-        ),
+        )
     }
 }
 

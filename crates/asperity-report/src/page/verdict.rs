@@ -174,13 +174,14 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> String {
     if record.contact_area == 0.0 {
         let gap = format(record.mean_gap, Dimension::Length);
         let most = found.increments.iter().map(|increment| increment.contact_area).fold(0.0, f64::max);
-        return match most > 0.0 {
-            true => format!(
+        return if most > 0.0 {
+            format!(
                 "On the way they touched on up to {} under up to {}; in the end they are {gap} apart.",
                 format(most, Dimension::Area),
                 force(found.increments.iter().map(|increment| increment.load).fold(0.0, f64::max))
-            ),
-            false => format!("The bodies do not touch: their mean gap is {gap}."),
+            )
+        } else {
+            format!("The bodies do not touch: their mean gap is {gap}.")
         };
     }
     let share = format_number(100.0 * record.contact_area / record.apparent_area);
@@ -201,9 +202,10 @@ fn of_rest(found: &PageData, record: &StaticRecord) -> String {
     if let Some(shear) = &record.shear {
         let stick = format_number(100.0 * shear.stick_area / record.contact_area);
         let [x, y] = shear.tangential_force;
-        let size = match record.load > 0.0 {
-            true => format!("{} of the load", format_number(shear.force_ratio)),
-            false => force(x.hypot(y)),
+        let size = if record.load > 0.0 {
+            format!("{} of the load", format_number(shear.force_ratio))
+        } else {
+            force(x.hypot(y))
         };
         text += &format!(" The tangential force is {size}; {stick} % of the contact sticks.");
     }

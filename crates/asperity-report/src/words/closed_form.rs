@@ -28,9 +28,10 @@ pub fn deviations(record: &ClosedFormRecord) -> String {
 
 fn values([a, b]: [Metre; 2], max_pressure: Option<Pascal>, approach: Option<Metre>) -> String {
     let length = |value| format(value, Dimension::Length);
-    let widths = match (a - b).abs() <= 1e-9 * a {
-        true => format!("contact radius {}", length(a)),
-        false => format!("half widths {} along x and {} along y", length(a), length(b)),
+    let widths = if (a - b).abs() <= 1e-9 * a {
+        format!("contact radius {}", length(a))
+    } else {
+        format!("half widths {} along x and {} along y", length(a), length(b))
     };
     let pressure =
         max_pressure.map(|pressure| format!("largest pressure {}", format(pressure, Dimension::Pressure)));

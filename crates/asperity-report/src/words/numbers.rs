@@ -32,9 +32,10 @@ pub fn meaning(of: &Parameter, values: impl IntoIterator<Item = f64>) -> String 
         "Str" => "in some direction the autocorrelation does not fall to 0.2 within half the map",
         _ => return of.meaning.to_owned(),
     };
-    match values.into_iter().any(f64::is_nan) {
-        true => format!("{} (–: {reason})", of.meaning),
-        false => of.meaning.to_owned(),
+    if values.into_iter().any(f64::is_nan) {
+        format!("{} (–: {reason})", of.meaning)
+    } else {
+        of.meaning.to_owned()
     }
 }
 

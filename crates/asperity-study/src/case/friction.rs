@@ -69,9 +69,10 @@ pub enum InPlane {
 pub(super) fn direction(value: &dyn Value, key: &Key) -> Result<[f64; 2]> {
     const EXPECTED: &str = "a direction such as [1, 0]";
     const COMPONENT: Kind = Kind::Number("a finite number", Bounds::Any);
-    let [x, y] = match value.is_array() {
-        true => two(value, EXPECTED, |item| item.real(key, &COMPONENT))?,
-        false => [value.real(key, &COMPONENT)?, 0.0],
+    let [x, y] = if value.is_array() {
+        two(value, EXPECTED, |item| item.real(key, &COMPONENT))?
+    } else {
+        [value.real(key, &COMPONENT)?, 0.0]
     };
     let length = x.hypot(y);
     if length == 0.0 { Err(value.unexpected(EXPECTED, None)) } else { Ok([x / length, y / length]) }

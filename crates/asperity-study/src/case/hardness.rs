@@ -112,8 +112,9 @@ pub(super) fn hardness(value: &dyn Value, key: &Key) -> Result<Hardness> {
         Dimension::Pressure,
         Bounds::AboveZeroOrInfinite("an elastic body, as is leaving it out"),
     );
-    match value.is_table() {
-        true => HardnessMap::read(value.table()?.as_ref()).map(Hardness::Map),
-        false => value.real(key, &ONE).map(Hardness::Uniform),
+    if value.is_table() {
+        HardnessMap::read(value.table()?.as_ref()).map(Hardness::Map)
+    } else {
+        value.real(key, &ONE).map(Hardness::Uniform)
     }
 }

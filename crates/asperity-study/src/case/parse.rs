@@ -134,9 +134,10 @@ fn one_tells_the_other(
     };
     let table = upper_table.required_table("topography")?;
     let key = upper.lacks().find(|key| lower.lacks().any(|other| other == *key)).unwrap_or(of_upper);
-    let why = match lower.lacks().any(|other| other == key) {
-        true => "and in [lower.topography]: a body takes from the other what it lacks".to_owned(),
-        false => format!("from which [lower.topography] takes its '{of_lower}'"),
+    let why = if lower.lacks().any(|other| other == key) {
+        "and in [lower.topography]: a body takes from the other what it lacks".to_owned()
+    } else {
+        format!("from which [lower.topography] takes its '{of_lower}'")
     };
     let example = if key == "shape" { "[256, 256]" } else { "\"0.5 um\"" };
     let hint = format!("for example `{key} = {example}`");

@@ -62,9 +62,10 @@ fn unheard_of(given: &GivenValue) -> Option<String> {
     let exists = |value: f64| value == 0.0 || value.is_infinite() || (least..=most).contains(&value.abs());
     let (value, number) = numbers.iter().find(|(value, _)| !exists(*value))?;
     let said = dimension.map_or_else(|| format_number(*value), |dimension| units::format(*value, dimension));
-    let beyond = match value.abs() > most {
-        true => format!("{} times the most", far(value.abs() / most)),
-        false => format!("1/{} of the least", far(least / value.abs())),
+    let beyond = if value.abs() > most {
+        format!("{} times the most", far(value.abs() / most))
+    } else {
+        format!("1/{} of the least", far(least / value.abs()))
     };
     let meant = |slip: &&str| match (slip.contains("{}"), dimension) {
         (true, _) => Some(format!("`{}`", slip.replace("{}", number))),

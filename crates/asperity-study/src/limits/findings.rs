@@ -135,9 +135,10 @@ impl<'a> Findings<'a> {
     /// Returns the value of the body that exceeds its bound most, if one does.
     pub(super) fn of_bodies(&self, [lower, upper]: [[f64; 2]; 2]) -> Option<Finding> {
         let [lower_beyond, upper_beyond] = [lower, upper].map(|[value, bound]| value > bound);
-        let (body, [value, bound]) = match lower_beyond && !(upper_beyond && upper[0] > lower[0]) {
-            true => (Side::Lower, lower),
-            false => (Side::Upper, upper),
+        let (body, [value, bound]) = if lower_beyond && !(upper_beyond && upper[0] > lower[0]) {
+            (Side::Lower, lower)
+        } else {
+            (Side::Upper, upper)
         };
         self.as_a_whole(Some(body), value, bound)
     }

@@ -166,10 +166,11 @@ impl OwnedCase<'_> {
         let path = folder.join(CASE_FILE);
         let text = self.queue.study.case_file(self.case, Some(&folder))?;
         // No other process writes it, and a partial file left by a power cut is written again.
-        let there = match fs::exists(&path) {
-            true => regular::read(&path, "a case file", u64::MAX)
-                .map_err(|source| Error::File { path: path.clone(), source })?,
-            false => Vec::new(),
+        let there = if fs::exists(&path) {
+            regular::read(&path, "a case file", u64::MAX)
+                .map_err(|source| Error::File { path: path.clone(), source })?
+        } else {
+            Vec::new()
         };
         if there != text.as_bytes() {
             fs::write(&path, text.as_bytes()).map_err(|source| Error::File { path: path.clone(), source })?;

@@ -310,9 +310,10 @@ fn unlike_summary<T: serde::Serialize>(results: &Results, rows: &[T], table: &Pa
     let told = serde_json::to_value(&summary.outcome).expect("a record is JSON");
     let told = told.as_object().and_then(|outcome| outcome.values().next()).and_then(Value::as_array);
     let differs = |(told, row): (&Value, &T)| *told != serde_json::to_value(row).expect("a record is JSON");
-    match told.is_some_and(|told| told.iter().zip(rows).any(differs)) {
-        true => Err(Error::NotResumable { path: table.to_owned(), reason: ALTERED }),
-        false => Ok(()),
+    if told.is_some_and(|told| told.iter().zip(rows).any(differs)) {
+        Err(Error::NotResumable { path: table.to_owned(), reason: ALTERED })
+    } else {
+        Ok(())
     }
 }
 

@@ -156,9 +156,10 @@ impl Results {
         }
         let mut steps: Vec<StepRecord> = tables::read_growing(&path)?;
         steps.retain(|step| step.pass <= finished);
-        match has_every_position(&steps, finished) {
-            true => Ok(steps),
-            false => Err(self.damaged(&path, "it does not have every position of the finished passes")),
+        if has_every_position(&steps, finished) {
+            Ok(steps)
+        } else {
+            Err(self.damaged(&path, "it does not have every position of the finished passes"))
         }
     }
 
@@ -591,9 +592,10 @@ impl Results {
 
     /// Error for a missing table, or one that differs from the summary.
     fn incomplete(&self, path: &Path) -> Error {
-        match fs::exists(path) {
-            true => self.damaged(path, "it is damaged: its rows are not those in summary.json"),
-            false => self.failed(path, std::io::Error::new(ErrorKind::NotFound, "is missing")),
+        if fs::exists(path) {
+            self.damaged(path, "it is damaged: its rows are not those in summary.json")
+        } else {
+            self.failed(path, std::io::Error::new(ErrorKind::NotFound, "is missing"))
         }
     }
 }

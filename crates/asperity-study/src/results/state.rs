@@ -107,9 +107,10 @@ impl StateReader for Stored {
     }
 
     fn series(&self, name: &str) -> Result<Vec<f64>> {
-        match self.is_array(name) {
-            true => Ok(self.fields.read(name)?.values.into_iter().collect()),
-            false => Ok(Vec::new()),
+        if self.is_array(name) {
+            Ok(self.fields.read(name)?.values.into_iter().collect())
+        } else {
+            Ok(Vec::new())
         }
     }
 

@@ -201,9 +201,10 @@ fn name(section: &Section) -> String {
 /// Returns the table of some sections. If they belong to several choices, these are in the first column.
 fn table_of_keys(sections: &[&Section]) -> String {
     let choices = sections.iter().any(|section| section.kind != sections[0].kind);
-    let mut text = match choices {
-        true => "| with | key | meaning | value | default |\n|---|---|---|---|---|\n".to_owned(),
-        false => "| key | meaning | value | default |\n|---|---|---|---|\n".to_owned(),
+    let mut text = if choices {
+        "| with | key | meaning | value | default |\n|---|---|---|---|---|\n".to_owned()
+    } else {
+        "| key | meaning | value | default |\n|---|---|---|---|\n".to_owned()
     };
     for section in sections {
         for Key { name, kind, default, example, text: meaning, .. } in section.keys {

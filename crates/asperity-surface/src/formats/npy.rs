@@ -56,9 +56,10 @@ pub(super) fn array(bytes: &[u8]) -> std::result::Result<Field, Defect> {
         return Err(Defect::Length { what: "the array", expected, found: data.len() as u64 });
     }
     let raster = Raster::new(shape, number, order, data)?;
-    Ok(match is_x_fastest {
-        true => raster.heights(|height| height),
-        false => raster.heights_with_y_fastest(|height| height),
+    Ok(if is_x_fastest {
+        raster.heights(|height| height)
+    } else {
+        raster.heights_with_y_fastest(|height| height)
     })
 }
 

@@ -60,9 +60,10 @@ fn entry(archive: &mut Archive<'_>, name: &str, most: u64) -> Result<Vec<u8>, De
     let file = archive.by_name(&format!("{name}{END}")).map_err(|error| container(&error))?;
     let mut unpacked = Vec::new();
     file.take(most).read_to_end(&mut unpacked).map_err(|error| container(&error))?;
-    match unpacked.starts_with(npy::MAGIC) {
-        true => Ok(unpacked),
-        false => Err(Defect::Missing("array in a file of the archive")),
+    if unpacked.starts_with(npy::MAGIC) {
+        Ok(unpacked)
+    } else {
+        Err(Defect::Missing("array in a file of the archive"))
     }
 }
 

@@ -90,14 +90,12 @@ fn content(preamble: &Preamble<'_>, is_matrix: bool) -> Result<Content, Defect> 
         }
         None => nx == 1,
     };
-    let (heights, lines) = match along_y {
-        true => (matrix, Axis::Y),
-        false => {
-            let numbers = matrix.as_slice().expect("lines are in standard layout");
-            let along_x =
-                |first: usize, part: &mut [f64]| part.copy_from_slice(&numbers[first..][..part.len()]);
-            (x_fastest([nx, ny], along_x), Axis::X)
-        }
+    let (heights, lines) = if along_y {
+        (matrix, Axis::Y)
+    } else {
+        let numbers = matrix.as_slice().expect("lines are in standard layout");
+        let along_x = |first: usize, part: &mut [f64]| part.copy_from_slice(&numbers[first..][..part.len()]);
+        (x_fastest([nx, ny], along_x), Axis::X)
     };
     Ok(Content { format: "text", pitch, heights, lines: Some(lines) })
 }

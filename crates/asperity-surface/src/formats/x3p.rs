@@ -307,9 +307,8 @@ impl Header {
         let raster = Raster::new(shape, self.number, Order::Little, data)?;
         let mut heights = raster.heights(|number| self.offset + self.increment * number);
         if let Some(mask) = mask {
-            let is_valid = |point: usize| match mask.len() == bits {
-                true => mask[point / 8] >> (point % 8) & 1 == 1,
-                false => mask[point] != 0,
+            let is_valid = |point: usize| {
+                if mask.len() == bits { mask[point / 8] >> (point % 8) & 1 == 1 } else { mask[point] != 0 }
             };
             for ((ix, iy), height) in heights.indexed_iter_mut() {
                 if !is_valid(first + ix + shape[0] * iy) {

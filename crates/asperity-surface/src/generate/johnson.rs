@@ -38,10 +38,8 @@ impl Johnson {
         let average = Average::new();
         let [skewness, omega] = [ssk.abs(), log_normal(ssk.abs())];
         let line = omega.powi(4) + 2.0 * omega.powi(3) + 3.0 * omega.powi(2) - 3.0;
-        let of = |x: f64, c: f64| match sku > line {
-            true => Curve::Unbounded { x, c },
-            false => Curve::Bounded { x, c },
-        };
+        let of =
+            |x: f64, c: f64| if sku > line { Curve::Unbounded { x, c } } else { Curve::Bounded { x, c } };
         let at = |x: f64| {
             // Beyond this c a curve equals the log-normal one to 10⁻⁸ at all practical heights.
             let log_normal = 20.0 + 5.0 * x;

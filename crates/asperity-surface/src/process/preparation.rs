@@ -208,9 +208,10 @@ fn window(value: &dyn Value, key: &Key) -> Result<[usize; 4]> {
     let window: [usize; 4] = list(value, EXPECTED, |item| item.count(key, &SAMPLES))?
         .try_into()
         .map_err(|_| value.unexpected(EXPECTED, None))?;
-    match window[2..].contains(&0) {
-        true => Err(value.unexpected("a window [x0, y0, nx, ny] of at least one sample", None)),
-        false => Ok(window),
+    if window[2..].contains(&0) {
+        Err(value.unexpected("a window [x0, y0, nx, ny] of at least one sample", None))
+    } else {
+        Ok(window)
     }
 }
 

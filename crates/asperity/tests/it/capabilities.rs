@@ -212,10 +212,7 @@ fn is_journal(text: &str) -> bool {
 fn files_below(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     entries
-        .flat_map(|path| match path.is_dir() {
-            true => files_below(&path),
-            false => vec![path],
-        })
+        .flat_map(|path| if path.is_dir() { files_below(&path) } else { vec![path] })
         .filter(|path| path.extension().is_some_and(|kind| kind == "rs" || kind == "py"))
         .collect()
 }

@@ -501,9 +501,10 @@ impl Course for Simulation {
     type Solved = FinishedPass;
 
     fn next(&mut self, watch: &dyn Watch) -> Result<Option<FinishedPass>> {
-        match self.represented() < self.motion.passes {
-            true => self.solve(watch).map(|pass| Some(self.finished(pass))),
-            false => Ok(None),
+        if self.represented() < self.motion.passes {
+            self.solve(watch).map(|pass| Some(self.finished(pass)))
+        } else {
+            Ok(None)
         }
     }
 

@@ -75,9 +75,10 @@ impl ConductanceObserver {
 
     /// Returns the joint conductance by a correlation.
     fn correlation(&self, pressure: Pascal) -> Option<f64> {
-        match self.hardness.is_finite() {
-            true => self.roughness.cooper_mikic_yovanovich(self.composite, pressure, self.hardness),
-            false => self.roughness.mikic(self.composite, pressure, self.modulus),
+        if self.hardness.is_finite() {
+            self.roughness.cooper_mikic_yovanovich(self.composite, pressure, self.hardness)
+        } else {
+            self.roughness.mikic(self.composite, pressure, self.modulus)
         }
     }
 }

@@ -121,10 +121,8 @@ impl Memory for Damage {
             let volume = cycle.plastic_volumes.iter().find(|volume| volume.body == index);
             let body = body_of(pair, index);
             // Cycles between two computed ones do damage between theirs.
-            let between = match self.0.fatigue.passes.is_empty() {
-                true => 0.5 * (cycle.extrapolated - 1.0),
-                false => 0.0,
-            };
+            let between =
+                if self.0.fatigue.passes.is_empty() { 0.5 * (cycle.extrapolated - 1.0) } else { 0.0 };
             for (k, at) in found.into_iter().enumerate() {
                 let mut over = at.f / limited.criterion.limit();
                 if let Some(volume) = volume {

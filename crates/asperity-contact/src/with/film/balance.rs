@@ -63,9 +63,10 @@ impl Balance {
         match self.bare {
             Some([begin, end]) if passes > begin => {
                 let before = begin * self.mean_unbounded(begin);
-                let after = match passes > end {
-                    true => (passes - end) * self.regrown(end).mean_thickness(passes - end),
-                    false => 0.0,
+                let after = if passes > end {
+                    (passes - end) * self.regrown(end).mean_thickness(passes - end)
+                } else {
+                    0.0
                 };
                 at_least_0((before + after) / passes)
             }

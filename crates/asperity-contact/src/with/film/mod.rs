@@ -54,9 +54,10 @@ impl BodyLaw for Film {
 
     fn law(bodies: [&BodyLaws; 2], pair: &Pair) -> Result<Option<Box<dyn Law>>> {
         let films = bodies.map(|laws| laws.film);
-        match films.iter().all(Option::is_none) {
-            true => Ok(None),
-            false => Ok(Some(Box::new(Films::new(films, pair)?))),
+        if films.iter().all(Option::is_none) {
+            Ok(None)
+        } else {
+            Ok(Some(Box::new(Films::new(films, pair)?)))
         }
     }
 

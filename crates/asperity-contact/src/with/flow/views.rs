@@ -166,9 +166,10 @@ fn of_pass<'a>(axis: Axis, unit: &Multiple, rows: impl Iterator<Item = &'a FlowR
     (!leakages.is_empty()).then(|| Answer {
         name: format!("leakage along {axis}").into(),
         about: "Mean over the last pass.".to_owned(),
-        sentence: match mean > 0.0 {
-            true => format!("Along {axis} {value} leak in the mean of the last pass."),
-            false => format!("Along {axis} no path led through the gap in the last pass."),
+        sentence: if mean > 0.0 {
+            format!("Along {axis} {value} leak in the mean of the last pass.")
+        } else {
+            format!("Along {axis} no path led through the gap in the last pass.")
         },
         value,
     })

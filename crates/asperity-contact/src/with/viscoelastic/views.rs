@@ -79,9 +79,10 @@ pub fn in_time(increments: &[IncrementRecord]) -> Option<Answer> {
         format!("from {} to {}", format(value(first), dimension), format(value(last), dimension))
     };
     let area = from_to(|increment| increment.contact_area, Dimension::Area);
-    let under = match (first.load - last.load).abs() < 1e-6 * first.load.abs() {
-        true => format!("the bodies approach {}", from_to(|increment| increment.approach, Dimension::Length)),
-        false => format!("the load goes {}", from_to(|increment| increment.load, Dimension::Force)),
+    let under = if (first.load - last.load).abs() < 1e-6 * first.load.abs() {
+        format!("the bodies approach {}", from_to(|increment| increment.approach, Dimension::Length))
+    } else {
+        format!("the load goes {}", from_to(|increment| increment.load, Dimension::Force))
     };
     Some(Answer {
         name: "area of contact in time".into(),

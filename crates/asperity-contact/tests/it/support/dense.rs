@@ -44,9 +44,10 @@ pub(crate) fn dense(c: &[Vec<f64>], gap: &[f64], approach: f64) -> Vec<f64> {
         let found = eliminated(a, cells.iter().map(|i| approach - gap[*i]).collect());
         let mut p = vec![0.0; n];
         cells.iter().zip(found).for_each(|(cell, value)| p[*cell] = value);
-        let is_wrong = |cell: &usize| match touches[*cell] {
-            true => p[*cell] < -1e-12,
-            false => {
+        let is_wrong = |cell: &usize| {
+            if touches[*cell] {
+                p[*cell] < -1e-12
+            } else {
                 gap[*cell] + c[*cell].iter().zip(&p).map(|(c, p)| c * p).sum::<f64>() - approach < -1e-12
             }
         };
@@ -62,10 +63,7 @@ pub(crate) fn dense(c: &[Vec<f64>], gap: &[f64], approach: f64) -> Vec<f64> {
 pub(crate) fn mean_compliance(creep: &Creep, t: f64, begin: f64, end: f64) -> f64 {
     let term = |term: &CreepTerm| {
         let e = |s: f64| ((s - t) / term.time).exp();
-        let left = match end > begin {
-            true => term.time * (e(end) - e(begin)) / (end - begin),
-            false => e(end),
-        };
+        let left = if end > begin { term.time * (e(end) - e(begin)) / (end - begin) } else { e(end) };
         term.compliance * (1.0 - left)
     };
     creep.glassy + creep.terms.iter().map(term).sum::<f64>()

@@ -236,9 +236,10 @@ impl Increment<'_> {
             }
         };
         // The equilibrium of bodies that attract each other depends on the contact before.
-        let before = match self.interface.is_hard() {
-            true => start.as_deref().map_or(Before::Apart, Before::Guess),
-            false => self.problem.normal.before,
+        let before = if self.interface.is_hard() {
+            start.as_deref().map_or(Before::Apart, Before::Guess)
+        } else {
+            self.problem.normal.before
         };
         let normal = NormalProblem { gap, bounds, before, params, watch: self.within, ..self.problem.normal };
         let operator = self.bodies.operator.normal();
@@ -279,10 +280,8 @@ impl Increment<'_> {
     /// Computes the residual of the pressure under the shear that follows from it.
     fn residual(&self, normal: &Solution, bounds: &Bounds) -> Residual {
         // The multiplier of the load does not depend on cells that leave their upper bounds by a small amount.
-        let approach = match self.grows_junctions {
-            true => Some(normal.approach),
-            false => self.problem.normal.control.approach(),
-        };
+        let approach =
+            if self.grows_junctions { Some(normal.approach) } else { self.problem.normal.control.approach() };
         residual(
             &normal.pressure,
             &normal.displacement,

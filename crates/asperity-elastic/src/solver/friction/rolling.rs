@@ -206,9 +206,10 @@ fn work_of_pressure(
     let displacement = under_pressure.as_ref().unwrap_or(&contact.displacement);
     let mut work = 0.0;
     for i in 0..columns {
-        let (ahead, behind) = match repeats {
-            true => ((i + 1) % columns, (i + columns - 1) % columns),
-            false => ((i + 1).min(columns - 1), i.saturating_sub(1)),
+        let (ahead, behind) = if repeats {
+            ((i + 1) % columns, (i + columns - 1) % columns)
+        } else {
+            ((i + 1).min(columns - 1), i.saturating_sub(1))
         };
         // At an end the difference is one-sided.
         let steps = usize::from(ahead != i) + usize::from(behind != i);

@@ -9,10 +9,7 @@ use asperity_base::table::expected;
 pub(super) fn count(kind: &Kind, key: &Key, entry: &Entry<'_>) -> Result<usize> {
     let Kind::Count { least, most } = *kind else { unreachable!("a count is declared as one") };
     let count = entry.count(least as usize)?;
-    match count as u64 <= most {
-        true => Ok(count),
-        false => Err(entry.unexpected(&expected(kind, key), None)),
-    }
+    if count as u64 <= most { Ok(count) } else { Err(entry.unexpected(&expected(kind, key), None)) }
 }
 
 /// Reads a quantity or a number of a `kind`.
@@ -24,10 +21,7 @@ pub(super) fn real(kind: &Kind, key: &Key, entry: &Entry<'_>) -> Result<f64> {
             Bounds::Within(range, zero) => entry.within(dimension, range, zero, key.example),
             bounds => {
                 let value = entry.quantity(dimension)?;
-                match bounds.hold(value) {
-                    true => Ok(value),
-                    false => Err(entry.unexpected(&expected(kind, key), None)),
-                }
+                if bounds.hold(value) { Ok(value) } else { Err(entry.unexpected(&expected(kind, key), None)) }
             }
         },
         Kind::Number(_, Bounds::Within(range, zero)) => entry.number_within(range, zero),

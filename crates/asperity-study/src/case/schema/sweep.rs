@@ -56,9 +56,12 @@ pub(super) fn several(
 ) -> Result<Vec<[f64; 2]>> {
     let is_vector = matches!(kind, Kind::Vector(_));
     let one = Key { kind: *kind, ..*key };
-    let read = |entry: &Entry<'_>| match is_vector {
-        true => table::Value::pair(entry, &one),
-        false => real(kind, key, entry).map(|value| [value, 0.0]),
+    let read = |entry: &Entry<'_>| {
+        if is_vector {
+            table::Value::pair(entry, &one)
+        } else {
+            real(kind, key, entry).map(|value| [value, 0.0])
+        }
     };
     let expected = format!(
         "a list of at least one value such as [{example}], or a table with `from`, `to` and `points`"

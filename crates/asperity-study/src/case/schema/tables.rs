@@ -24,9 +24,8 @@ fn declared(path: &str) -> String {
 fn sections(path: &str) -> impl Iterator<Item = &'static Section> {
     let name = declared(path);
     let is_root = name.is_empty();
-    keys().iter().filter(move |section| match is_root {
-        true => section.tables.is_empty(),
-        false => section.tables.contains(&name.as_str()),
+    keys().iter().filter(move |section| {
+        if is_root { section.tables.is_empty() } else { section.tables.contains(&name.as_str()) }
     })
 }
 

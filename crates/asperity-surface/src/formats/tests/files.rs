@@ -32,9 +32,10 @@ pub(super) fn bcr(kind: &str, big: bool, [nx, ny]: [u32; 2], data: &[u8]) -> Vec
         lengths[0], lengths[1]
     );
     let header = format!("{header:<2048}");
-    let header = match kind.ends_with("unicode") {
-        true => header.encode_utf16().flat_map(u16::to_le_bytes).collect(),
-        false => header.into_bytes(),
+    let header = if kind.ends_with("unicode") {
+        header.encode_utf16().flat_map(u16::to_le_bytes).collect()
+    } else {
+        header.into_bytes()
     };
     [header.as_slice(), data].concat()
 }

@@ -281,9 +281,10 @@ impl ShearSolver {
             state.freedom.iter().zip(residual).map(|(freedom, r)| times(weight(freedom), *r)).collect();
         let mut z = self.influence.invert(&state.cells, &weighted);
         for ((freedom, z), r) in state.freedom.iter().zip(&mut z).zip(residual) {
-            *z = match freedom.is_diagonal(compliance) {
-                false => freedom.part(times(weight(freedom), *z)),
-                true => times(1.0 / (compliance + freedom.slip_compliance()), *r),
+            *z = if !freedom.is_diagonal(compliance) {
+                freedom.part(times(weight(freedom), *z))
+            } else {
+                times(1.0 / (compliance + freedom.slip_compliance()), *r)
             };
         }
         state.balance(&mut z);
